@@ -1,0 +1,15 @@
+#pragma once
+/// The subcommands of `talus`, one file each. Each function adds its command to the parser; the command's
+/// callback does the work and throws Error with the exit code of its cause.
+
+#include <CLI/CLI.hpp>
+
+namespace talus {
+
+void add_run_command(CLI::App& app);
+void add_check_command(CLI::App& app);
+void add_info_command(CLI::App& app);
+void add_render_command(CLI::App& app);
+void add_animate_command(CLI::App& app);
+
+}  // namespace talus

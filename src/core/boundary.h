@@ -1,0 +1,23 @@
+#pragma once
+/// What surrounds the grains: a periodic direction, planes.
+
+#include <vector>
+
+#include "core/types.h"
+
+namespace talus {
+
+/// A fixed plane (a line in two dimensions): the half space { r : n.r >= offset } is free.
+struct Plane {
+  Vec2 normal;          ///< unit, into the free space
+  double offset = 0.0;  ///< m
+};
+
+/// In contact records, plane k has the body id grains.count() + k.
+struct Boundary {
+  bool periodic = false;  ///< along x, with period `length`
+  double length = 0.0;    ///< m: period, or distance between the side walls
+  std::vector<Plane> planes;
+};
+
+}  // namespace talus

@@ -1,0 +1,33 @@
+#pragma once
+/// The contacts of one step, and with their forces the contact memory.
+
+#include <cstdint>
+#include <vector>
+
+#include "core/types.h"
+
+namespace talus {
+
+/// How a contact carries load (the status of a solved contact).
+enum class ContactStatus : std::int8_t {
+  open = 0,      ///< no force
+  sticking = 1,  ///< |f_t| < mu f_n
+  sliding = 2,   ///< |f_t| = mu f_n: friction fully mobilised ("critical contact")
+};
+
+/// Contacts and near contacts in structure-of-arrays form, sorted by key (a, b, shift) with a < b.
+/// Conventions: the normal points from a to b; the tangent is the normal turned by +90 degrees,
+/// t = (-n_y, n_x); the force acts on b (and its opposite on a), so a compressive f_n is positive.
+/// Relative velocities are those of b seen from a, so U_n > 0 separates.
+struct Contacts {
+  std::vector<Index> a, b;          ///< body ids; b may be a plane (see Boundary)
+  std::vector<std::int8_t> shift;   ///< periodic image: b touches a from x_b + shift * length
+  std::vector<double> nx, ny;       ///< normal, unit
+  std::vector<double> gap;          ///< m; negative where bodies overlap
+  std::vector<double> fn, ft;       ///< mean force over the step, P / h, in N (per metre of thickness)
+
+  Index count() const { return static_cast<Index>(a.size()); }
+  void resize(std::size_t size);
+};
+
+}  // namespace talus

@@ -1,0 +1,44 @@
+#pragma once
+/// Errors by cause. Each cause has the exit code that the command line leaves with (docs/errors.md).
+
+#include <stdexcept>
+#include <string>
+
+namespace talus {
+
+/// Exit codes of every Talus command.
+enum class ExitCode : int {
+  done = 0,
+  usage = 64,          ///< unknown option, missing argument
+  bad_data = 65,       ///< a scenario, run file or checkpoint that cannot be accepted
+  missing_input = 66,  ///< an input file that does not exist or cannot be read
+  unavailable = 69,    ///< no rendering context, display, shader or ffmpeg
+  internal = 70,       ///< a defect of Talus, or a state that is not finite
+  out_of_memory = 71,
+  cannot_create = 73,  ///< output exists already, is locked, or its folder does not take it
+  io_error = 74,       ///< a read or write failed
+  stopped = 75,        ///< stopped on request; the run can be resumed
+};
+
+/// An error with a message for the user. The message says what was found, where, what was expected, and
+/// what to do; it carries no "error:" prefix and no trailing newline.
+class Error : public std::runtime_error {
+ public:
+  Error(ExitCode code, const std::string& message) : std::runtime_error(message), code_(code) {}
+  ExitCode code() const { return code_; }
+
+ private:
+  ExitCode code_;
+};
+
+/// Errors at places of a file: each line of the message is complete, `file:line:column: error: ...`, and is
+/// shown as it is.
+class LocatedError : public Error {
+ public:
+  using Error::Error;
+};
+
+/// `path: reason of errno`, as an Error with the given code.
+Error system_error(ExitCode code, const std::string& action, const std::string& path, int errno_value);
+
+}  // namespace talus

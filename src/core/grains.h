@@ -1,0 +1,38 @@
+#pragma once
+/// The grains: disks in structure-of-arrays form, split by heat.
+
+#include <vector>
+
+#include "core/types.h"
+
+namespace talus {
+
+/// Disks. Index = stable id: the free grains come first (0 ... free_count - 1), then the grains glued to the
+/// floor, which never move. All quantities are per metre of thickness.
+struct Grains {
+  Index free_count = 0;
+
+  // Read and written in each step.
+  std::vector<double> x, y;    ///< centre, m; x is kept in [0, length) of a periodic bed
+  std::vector<double> vx, vy;  ///< velocity, m/s
+  std::vector<double> omega;   ///< rotation velocity, rad/s, counter-clockwise positive
+
+  // Read in each step.
+  std::vector<double> radius;           ///< m
+  std::vector<double> inverse_mass;     ///< 1/kg; 0 for a grain that does not move
+  std::vector<double> inverse_inertia;  ///< 1/(kg m^2); 0 for a grain that does not rotate
+
+  // Read by output and analysis.
+  std::vector<double> mass;     ///< kg
+  std::vector<double> inertia;  ///< kg m^2, about the centre; m r^2 / 2
+  std::vector<double> angle;    ///< rad, turned since the beginning, counter-clockwise positive
+  std::vector<Index> image;     ///< how often the grain left through the right periodic edge minus the left
+
+  Index count() const { return static_cast<Index>(radius.size()); }
+};
+
+/// Appends a disk at rest and returns its id. A free grain may not follow a floor grain.
+/// `density` in kg/m^3; a fixed disk has the mass of its size but no inverse mass.
+Index add_disk(Grains& grains, Vec2 centre, double radius, double density, bool fixed);
+
+}  // namespace talus

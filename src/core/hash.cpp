@@ -1,0 +1,31 @@
+#include "core/hash.h"
+
+#include <xxhash.h>
+
+#include <cstdio>
+#include <new>
+
+namespace talus {
+
+Hasher::Hasher() : state_(XXH3_createState()) {
+  if (state_ == nullptr) throw std::bad_alloc();
+  XXH3_64bits_reset(state_);
+}
+
+Hasher::~Hasher() { XXH3_freeState(state_); }
+
+void Hasher::add_bytes(const void* data, std::size_t size) {
+  if (size > 0) XXH3_64bits_update(state_, data, size);
+}
+
+std::uint64_t Hasher::value() const { return XXH3_64bits_digest(state_); }
+
+std::uint64_t hash_bytes(std::span<const std::byte> bytes) { return XXH3_64bits(bytes.data(), bytes.size()); }
+
+std::string hash_text(std::uint64_t hash) {
+  char text[17];
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
+  return text;
+}
+
+}  // namespace talus

@@ -1,0 +1,47 @@
+#pragma once
+/// 64-bit hashes of states and files (XXH3, the same on every platform of one byte order).
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <type_traits>
+
+struct XXH3_state_s;
+
+namespace talus {
+
+/// A running hash of plain data.
+class Hasher {
+ public:
+  Hasher();
+  ~Hasher();
+  Hasher(const Hasher&) = delete;
+  Hasher& operator=(const Hasher&) = delete;
+
+  void add_bytes(const void* data, std::size_t size);
+
+  template <typename T>
+    requires std::is_arithmetic_v<T>
+  void add(T value) {
+    add_bytes(&value, sizeof value);
+  }
+
+  /// The number of elements goes in too, so that two arrays cannot trade elements unseen.
+  template <typename Container>
+  void add_array(const Container& values) {
+    add<std::uint64_t>(values.size());
+    add_bytes(values.data(), values.size() * sizeof(*values.data()));
+  }
+
+  std::uint64_t value() const;
+
+ private:
+  XXH3_state_s* state_;
+};
+
+std::uint64_t hash_bytes(std::span<const std::byte> bytes);
+
+/// 16 lower-case hexadecimal digits.
+std::string hash_text(std::uint64_t hash);
+
+}  // namespace talus

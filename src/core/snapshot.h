@@ -1,0 +1,61 @@
+#pragma once
+/// What a run leaves behind: frames for maps and analysis, series of observables and of steps.
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/contacts.h"
+#include "core/observables.h"
+#include "core/types.h"
+#include "core/world.h"
+
+namespace talus {
+
+/// The contacts of a frame: those that carry force, in the order of their keys. Conventions of Contacts.
+struct FrameContacts {
+  std::vector<Index> a, b;
+  std::vector<std::int8_t> shift;
+  std::vector<double> nx, ny;  ///< normal, unit
+  std::vector<double> px, py;  ///< contact point, m
+  std::vector<double> fn, ft;  ///< force on b, N (per metre of thickness)
+  std::vector<ContactStatus> status;
+
+  Index count() const { return static_cast<Index>(a.size()); }
+};
+
+/// The bed at one instant. Arrays run over all grains, floor included, in the order of their ids.
+struct Frame {
+  std::int64_t step = 0;
+  double time = 0.0;  ///< s
+  double tilt = 0.0;  ///< rad
+  std::vector<double> x, y, angle;     ///< m, m, rad
+  std::vector<double> vx, vy, omega;   ///< m/s, m/s, rad/s
+  std::vector<Index> image;
+  std::vector<Tensor2> internal_moment;  ///< J (per metre of thickness); compression positive; Eq. (4) of the paper
+  std::vector<double> gamma;             ///< stress ratio q/p of each grain; NaN where a grain carries nothing
+  FrameContacts contacts;
+
+  Index grain_count() const { return static_cast<Index>(x.size()); }
+};
+
+/// What does not change during a run.
+struct RunStatics {
+  Index free_count = 0;
+  std::vector<double> radius;  ///< m, all grains
+  std::vector<double> mass;    ///< kg (per metre of thickness)
+  bool periodic = false;
+  double length = 0.0;         ///< m: period or distance between walls
+  double depth = 0.0;          ///< m: nominal depth of the bed
+  double mean_diameter = 0.0;  ///< m
+  double gravity = 0.0;        ///< m/s^2
+  double friction = 0.0;       ///< between grains
+};
+
+/// Named facts about a run, in writing order: provenance, timing, results.
+using Facts = std::vector<std::pair<std::string, std::string>>;
+using Figures = std::vector<std::pair<std::string, double>>;
+
+}  // namespace talus

@@ -1,0 +1,26 @@
+#pragma once
+/// Small types shared by every room.
+
+#include <cstdint>
+
+namespace talus {
+
+/// A grain, a body or a contact in an array. Ids are stable: they never change during a run.
+using Index = std::int32_t;
+
+/// A vector in the plane, in the frame of the bed: x along the bed (downslope when the tilt is positive),
+/// y across it, away from the floor.
+struct Vec2 {
+  double x = 0.0;
+  double y = 0.0;
+};
+
+/// A 2 x 2 tensor in the frame of the bed. `xy` is the component M_12 of the paper's M_ij.
+struct Tensor2 {
+  double xx = 0.0;
+  double xy = 0.0;
+  double yx = 0.0;
+  double yy = 0.0;
+};
+
+}  // namespace talus

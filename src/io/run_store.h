@@ -1,0 +1,77 @@
+#pragma once
+/// Writing a run. While it computes, a run is a folder `PATH.run/`; at the end it is packed into one
+/// self-sufficient HDF5 file `PATH` (docs/file_format.md).
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/snapshot.h"
+
+namespace talus {
+
+/// What is known when a run begins.
+struct RunHeader {
+  RunStatics statics;
+  std::string scenario_given;     ///< TOML as the user wrote it
+  std::string scenario_resolved;  ///< TOML with every key
+  std::uint64_t seed = 0;
+  Facts provenance;               ///< version, git_hash, compiler, flags, host, threads, argv, start, ...
+};
+
+/// What has happened since the last commit.
+struct Segment {
+  std::vector<Frame> frames;
+  std::vector<ObservableRow> observables;
+  std::vector<StepRow> steps;
+};
+
+/// All that is needed to continue with the same bits: the world in doubles, and the state of the schedule as
+/// named values that the session understands. `results` are the figures of the run so far (theta_c, ...),
+/// `timing` the seconds spent in each stage.
+struct Checkpoint {
+  World world;
+  std::vector<std::pair<std::string, std::int64_t>> integers;
+  Figures reals;
+  Figures results;
+  Figures timing;
+};
+
+/// The open folder of a running run, locked against other writers.
+class RunStore {
+ public:
+  /// A new run. Throws Error(cannot_create) where `path` or its folder exists, unless `overwrite`, or where
+  /// another process holds the lock.
+  static RunStore create(const std::string& path, const RunHeader& header, bool overwrite);
+
+  /// The folder of an interrupted run, and its last checkpoint. Throws as create does, Error(missing_input)
+  /// where there is no such folder, and Error(bad_data) where what is there is damaged.
+  static RunStore resume(const std::string& path, RunHeader& header, Checkpoint& checkpoint);
+
+  RunStore(RunStore&&) noexcept;
+  RunStore& operator=(RunStore&&) noexcept;
+  ~RunStore();
+
+  /// Makes a segment and a checkpoint durable, both or neither. After a kill at any instant the folder holds
+  /// either all of this commit or nothing of it.
+  void commit(const Segment& segment, const Checkpoint& checkpoint);
+
+  /// Packs everything committed into the file at `path` (written beside, then renamed) and removes the folder.
+  void pack();
+
+  /// Seconds spent in commit so far.
+  double seconds_writing() const;
+
+ private:
+  struct State;
+  explicit RunStore(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+/// Whether `path` is a packed run file, a run folder (with no packed file yet), or neither.
+enum class RunPresence { none, folder, packed };
+RunPresence run_presence(const std::string& path);
+
+}  // namespace talus
