@@ -11,6 +11,7 @@ namespace talus {
 struct Plane {
   Vec2 normal;          ///< unit, into the free space
   double offset = 0.0;  ///< m
+  bool wall = true;     ///< a side wall, with the friction of walls; else a smooth floor, with that of grains
 };
 
 /// In contact records, plane k has the body id grains.count() + k.

@@ -20,11 +20,11 @@ enum class ContactStatus : std::int8_t {
 /// t = (-n_y, n_x); the force acts on b (and its opposite on a), so a compressive f_n is positive.
 /// Relative velocities are those of b seen from a, so U_n > 0 separates.
 struct Contacts {
-  std::vector<Index> a, b;          ///< body ids; b may be a plane (see Boundary)
-  std::vector<std::int8_t> shift;   ///< periodic image: b touches a from x_b + shift * length
-  std::vector<double> nx, ny;       ///< normal, unit
-  std::vector<double> gap;          ///< m; negative where bodies overlap
-  std::vector<double> fn, ft;       ///< mean force over the step, P / h, in N (per metre of thickness)
+  std::vector<Index> a, b;         ///< body ids; b may be a plane (see Boundary)
+  std::vector<std::int8_t> shift;  ///< periodic image: b touches a from x_b + shift * length
+  std::vector<double> nx, ny;      ///< normal, unit
+  std::vector<double> gap;         ///< m; negative where bodies overlap
+  std::vector<double> fn, ft;      ///< mean force over the step, P / h, in N (per metre of thickness)
 
   Index count() const { return static_cast<Index>(a.size()); }
   void resize(std::size_t size);

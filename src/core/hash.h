@@ -21,10 +21,8 @@ class Hasher {
   void add_bytes(const void* data, std::size_t size);
 
   template <typename T>
-    requires std::is_arithmetic_v<T>
-  void add(T value) {
-    add_bytes(&value, sizeof value);
-  }
+  requires std::is_arithmetic_v<T>
+  void add(T value) { add_bytes(&value, sizeof value); }
 
   /// The number of elements goes in too, so that two arrays cannot trade elements unseen.
   template <typename Container>

@@ -17,16 +17,38 @@ struct SeriesField {
 
 /// Scalars of the bed, sampled every output.observable_every degrees of tilt.
 enum class Observable : std::size_t {
-  step, time, tilt, sigma_n, sigma_t, sigma_t_over_n, stress_ratio, solid_fraction, coordination_number,
-  critical_fraction, volume_strain, centre_of_mass_strain, surface_displacement, kinetic_energy, rms_velocity,
-  largest_overlap, residual, count
+  step,
+  time,
+  tilt,
+  sigma_n,
+  sigma_t,
+  sigma_t_over_n,
+  stress_ratio,
+  solid_fraction,
+  coordination_number,
+  critical_fraction,
+  volume_strain,
+  centre_of_mass_strain,
+  surface_displacement,
+  kinetic_energy,
+  rms_velocity,
+  largest_overlap,
+  residual,
+  count
 };
 inline constexpr std::size_t observable_count = static_cast<std::size_t>(Observable::count);
 extern const std::array<SeriesField, observable_count> observable_fields;
 
 /// Scalars of each single step, deposition included: how well it was solved.
 enum class StepField : std::size_t {
-  step, phase, contacts, iterations, residual, converged, rms_velocity, count
+  step,
+  phase,
+  contacts,
+  iterations,
+  residual,
+  converged,
+  rms_velocity,
+  count
 };
 inline constexpr std::size_t step_field_count = static_cast<std::size_t>(StepField::count);
 extern const std::array<SeriesField, step_field_count> step_fields;

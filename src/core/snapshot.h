@@ -29,13 +29,14 @@ struct FrameContacts {
 /// The bed at one instant. Arrays run over all grains, floor included, in the order of their ids.
 struct Frame {
   std::int64_t step = 0;
-  double time = 0.0;  ///< s
-  double tilt = 0.0;  ///< rad
-  std::vector<double> x, y, angle;     ///< m, m, rad
-  std::vector<double> vx, vy, omega;   ///< m/s, m/s, rad/s
+  double time = 0.0;                  ///< s
+  double tilt = 0.0;                  ///< rad
+  std::vector<double> x, y, angle;    ///< m, m, rad
+  std::vector<double> vx, vy, omega;  ///< m/s, m/s, rad/s
   std::vector<Index> image;
-  std::vector<Tensor2> internal_moment;  ///< J (per metre of thickness); compression positive; Eq. (4) of the paper
-  std::vector<double> gamma;             ///< stress ratio q/p of each grain; NaN where a grain carries nothing
+  std::vector<Tensor2>
+      internal_moment;        ///< J (per metre of thickness); compression positive; Eq. (4) of the paper
+  std::vector<double> gamma;  ///< stress ratio q/p of each grain; NaN where a grain carries nothing
   FrameContacts contacts;
 
   Index grain_count() const { return static_cast<Index>(x.size()); }

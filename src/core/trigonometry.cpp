@@ -9,7 +9,8 @@ double alternating_series(double square, int first) {
   constexpr int terms = 13;  // the 13th term at pi/2 is below 1e-18
   double sum = 1.0;
   for (int k = terms; k >= 1; --k) {
-    const double denominator = static_cast<double>(2 * k - 2 + first) * static_cast<double>(2 * k - 1 + first);
+    const double denominator =
+        static_cast<double>(2 * k - 2 + first) * static_cast<double>(2 * k - 1 + first);
     sum = 1.0 - square / denominator * sum;
   }
   return sum;

@@ -45,14 +45,16 @@ std::uint64_t state_hash(const World& world) {
   Hasher hash;
   const Grains& g = world.grains;
   hash.add(g.free_count);
-  for (const auto* field : {&g.x, &g.y, &g.vx, &g.vy, &g.omega, &g.radius, &g.inverse_mass, &g.inverse_inertia,
-                            &g.mass, &g.inertia, &g.angle})
+  for (const auto* field : {&g.x, &g.y, &g.vx, &g.vy, &g.omega, &g.radius, &g.inverse_mass,
+                            &g.inverse_inertia, &g.mass, &g.inertia, &g.angle})
     hash.add_array(*field);
   hash.add_array(g.image);
   hash.add(static_cast<std::uint8_t>(world.boundary.periodic));
   hash.add(world.boundary.length);
-  for (const Plane& plane : world.boundary.planes)
+  for (const Plane& plane : world.boundary.planes) {
     for (double value : {plane.normal.x, plane.normal.y, plane.offset}) hash.add(value);
+    hash.add(static_cast<std::uint8_t>(plane.wall));
+  }
   const Contacts& c = world.contacts;
   hash.add_array(c.a);
   hash.add_array(c.b);

@@ -14,11 +14,11 @@ namespace talus {
 struct World {
   Grains grains;
   Boundary boundary;
-  Contacts contacts;       ///< of the last step, with their forces
-  double gravity = 9.81;   ///< m/s^2
-  double tilt = 0.0;       ///< rad; gravity is g (sin tilt, -cos tilt) in the frame of the bed
-  double time = 0.0;       ///< s
-  std::int64_t step = 0;   ///< steps taken since the beginning
+  Contacts contacts;      ///< of the last step, with their forces
+  double gravity = 9.81;  ///< m/s^2
+  double tilt = 0.0;      ///< rad; gravity is g (sin tilt, -cos tilt) in the frame of the bed
+  double time = 0.0;      ///< s
+  std::int64_t step = 0;  ///< steps taken since the beginning
 };
 
 /// Gravity in the frame of the bed, m/s^2.
