@@ -1,0 +1,14 @@
+#pragma once
+/// Narrow phase: gaps and contact frames.
+
+#include "contact/neighbour_list.h"
+#include "core/contacts.h"
+
+namespace talus {
+
+/// Writes all pairs with a gap below `margin` (m) at the present positions, sorted by key, with normals and
+/// gaps; forces are set to zero. Conventions as in Contacts. Two coincident centres get the normal (0, 1).
+void detect_contacts(NeighbourList& list, const Grains& grains, const Boundary& boundary, double margin,
+                     Contacts& contacts);
+
+}  // namespace talus

@@ -1,0 +1,30 @@
+#pragma once
+/// Candidate pairs: which bodies may touch soon.
+
+#include <cstdint>
+#include <vector>
+
+#include "core/boundary.h"
+#include "core/grains.h"
+
+namespace talus {
+
+/// All pairs of a free grain and another body whose gap was below `reach + skin` when the list was made,
+/// sorted by key (a, b, shift). Covers every pair with a gap below `reach` until a grain has moved by half
+/// the skin, so what is found through the list never depends on its age.
+struct NeighbourList {
+  std::vector<Index> a, b;
+  std::vector<std::int8_t> shift;
+  double reach = -1.0;       ///< m
+  double skin = 0.0;         ///< m
+  std::vector<double> x, y;  ///< where the grains were, m
+  std::int64_t rebuilds = 0;
+
+  // Cells of the grid, kept so that a rebuild allocates nothing.
+  std::vector<Index> cell_start, cell_grain, cell_of_grain;
+};
+
+/// Makes the list anew if it does not cover pairs up to a gap of `reach` at the present positions.
+void update_neighbour_list(NeighbourList& list, const Grains& grains, const Boundary& boundary, double reach);
+
+}  // namespace talus
