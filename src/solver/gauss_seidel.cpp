@@ -1,0 +1,36 @@
+#include "solver/gauss_seidel.h"
+
+#include "solver/contact_law.h"
+
+namespace talus {
+namespace {
+
+void push(const ContactProblem& problem, ContactSolution& solution, Index body, double fx, double fy,
+          double torque) {
+  solution.vx[body] += problem.inverse_mass[body] * fx;
+  solution.vy[body] += problem.inverse_mass[body] * fy;
+  solution.omega[body] += problem.inverse_inertia[body] * torque;
+}
+
+}  // namespace
+
+void gauss_seidel_sweep(const ContactProblem& problem, ContactSolution& solution) {
+  for (Index c = 0; c < problem.contact_count(); ++c) {
+    const DelassusDiagonal w = delassus_diagonal(problem, c);
+    const RelativeVelocity u = relative_velocity(problem, solution, c);
+    const Impulse p = local_solution(solution.pn[c], solution.pt[c], u.normal, u.tangential, 1.0 / w.normal,
+                                     1.0 / w.tangential, problem.mu[c]);
+    const double dn = p.normal - solution.pn[c];
+    const double dt = p.tangential - solution.pt[c];
+    const double fx = dn * problem.nx[c] - dt * problem.ny[c];
+    const double fy = dn * problem.ny[c] + dt * problem.nx[c];
+    const Index a = problem.a[c];
+    const Index b = problem.b[c];
+    push(problem, solution, a, -fx, -fy, -problem.lever[a] * dt);
+    push(problem, solution, b, fx, fy, -problem.lever[b] * dt);
+    solution.pn[c] = p.normal;
+    solution.pt[c] = p.tangential;
+  }
+}
+
+}  // namespace talus

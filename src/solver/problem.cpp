@@ -1,0 +1,42 @@
+#include "solver/problem.h"
+
+namespace talus {
+
+DelassusDiagonal delassus_diagonal(const ContactProblem& problem, Index c) {
+  const Index a = problem.a[c];
+  const Index b = problem.b[c];
+  const double normal = problem.inverse_mass[a] + problem.inverse_mass[b];
+  const double spin = problem.lever[a] * problem.lever[a] * problem.inverse_inertia[a] +
+                      problem.lever[b] * problem.lever[b] * problem.inverse_inertia[b];
+  return {normal, normal + spin};
+}
+
+RelativeVelocity relative_velocity(const ContactProblem& problem, const ContactSolution& at, Index c) {
+  const Index a = problem.a[c];
+  const Index b = problem.b[c];
+  const double nx = problem.nx[c];
+  const double ny = problem.ny[c];
+  const double dvx = at.vx[b] - at.vx[a];
+  const double dvy = at.vy[b] - at.vy[a];
+  const double spin = problem.lever[a] * at.omega[a] + problem.lever[b] * at.omega[b];
+  return {dvx * nx + dvy * ny + problem.cn[c], dvy * nx - dvx * ny - spin + problem.ct[c]};
+}
+
+void velocities_from_impulses(const ContactProblem& problem, ContactSolution& solution) {
+  solution.vx = problem.vx;
+  solution.vy = problem.vy;
+  solution.omega = problem.omega;
+  for (Index c = 0; c < problem.contact_count(); ++c) {
+    const double fx = solution.pn[c] * problem.nx[c] - solution.pt[c] * problem.ny[c];
+    const double fy = solution.pn[c] * problem.ny[c] + solution.pt[c] * problem.nx[c];
+    for (const bool second : {false, true}) {
+      const Index body = second ? problem.b[c] : problem.a[c];
+      const double sign = second ? 1.0 : -1.0;
+      solution.vx[body] += sign * problem.inverse_mass[body] * fx;
+      solution.vy[body] += sign * problem.inverse_mass[body] * fy;
+      solution.omega[body] -= problem.inverse_inertia[body] * problem.lever[body] * solution.pt[c];
+    }
+  }
+}
+
+}  // namespace talus

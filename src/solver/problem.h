@@ -1,0 +1,57 @@
+#pragma once
+/// The contact problem of one step, as a record that solvers see; they know no grain, no geometry.
+
+#include <vector>
+
+#include "core/types.h"
+
+namespace talus {
+
+/// Bodies i with velocity (v_x, v_y, omega), contacts c between bodies a and b with normal n (from a to b)
+/// and tangent t = (-n_y, n_x). Unknowns are the impulses P = (P_n, P_t) on b. With v = v_free + M^-1 H^T P,
+///   U_n = (v_b - v_a) . n + c_n
+///   U_t = (v_b - v_a) . t - (r_b omega_b + r_a omega_a) + c_t
+/// must satisfy Signorini, 0 <= U_n complementary to P_n >= 0, and Coulomb, |P_t| <= mu P_n with sliding
+/// opposing P_t (Moreau 1988; Jean 1999). c holds gaps and restitution. All per metre of thickness.
+struct ContactProblem {
+  // Bodies.
+  std::vector<double> vx, vy, omega;    ///< free velocity, m/s and rad/s
+  std::vector<double> inverse_mass;     ///< 1/kg; 0 for a body that does not move
+  std::vector<double> inverse_inertia;  ///< 1/(kg m^2); 0 for a body that does not rotate
+  std::vector<double> lever;  ///< r, m: distance from the centre to every contact of the body; 0 for a plane
+
+  // Contacts.
+  std::vector<Index> a, b;
+  std::vector<double> nx, ny;
+  std::vector<double> cn, ct;  ///< m/s
+  std::vector<double> mu;
+
+  Index body_count() const { return static_cast<Index>(vx.size()); }
+  Index contact_count() const { return static_cast<Index>(a.size()); }
+};
+
+/// Impulses, N s, and the velocities that they give the bodies.
+struct ContactSolution {
+  std::vector<double> pn, pt;         ///< in: first guess; out: solution
+  std::vector<double> vx, vy, omega;  ///< out: v = v_free + M^-1 H^T P
+};
+
+/// Diagonal of the Delassus operator W = H M^-1 H^T at contact c; for disks its 2 x 2 block is diagonal.
+/// W_nn = 1/m_a + 1/m_b, W_tt = W_nn + r_a^2 / I_a + r_b^2 / I_b. 1/kg.
+struct DelassusDiagonal {
+  double normal = 0.0;
+  double tangential = 0.0;
+};
+DelassusDiagonal delassus_diagonal(const ContactProblem& problem, Index c);
+
+/// Relative velocity U at contact c for the given body velocities.
+struct RelativeVelocity {
+  double normal = 0.0;
+  double tangential = 0.0;
+};
+RelativeVelocity relative_velocity(const ContactProblem& problem, const ContactSolution& at, Index c);
+
+/// v = v_free + M^-1 H^T P, summed contact by contact in their order.
+void velocities_from_impulses(const ContactProblem& problem, ContactSolution& solution);
+
+}  // namespace talus

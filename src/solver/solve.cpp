@@ -1,0 +1,44 @@
+#include "solver/solve.h"
+
+#include "solver/gauss_seidel.h"
+
+namespace talus {
+namespace {
+
+/// The residual costs as much as a sweep, so it is looked at now and then.
+int solve_gauss_seidel(const ContactProblem& problem, const SolverSettings& settings,
+                       ContactSolution& solution) {
+  constexpr int sweeps_between_checks = 10;
+  velocities_from_impulses(problem, solution);
+  int sweeps = 0;
+  while (sweeps < settings.max_iterations) {
+    if (sweeps % sweeps_between_checks == 0 &&
+        natural_map_residual(problem, solution).eta <= settings.tolerance)
+      break;
+    gauss_seidel_sweep(problem, solution);
+    ++sweeps;
+  }
+  velocities_from_impulses(problem, solution);  // free of the round-off of many sweeps
+  return sweeps;
+}
+
+}  // namespace
+
+SolverReport solve(const ContactProblem& problem, const SolverSettings& settings, SolverWorkspace& workspace,
+                   ContactSolution& solution) {
+  SolverReport report;
+  switch (settings.kind) {
+    case SolverKind::gauss_seidel:
+      report.iterations = solve_gauss_seidel(problem, settings, solution);
+      break;
+    case SolverKind::accelerated:
+      report.iterations = solve_accelerated(problem, settings.tolerance, settings.max_iterations,
+                                            settings.threads, workspace.accelerated, solution);
+      break;
+  }
+  report.residual = natural_map_residual(problem, solution);
+  report.converged = report.residual.eta <= settings.tolerance * (1.0 + 1e-9);
+  return report;
+}
+
+}  // namespace talus

@@ -1,0 +1,65 @@
+#include "solver/thread_team.h"
+
+namespace talus {
+namespace {
+
+/// Waits until the value differs from `old`: a short spin for passes that end at nearly the same time, then
+/// the processor is given away, then the thread sleeps in the kernel.
+void wait_while_equal(const std::atomic<unsigned>& value, unsigned old) {
+  for (int spin = 0; spin < 4000; ++spin) {
+    if (value.load(std::memory_order_acquire) != old) return;
+#if defined(__x86_64__)
+    __builtin_ia32_pause();
+#endif
+  }
+  for (int turn = 0; turn < 100; ++turn) {
+    if (value.load(std::memory_order_acquire) != old) return;
+    std::this_thread::yield();
+  }
+  value.wait(old, std::memory_order_acquire);
+}
+
+}  // namespace
+
+ThreadTeam::ThreadTeam(int size) : size_(size) {
+  for (int member = 1; member < size; ++member) threads_.emplace_back([this, member] { work(member); });
+}
+
+ThreadTeam::~ThreadTeam() {
+  leaving_.store(true);
+  task_number_.fetch_add(1);
+  task_number_.notify_all();
+  for (std::thread& thread : threads_) thread.join();
+}
+
+void ThreadTeam::run(const std::function<void(int)>& task) {
+  task_ = &task;
+  task_number_.fetch_add(1, std::memory_order_release);
+  task_number_.notify_all();
+  task(0);
+  wait_for_all();
+}
+
+void ThreadTeam::wait_for_all() {
+  const unsigned round = round_.load(std::memory_order_acquire);
+  if (arrived_.fetch_add(1, std::memory_order_acq_rel) + 1 == size_) {
+    arrived_.store(0, std::memory_order_relaxed);
+    round_.fetch_add(1, std::memory_order_release);
+    round_.notify_all();
+  } else {
+    wait_while_equal(round_, round);
+  }
+}
+
+void ThreadTeam::work(int member) {
+  unsigned seen = 0;
+  for (;;) {
+    wait_while_equal(task_number_, seen);
+    seen = task_number_.load(std::memory_order_acquire);
+    if (leaving_.load()) return;
+    (*task_)(member);
+    wait_for_all();
+  }
+}
+
+}  // namespace talus

@@ -1,0 +1,46 @@
+#pragma once
+/// A few threads that work through short tasks together.
+
+#include <atomic>
+#include <functional>
+#include <thread>
+#include <vector>
+
+namespace talus {
+
+/// The calling thread and size - 1 others. Made for passes of some tens of microseconds: members wait for
+/// each other by spinning for a moment, then yielding.
+class ThreadTeam {
+ public:
+  explicit ThreadTeam(int size);
+  ~ThreadTeam();
+  ThreadTeam(const ThreadTeam&) = delete;
+  ThreadTeam& operator=(const ThreadTeam&) = delete;
+
+  int size() const { return size_; }
+
+  /// Runs task(member) on every member, member = 0 ... size - 1, and returns when all are done. `task` must
+  /// not throw.
+  void run(const std::function<void(int)>& task);
+
+  /// To be called by every member from within a task: none goes on before all have come.
+  void wait_for_all();
+
+ private:
+  void work(int member);
+
+  int size_;
+  std::atomic<int> arrived_{0};
+  std::atomic<unsigned> round_{0};
+  std::atomic<unsigned> task_number_{0};
+  std::atomic<bool> leaving_{false};
+  const std::function<void(int)>* task_ = nullptr;
+  std::vector<std::thread> threads_;
+};
+
+/// The part of 0 ... count - 1 that a member takes: [part_begin(member), part_begin(member + 1)).
+inline int part_begin(int count, int member, int size) {
+  return static_cast<int>(static_cast<long long>(count) * member / size);
+}
+
+}  // namespace talus
