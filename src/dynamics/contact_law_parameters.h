@@ -1,0 +1,16 @@
+#pragma once
+/// The parameters of the contact law.
+
+namespace talus {
+
+struct ContactLawParameters {
+  double friction = 0.5;                ///< mu between grains, and with the floor
+  double wall_friction = 0.5;           ///< mu with the side walls
+  double restitution = 0.0;             ///< e_n: U_n+ = -e_n U_n- (Newton)
+  double tangential_restitution = 0.0;  ///< e_t: U_t+ = -e_t U_t- of a contact that sticks
+  double closed_gap = 0.0;              ///< m: a smaller gap counts as closed
+  double overlap_correction = 0.05;  ///< share of an overlap taken back in each step; an overlap is an error
+                                     ///< of the solver's, of the order of its tolerance
+};
+
+}  // namespace talus

@@ -1,0 +1,136 @@
+#include "dynamics/step.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "contact/detection.h"
+#include "contact/memory.h"
+#include "core/errors.h"
+#include "dynamics/assemble.h"
+
+namespace talus {
+namespace {
+
+/// Adds the wall time between its calls to the stages of a report.
+class StageClock {
+ public:
+  explicit StageClock(StepReport& report) : report_(report), last_(Clock::now()) {}
+
+  void end_of(Stage stage) {
+    const Clock::time_point now = Clock::now();
+    report_.seconds[static_cast<std::size_t>(stage)] += std::chrono::duration<double>(now - last_).count();
+    last_ = now;
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  StepReport& report_;
+  Clock::time_point last_;
+};
+
+/// Half a step along the present velocities; x stays in [0, length) of a periodic bed.
+void move(Grains& grains, const Boundary& boundary, double duration) {
+  for (Index i = 0; i < grains.free_count; ++i) {
+    grains.x[i] += duration * grains.vx[i];
+    grains.y[i] += duration * grains.vy[i];
+    grains.angle[i] += duration * grains.omega[i];
+    if (!boundary.periodic) continue;
+    while (grains.x[i] < 0.0) {
+      grains.x[i] += boundary.length;
+      --grains.image[i];
+    }
+    while (grains.x[i] >= boundary.length) {
+      grains.x[i] -= boundary.length;
+      ++grains.image[i];
+    }
+  }
+}
+
+double largest_velocity(const Grains& grains) {
+  double square = 0.0;
+  for (Index i = 0; i < grains.free_count; ++i)
+    square = std::max(square, grains.vx[i] * grains.vx[i] + grains.vy[i] * grains.vy[i]);
+  return std::sqrt(square);
+}
+
+double largest_overlap(const Contacts& contacts) {
+  double overlap = 0.0;
+  for (double gap : contacts.gap) overlap = std::max(overlap, -gap);
+  return overlap;
+}
+
+/// The first guess: forces of the last step times h.
+void guess_impulses(const Contacts& contacts, double h, ContactSolution& solution) {
+  const auto count = static_cast<std::size_t>(contacts.count());
+  solution.pn.resize(count);
+  solution.pt.resize(count);
+  for (std::size_t c = 0; c < count; ++c) {
+    solution.pn[c] = contacts.fn[c] * h;
+    solution.pt[c] = contacts.ft[c] * h;
+  }
+}
+
+void store_forces(const ContactSolution& solution, double h, Contacts& contacts) {
+  for (std::size_t c = 0; c < solution.pn.size(); ++c) {
+    contacts.fn[c] = solution.pn[c] / h;
+    contacts.ft[c] = solution.pt[c] / h;
+  }
+}
+
+void store_velocities(const ContactSolution& solution, Grains& grains) {
+  for (Index i = 0; i < grains.free_count; ++i) {
+    grains.vx[i] = solution.vx[i];
+    grains.vy[i] = solution.vy[i];
+    grains.omega[i] = solution.omega[i];
+  }
+}
+
+bool finite(const ContactSolution& solution) {
+  double sum = 0.0;  // one infinite or undefined term makes the sum so
+  for (const auto* field : {&solution.vx, &solution.vy, &solution.omega})
+    for (double value : *field) sum += value * 0.0;
+  return sum == 0.0;
+}
+
+}  // namespace
+
+StepReport step(World& world, const StepSettings& settings, StepWorkspace& workspace) {
+  StepReport report;
+  StageClock clock(report);
+  const double h = settings.h;
+  Grains& grains = world.grains;
+  Contacts& contacts = workspace.contacts;
+
+  // Two grains can approach by twice the largest velocity; gravity adds g h to it within the step.
+  const double margin = settings.margin + 2.0 * h * (largest_velocity(grains) + world.gravity * h);
+  move(grains, world.boundary, 0.5 * h);
+  clock.end_of(Stage::move);
+  detect_contacts(workspace.neighbours, grains, world.boundary, margin, contacts);
+  clock.end_of(Stage::detect);
+  assemble(world, contacts, settings.law, h, workspace.problem);
+  clock.end_of(Stage::assemble);
+  recall_forces(world.contacts, contacts);
+  guess_impulses(contacts, h, workspace.solution);
+  clock.end_of(Stage::recall);
+  report.solver = solve(workspace.problem, settings.solver, workspace.solver, workspace.solution);
+  clock.end_of(Stage::solve);
+  if (!finite(workspace.solution)) {
+    move(grains, world.boundary, -0.5 * h);
+    throw Error(ExitCode::internal, "step " + std::to_string(world.step + 1) + ": a velocity is not finite");
+  }
+  store_forces(workspace.solution, h, contacts);
+  store_velocities(workspace.solution, grains);
+  std::swap(world.contacts, contacts);
+  clock.end_of(Stage::store);
+  move(grains, world.boundary, 0.5 * h);
+  ++world.step;
+  world.time += h;
+  report.contacts = world.contacts.count();
+  report.largest_overlap = largest_overlap(world.contacts);
+  report.rms_velocity = rms_velocity(grains);
+  clock.end_of(Stage::move);
+  return report;
+}
+
+}  // namespace talus
