@@ -1,0 +1,21 @@
+#pragma once
+/// Grain stresses: the internal moments of Moreau.
+
+#include <vector>
+
+#include "core/contacts.h"
+#include "core/grains.h"
+#include "core/types.h"
+
+namespace talus {
+
+/// Internal moment of each grain, M_ij = - sum_a r_i f_j - (1/2) I omega^2 delta_ij (paper, Eq. 4), with r
+/// from the centre of the grain to the contact and f the force on the grain. One tensor for each grain, floor
+/// included, in J per metre of thickness; compression is positive. At rest M is symmetric: xy - yx is the
+/// unbalanced torque. Moments add: the moment of a set of grains is the sum of theirs.
+void internal_moments(const Grains& grains, const Contacts& contacts, std::vector<Tensor2>& moments);
+
+/// Sum of the moments of grains first ... last - 1, in that order.
+Tensor2 sum_of_moments(const std::vector<Tensor2>& moments, Index first, Index last);
+
+}  // namespace talus
