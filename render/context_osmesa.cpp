@@ -1,0 +1,92 @@
+#include <GL/osmesa.h>
+#include <dlfcn.h>
+
+#include <array>
+#include <cstdlib>
+#include <string>
+
+#include "core/errors.h"
+#include "render/context.h"
+
+namespace talus {
+namespace {
+
+constexpr const char* library_name = "libOSMesa.so.8";
+
+/// The entry points of libOSMesa, opened at run time.
+struct OSMesa {
+  decltype(&OSMesaCreateContextAttribs) create = nullptr;
+  decltype(&OSMesaMakeCurrent) make_current = nullptr;
+  decltype(&OSMesaGetProcAddress) get_proc = nullptr;
+  decltype(&OSMesaDestroyContext) destroy = nullptr;
+};
+
+template <typename Pointer>
+void find(void* library, const char* name, Pointer& pointer) {
+  pointer = reinterpret_cast<Pointer>(dlsym(library, name));
+  if (!pointer)
+    throw Error(ExitCode::unavailable,
+                std::string(library_name) + " lacks " + name + "; reinstall libosmesa6");
+}
+
+OSMesa open_library() {
+  // The few small shaders compile in no time; a cache would only leave files in the user's home.
+  setenv("MESA_SHADER_CACHE_DISABLE", "true", 0);
+  void* library = dlopen(library_name, RTLD_NOW | RTLD_LOCAL);  // never closed: Mesa keeps thread-local state
+  if (!library)
+    throw Error(ExitCode::unavailable, std::string("no rendering context: cannot load ") + library_name +
+                                           " (" + dlerror() + "); apt-get install libosmesa6");
+  OSMesa mesa;
+  find(library, "OSMesaCreateContextAttribs", mesa.create);
+  find(library, "OSMesaMakeCurrent", mesa.make_current);
+  find(library, "OSMesaGetProcAddress", mesa.get_proc);
+  find(library, "OSMesaDestroyContext", mesa.destroy);
+  return mesa;
+}
+
+class OSMesaContextOwner final : public Context {
+ public:
+  OSMesaContextOwner() : mesa_(open_library()) {
+    // No depth, stencil or accumulation buffer: maps are flat.
+    const std::array<int, 15> attributes = {OSMESA_FORMAT,
+                                            OSMESA_RGBA,
+                                            OSMESA_DEPTH_BITS,
+                                            0,
+                                            OSMESA_STENCIL_BITS,
+                                            0,
+                                            OSMESA_ACCUM_BITS,
+                                            0,
+                                            OSMESA_PROFILE,
+                                            OSMESA_CORE_PROFILE,
+                                            OSMESA_CONTEXT_MAJOR_VERSION,
+                                            3,
+                                            OSMESA_CONTEXT_MINOR_VERSION,
+                                            3,
+                                            0};
+    context_ = mesa_.create(attributes.data(), nullptr);
+    // The renderer draws into a framebuffer of its own, but a context becomes current only with a buffer.
+    if (!context_ || !mesa_.make_current(context_, dummy_.data(), GL_UNSIGNED_BYTE, 1, 1)) {
+      if (context_) mesa_.destroy(context_);
+      throw Error(ExitCode::unavailable,
+                  "no rendering context: OSMesa refuses an OpenGL 3.3 core context; Talus needs libosmesa6 "
+                  "of Mesa 20 "
+                  "to 25.0");
+    }
+  }
+  ~OSMesaContextOwner() override { mesa_.destroy(context_); }
+  OSMesaContextOwner(const OSMesaContextOwner&) = delete;
+  OSMesaContextOwner& operator=(const OSMesaContextOwner&) = delete;
+
+  Function function(const char* name) const override { return mesa_.get_proc(name); }
+
+ private:
+  OSMesa mesa_;
+  OSMesaContext context_ = nullptr;
+  std::array<unsigned char, 4> dummy_{};
+};
+
+}  // namespace
+
+std::unique_ptr<Context> make_osmesa_context() { return std::make_unique<OSMesaContextOwner>(); }
+
+}  // namespace talus

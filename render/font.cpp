@@ -1,0 +1,121 @@
+#include "render/font.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <string>
+
+#include "core/errors.h"
+#include "render/embedded.h"
+
+namespace talus {
+namespace {
+
+constexpr auto special_code_points = std::to_array<char32_t>(
+    {U'°', U'±', U'²', U'·', U'×', U'Γ', U'Δ', U'Σ', U'α', U'γ', U'η', U'θ', U'μ', U'ν',
+     U'ρ', U'σ', U'τ', U'φ', U'–', U'…', U'ℓ', U'−', U'≈', U'≤', U'≥', U'⟨', U'⟩'});
+constexpr char32_t first_ascii = 32, last_ascii = 126;
+constexpr std::size_t ascii_count = last_ascii - first_ascii + 1;
+
+constexpr auto code_points = [] {
+  std::array<char32_t, ascii_count + special_code_points.size()> all{};
+  for (std::size_t k = 0; k < ascii_count; ++k) all[k] = first_ascii + static_cast<char32_t>(k);
+  std::copy(special_code_points.begin(), special_code_points.end(), all.begin() + ascii_count);
+  return all;
+}();
+static_assert(std::is_sorted(code_points.begin(), code_points.end()));
+
+[[noreturn]] void malformed(std::string_view text) {
+  throw Error(ExitCode::internal, "the text '" + std::string(text) + "' of a picture is not valid UTF-8");
+}
+
+/// The code point that begins at `position`, which moves on behind it.
+char32_t next_code_point(std::string_view text, std::size_t& position) {
+  const auto lead = static_cast<unsigned char>(text[position++]);
+  if (lead < 0x80) return lead;
+  const int trailing = lead >= 0xF0 ? 3 : lead >= 0xE0 ? 2 : 1;
+  if (lead < 0xC0 || lead > 0xF7 || position + static_cast<std::size_t>(trailing) > text.size())
+    malformed(text);
+  char32_t code = lead & (0x3F >> trailing);
+  for (int k = 0; k < trailing; ++k) {
+    const auto byte = static_cast<unsigned char>(text[position++]);
+    if ((byte & 0xC0) != 0x80) malformed(text);
+    code = (code << 6) | (byte & 0x3F);
+  }
+  return code;
+}
+
+std::size_t place_of(char32_t code, std::string_view text) {
+  const auto found = std::lower_bound(code_points.begin(), code_points.end(), code);
+  if (found != code_points.end() && *found == code)
+    return static_cast<std::size_t>(found - code_points.begin());
+  std::array<char, 16> name{};
+  std::snprintf(name.data(), name.size(), "U+%04X", static_cast<unsigned>(code));
+  throw Error(ExitCode::internal, std::string(name.data()) + " in the text '" + std::string(text) +
+                                      "' of a picture is not among the glyphs listed in render/font.cpp");
+}
+
+bool pack(GlyphAtlas& atlas) {
+  atlas.coverage.assign(static_cast<std::size_t>(atlas.size) * static_cast<std::size_t>(atlas.size), 0);
+  std::array<int, code_points.size()> codes{};
+  std::copy(code_points.begin(), code_points.end(), codes.begin());
+  const auto range = [&](double em, std::vector<stbtt_packedchar>& glyphs) {
+    glyphs.resize(codes.size());
+    stbtt_pack_range result{};
+    result.font_size = STBTT_POINT_SIZE(static_cast<float>(em));
+    result.array_of_unicode_codepoints = codes.data();
+    result.num_chars = static_cast<int>(codes.size());
+    result.chardata_for_range = glyphs.data();
+    return result;
+  };
+  std::array<stbtt_pack_range, 2> ranges = {range(atlas.em, atlas.plain),
+                                            range(subscript_size * atlas.em, atlas.subscript)};
+  stbtt_pack_context context;
+  if (!stbtt_PackBegin(&context, atlas.coverage.data(), atlas.size, atlas.size, 0, 1, nullptr))
+    throw std::bad_alloc();
+  stbtt_PackSetOversampling(&context, 2, 1);  // glyphs stand at fractions of a pixel along the line
+  const int packed = stbtt_PackFontRanges(&context, embedded::font.data(), 0, ranges.data(), 2);
+  stbtt_PackEnd(&context);
+  return packed != 0;
+}
+
+}  // namespace
+
+Font embedded_font() {
+  Font font;
+  if (!stbtt_InitFont(&font.info, embedded::font.data(), 0))
+    throw Error(ExitCode::internal, "the embedded font cannot be read");
+  return font;
+}
+
+std::span<const char32_t> font_code_points() { return code_points; }
+
+TextLine set_text(const Font& font, std::string_view text, double em) {
+  const double unit = static_cast<double>(stbtt_ScaleForMappingEmToPixels(&font.info, 1.0f));
+  TextLine line;
+  bool subscript = false;
+  for (std::size_t position = 0; position < text.size();) {
+    const char32_t code = next_code_point(text, position);
+    if (code == U'_' && !subscript) {
+      subscript = true;
+      continue;
+    }
+    line.glyphs.push_back({place_of(code, text), subscript, line.width});
+    int advance = 0;
+    stbtt_GetCodepointHMetrics(&font.info, static_cast<int>(code), &advance, nullptr);
+    line.width += advance * unit * em * (subscript ? subscript_size : 1.0);
+    subscript = false;
+  }
+  return line;
+}
+
+GlyphAtlas bake_glyphs(double em) {
+  GlyphAtlas atlas;
+  atlas.em = em;
+  constexpr int largest = 8192;
+  for (atlas.size = 256; atlas.size <= largest; atlas.size *= 2)
+    if (pack(atlas)) return atlas;
+  throw Error(ExitCode::internal, "no glyph atlas holds a font of " + std::to_string(em) + " px");
+}
+
+}  // namespace talus

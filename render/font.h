@@ -1,0 +1,56 @@
+#pragma once
+/// Text of the pictures: the font, its measures, and an atlas of its glyphs.
+
+#include <stb/stb_truetype.h>
+
+#include <cstddef>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace talus {
+
+/// The embedded font. A value; its bytes belong to the binary.
+struct Font {
+  stbtt_fontinfo info;
+};
+Font embedded_font();
+
+/// Every code point that a text of a picture may use, ascending.
+std::span<const char32_t> font_code_points();
+
+/// Size of a subscript, and how far it is lowered, in units of the font size.
+inline constexpr double subscript_size = 0.72;
+inline constexpr double subscript_drop = 0.18;
+
+/// Extent of a line above and below its base line, in units of the font size.
+inline constexpr double text_ascent = 0.93;
+inline constexpr double text_descent = 0.31;
+
+/// A glyph of a line: its place in font_code_points(), and where its origin lies, px from the start of the
+/// line.
+struct Glyph {
+  std::size_t code = 0;
+  bool subscript = false;
+  double x = 0.0;
+};
+
+struct TextLine {
+  std::vector<Glyph> glyphs;
+  double width = 0.0;  ///< px
+};
+
+/// Sets a UTF-8 text in a font size of `em` px. "_c" sets c as a subscript.
+/// Throws Error(internal) at a code point that is not listed in font_code_points(), and at malformed UTF-8.
+TextLine set_text(const Font& font, std::string_view text, double em);
+
+/// All listed glyphs, plain and as subscripts, drawn for one font size.
+struct GlyphAtlas {
+  double em = 0.0;  ///< px
+  int size = 0;     ///< width and height, px
+  std::vector<unsigned char> coverage;
+  std::vector<stbtt_packedchar> plain, subscript;  ///< by place in font_code_points()
+};
+GlyphAtlas bake_glyphs(double em);
+
+}  // namespace talus

@@ -1,0 +1,40 @@
+#pragma once
+/// The few objects of OpenGL that the renderer is made of.
+
+#include <initializer_list>
+#include <span>
+#include <string>
+
+#include "render/gl_loader.h"
+
+namespace talus {
+
+/// Compiles and links a program. Throws Error(unavailable) with the log of the compiler.
+GLuint make_program(const Gl& gl, const std::string& name, std::span<const unsigned char> vertex,
+                    std::span<const unsigned char> fragment);
+
+/// A program with one stream of vertices (or, with divisor 1, of instances) made of floats.
+struct Batch {
+  GLuint program = 0;
+  GLuint vertex_array = 0;
+  GLuint buffer = 0;
+};
+
+/// `attributes` are the numbers of floats of the attributes 0, 1, ... in the order of the stream.
+Batch make_batch(const Gl& gl, GLuint program, std::initializer_list<int> attributes, GLuint divisor);
+void delete_batch(const Gl& gl, Batch& batch);
+
+/// Selects the batch for drawing and uploads its stream.
+template <typename Vertex>
+void fill_batch(const Gl& gl, const Batch& batch, std::span<const Vertex> vertices) {
+  gl.UseProgram(batch.program);
+  gl.BindVertexArray(batch.vertex_array);
+  gl.BindBuffer(GL_ARRAY_BUFFER, batch.buffer);
+  gl.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size_bytes()), vertices.data(),
+                GL_STREAM_DRAW);
+}
+
+/// An 8-bit texture of one channel, bound to GL_TEXTURE_2D; `pixels` may be null.
+GLuint make_gray_texture(const Gl& gl, int width, int height, const unsigned char* pixels, GLint filter);
+
+}  // namespace talus

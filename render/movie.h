@@ -1,0 +1,41 @@
+#pragma once
+/// Movies, through a pipe of raw frames to ffmpeg.
+
+#include <sys/types.h>
+
+#include <cstdio>
+#include <string>
+
+#include "render/image.h"
+#include "render/output_file.h"
+
+namespace talus {
+
+/// A movie under way: H.264 in a file that ends in .mp4, 64 grays in one that ends in .gif. The file appears
+/// under its name when finish returns; a movie that is not finished leaves nothing.
+class Movie {
+ public:
+  /// All frames have the size given; `fps` frames a second are shown.
+  /// Throws Error(usage) at another ending, Error(unavailable) without ffmpeg, Error(cannot_create).
+  Movie(const std::string& path, int width, int height, double fps);
+  ~Movie();
+  Movie(const Movie&) = delete;
+  Movie& operator=(const Movie&) = delete;
+
+  /// Throws Error(io_error) with what ffmpeg said where it gave up.
+  void add(const Image& image);
+  void finish();
+
+ private:
+  [[noreturn]] void fail();
+  int close_and_wait();
+
+  std::string path_;
+  int width_, height_;
+  OutputFile file_;
+  std::FILE* messages_ = nullptr;
+  int pipe_ = -1;
+  pid_t ffmpeg_ = -1;
+};
+
+}  // namespace talus

@@ -1,0 +1,30 @@
+#pragma once
+/// Which frames of a run are drawn, and what their files are called.
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace talus {
+
+/// Indices into `tilts` (rad, ascending, not empty), ascending and without doubles.
+using FrameChoice = std::vector<std::size_t>;
+
+/// The frames nearest to the angles listed: degrees, or "repose" for the last frame with tilt <= theta_c
+/// (rad, NaN while the slope has not failed). Throws Error(usage) where an entry is neither, Error(bad_data)
+/// where no frame lies within half the spacing of the frames, or where the angle of repose is not known.
+FrameChoice frames_at(const std::vector<double>& tilts, const std::vector<std::string>& entries,
+                      double theta_c);
+
+/// The frames nearest to 0, `every`, 2 `every`, ... degrees; all frames where `every` is below their spacing.
+FrameChoice frames_every(const std::vector<double>& tilts, double every);
+
+/// The last frame with tilt <= theta_c (rad): the slope just before it failed.
+std::size_t frame_at_repose(const std::vector<double>& tilts, double theta_c);
+
+/// A name for each chosen frame, such as gamma_012.00.png: names sort by angle, with as many decimals as tell
+/// the frames apart (at least two).
+std::vector<std::string> frame_names(const std::vector<double>& tilts, const FrameChoice& choice,
+                                     const std::string& map);
+
+}  // namespace talus

@@ -1,0 +1,69 @@
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "core/errors.h"
+#include "core/trigonometry.h"
+#include "maps/frame_choice.h"
+
+namespace talus {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+/// Frames every 0.25 deg to 17.25 deg, and one where the slope failed.
+std::vector<double> run_tilts() {
+  std::vector<double> tilts;
+  for (int k = 0; k <= 69; ++k) tilts.push_back(radians(0.25 * k));
+  tilts.push_back(radians(17.253));
+  return tilts;
+}
+
+TEST(FrameChoice, TakesTheNearestFrames) {
+  const FrameChoice choice = frames_at(run_tilts(), {"5", "0", "10.1", "repose", "5.0"}, radians(16.9));
+  EXPECT_EQ(choice, (FrameChoice{0, 20, 40, 67}));
+  EXPECT_EQ(frames_at(run_tilts(), {"0.125"}, nan), FrameChoice{0});
+}
+
+TEST(FrameChoice, RefusesWhatIsNotThere) {
+  const auto code = [](const std::string& entry, double theta_c) {
+    try {
+      frames_at(run_tilts(), {entry}, theta_c);
+    } catch (const Error& error) {
+      return error.code();
+    }
+    return ExitCode::done;
+  };
+  EXPECT_EQ(code("17.3", nan), ExitCode::done);
+  EXPECT_EQ(code("18", nan), ExitCode::bad_data);
+  EXPECT_EQ(code("-1", nan), ExitCode::bad_data);
+  EXPECT_EQ(code("repose", nan), ExitCode::bad_data);
+  for (const char* entry : {"", "ten", "5deg", "nan", "inf", "1e999"})
+    EXPECT_EQ(code(entry, nan), ExitCode::usage);
+}
+
+TEST(FrameChoice, ReposeIsTheLastFrameNotAboveThetaC) {
+  EXPECT_EQ(frame_at_repose(run_tilts(), radians(17.0)), 68u);
+  EXPECT_EQ(frame_at_repose(run_tilts(), radians(17.24)), 68u);
+  EXPECT_EQ(frame_at_repose(run_tilts(), radians(60.0)), 70u);
+}
+
+TEST(FrameChoice, TakesOneFrameEveryStep) {
+  const FrameChoice choice = frames_every(run_tilts(), 1.0);
+  ASSERT_EQ(choice.size(), 18u);
+  for (std::size_t k = 0; k < choice.size(); ++k) EXPECT_EQ(choice[k], 4 * k);
+  EXPECT_EQ(frames_every(run_tilts(), 0.25).size(), 70u);
+  EXPECT_EQ(frames_every(run_tilts(), 0.0).size(), 71u);
+  EXPECT_EQ(frames_every({0.0}, 1.0), FrameChoice{0});
+}
+
+TEST(FrameChoice, NamesSortAndTellFramesApart) {
+  const std::vector<double> tilts = run_tilts();
+  EXPECT_EQ(frame_names(tilts, {0, 48}, "gamma"),
+            (std::vector<std::string>{"gamma_000.00.png", "gamma_012.00.png"}));
+  EXPECT_EQ(frame_names(tilts, {69, 70}, "overloaded"),
+            (std::vector<std::string>{"overloaded_017.250.png", "overloaded_017.253.png"}));
+}
+
+}  // namespace
+}  // namespace talus

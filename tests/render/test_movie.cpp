@@ -1,0 +1,125 @@
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+
+#include "core/errors.h"
+#include "render/movie.h"
+#include "render/temporary_folder.h"
+
+namespace talus {
+namespace {
+
+Image frame(int width, int height, int k) {
+  Image image{width, height, {}};
+  image.gray.assign(static_cast<std::size_t>(width) * static_cast<std::size_t>(height),
+                    static_cast<std::uint8_t>(10 * k));
+  return image;
+}
+
+void make_movie(const std::string& path, int frames) {
+  Movie movie(path, 161, 99, 10.0);
+  for (int k = 0; k < frames; ++k) movie.add(frame(161, 99, k));
+  movie.finish();
+}
+
+std::string output_of(const std::string& command) {
+  std::FILE* pipe = popen(command.c_str(), "r");
+  std::string output;
+  for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) output.push_back(static_cast<char>(c));
+  pclose(pipe);
+  return output;
+}
+
+/// Another PATH while it lives.
+class SearchPath {
+ public:
+  explicit SearchPath(const std::string& path) : before_(std::getenv("PATH")) {
+    setenv("PATH", path.c_str(), 1);
+  }
+  ~SearchPath() { setenv("PATH", before_.c_str(), 1); }
+  SearchPath(const SearchPath&) = delete;
+  SearchPath& operator=(const SearchPath&) = delete;
+
+ private:
+  std::string before_;
+};
+
+/// A program called ffmpeg that does what the shell script says.
+void write_false_ffmpeg(const std::string& path, const std::string& script) {
+  std::ofstream(path) << "#!/bin/sh\n" << script << "\n";
+  std::filesystem::permissions(path, std::filesystem::perms::owner_all);
+}
+
+struct Failure {
+  ExitCode code = ExitCode::done;
+  std::string message;
+};
+
+Failure failure_of_movie(const std::string& path, int frames) {
+  try {
+    make_movie(path, frames);
+  } catch (const Error& error) {
+    return {error.code(), error.what()};
+  }
+  return {};
+}
+
+TEST(Movie, HasAllFrames) {
+  if (std::system("ffmpeg -version >/dev/null 2>&1") != 0 ||
+      std::system("ffprobe -version >/dev/null 2>&1") != 0)
+    GTEST_SKIP() << "ffmpeg or ffprobe is not installed";
+  const test::TemporaryFolder folder;
+  for (auto [name, size] : {std::pair{"a.mp4", "162,100,12"}, {"a.gif", "161,99,12"}}) {
+    make_movie(folder.file(name), 12);
+    EXPECT_EQ(
+        output_of(
+            "ffprobe -v error -count_frames -show_entries stream=width,height,nb_read_frames -of csv=p=0 " +
+            folder.file(name)),
+        std::string(size) + "\n");
+  }
+}
+
+TEST(Movie, SaysThatFfmpegIsMissing) {
+  const test::TemporaryFolder folder;
+  const SearchPath nowhere(folder.file("bin"));
+  const Failure failure = failure_of_movie(folder.file("a.mp4"), 1);
+  EXPECT_EQ(failure.code, ExitCode::unavailable);
+  EXPECT_NE(failure.message.find("apt-get install ffmpeg"), std::string::npos) << failure.message;
+  EXPECT_TRUE(folder.empty());
+}
+
+TEST(Movie, ReportsWhatFfmpegSaysAndLeavesNothing) {
+  const test::TemporaryFolder folder, tools;
+  const SearchPath here(tools.file("") + ":/usr/bin:/bin");
+  // One that reads all and fails at its end, and one that leaves at once while frames are still coming.
+  for (const char* script :
+       {"cat >/dev/null; echo encoder on strike >&2; exit 1", "echo encoder on strike >&2; exit 1"}) {
+    write_false_ffmpeg(tools.file("ffmpeg"), script);
+    const Failure failure = failure_of_movie(folder.file("a.mp4"), 200);
+    EXPECT_EQ(failure.code, ExitCode::io_error);
+    EXPECT_NE(failure.message.find("encoder on strike"), std::string::npos) << failure.message;
+    EXPECT_TRUE(folder.empty());
+  }
+}
+
+TEST(Movie, LeavesNothingWhenGivenUp) {
+  const test::TemporaryFolder folder, tools;
+  const SearchPath here(tools.file("") + ":/usr/bin:/bin");
+  write_false_ffmpeg(tools.file("ffmpeg"), "exec cat >/dev/null");
+  { Movie movie(folder.file("a.mp4"), 161, 99, 10.0); }
+  EXPECT_TRUE(folder.empty());
+}
+
+TEST(Movie, RefusesOtherFormatsAndSizes) {
+  const test::TemporaryFolder folder, tools;
+  EXPECT_EQ(failure_of_movie(folder.file("a.avi"), 1).code, ExitCode::usage);
+  EXPECT_EQ(failure_of_movie(folder.file("missing/a.mp4"), 1).code, ExitCode::cannot_create);
+  const SearchPath here(tools.file("") + ":/usr/bin:/bin");
+  write_false_ffmpeg(tools.file("ffmpeg"), "exec cat >/dev/null");
+  Movie movie(folder.file("a.mp4"), 161, 99, 10.0);
+  EXPECT_THROW(movie.add(frame(161, 98, 0)), Error);
+}
+
+}  // namespace
+}  // namespace talus
