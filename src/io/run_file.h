@@ -1,6 +1,8 @@
 #pragma once
-/// Reading a run, packed or still a folder, frame by frame in bounded memory.
+/// Reading a run, packed or still a folder, frame by frame in bounded memory. Every byte is compared with its
+/// hash before it is interpreted.
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -11,8 +13,9 @@ namespace talus {
 
 class RunFile {
  public:
-  /// Opens `path`: a packed file, a folder `path.run/`, or such a folder by its own name.
-  /// Throws Error(missing_input) or Error(bad_data) with the name of the data set that is wrong.
+  /// Opens `path`: a packed file, a folder `path.run/`, or such a folder by its own name; its writer may be
+  /// at work. Throws Error(missing_input) where there is no such run, and Error(bad_data) with the name of
+  /// the file or data set that is damaged.
   static RunFile open(const std::string& path);
 
   RunFile(RunFile&&) noexcept;
@@ -20,18 +23,22 @@ class RunFile {
   ~RunFile();
 
   const RunHeader& header() const;
-  bool complete() const;                           ///< false for the folder of an interrupted or running run
+  bool complete() const;  ///< false for the folder of an interrupted or running run
   std::size_t frame_count() const;
+  std::uint64_t contact_count() const;             ///< of all frames together
   const std::vector<double>& frame_tilts() const;  ///< rad, ascending
-  /// Frame k with everything stored. Values are those of the file (single precision where it stores floats).
+  /// Frame k with everything stored, k < frame_count(). Values are those of the file (single precision where
+  /// it stores floats). Not for several threads at once.
   Frame frame(std::size_t k) const;
   std::vector<ObservableRow> observables() const;
   std::vector<StepRow> steps() const;
-  const Checkpoint& checkpoint() const;            ///< the last state, with results and timing
+  const Checkpoint& checkpoint() const;  ///< the last state, with results and timing
 
  private:
   struct State;
   explicit RunFile(std::unique_ptr<State> state);
+  static RunFile open_packed(const std::string& path);
+  static RunFile open_folder(const std::string& folder);
   std::unique_ptr<State> state_;
 };
 

@@ -18,7 +18,7 @@ struct RunHeader {
   std::string scenario_given;     ///< TOML as the user wrote it
   std::string scenario_resolved;  ///< TOML with every key
   std::uint64_t seed = 0;
-  Facts provenance;               ///< version, git_hash, compiler, flags, host, threads, argv, start, ...
+  Facts provenance;  ///< version, git_hash, compiler, flags, host, threads, argv, start, ...
 };
 
 /// What has happened since the last commit.
@@ -43,7 +43,8 @@ struct Checkpoint {
 class RunStore {
  public:
   /// A new run. Throws Error(cannot_create) where `path` or its folder exists, unless `overwrite`, or where
-  /// another process holds the lock.
+  /// another process holds the lock. The run exists from its first commit on: what a kill leaves before that
+  /// is cleared away here.
   static RunStore create(const std::string& path, const RunHeader& header, bool overwrite);
 
   /// The folder of an interrupted run, and its last checkpoint. Throws as create does, Error(missing_input)
@@ -58,7 +59,8 @@ class RunStore {
   /// either all of this commit or nothing of it.
   void commit(const Segment& segment, const Checkpoint& checkpoint);
 
-  /// Packs everything committed into the file at `path` (written beside, then renamed) and removes the folder.
+  /// Packs everything committed into the file at `path` (written in the folder, then renamed), and removes
+  /// the folder. Ends the store. Where it throws, the folder is kept, and pack can be called again.
   void pack();
 
   /// Seconds spent in commit so far.
@@ -70,8 +72,12 @@ class RunStore {
   std::unique_ptr<State> state_;
 };
 
-/// Whether `path` is a packed run file, a run folder (with no packed file yet), or neither.
+/// Whether `path` is a packed run file, a run folder with something committed (and no packed file yet), or
+/// neither.
 enum class RunPresence { none, folder, packed };
 RunPresence run_presence(const std::string& path);
+
+/// The folder in which the run `path` is computed.
+std::string run_folder(const std::string& path);
 
 }  // namespace talus

@@ -1,0 +1,222 @@
+/// `talus info`: what a run holds.
+
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <memory>
+#include <optional>
+
+#include "app/commands.h"
+#include "core/errors.h"
+#include "core/hash.h"
+#include "core/trigonometry.h"
+#include "io/run_file.h"
+#include "session/scenario.h"
+
+namespace talus {
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+struct RunInfo {
+  std::string path;
+  bool complete = false;
+  std::uint64_t seed = 0;
+  Index grains = 0;  ///< free
+  Index floor_grains = 0;
+  std::size_t frames = 0;
+  double tilt_first = none;  ///< rad, of the frames
+  double tilt_last = none;
+  double tilt = 0.0;  ///< rad, of the last state
+  std::size_t steps = 0;
+  std::size_t unconverged_steps = 0;  ///< of the tilt
+  double solver_tolerance = none;     ///< asked of a bed at rest
+  double residual_max = none;         ///< worst natural-map residual of the steps of the tilt
+  std::string state_hash;
+  Facts provenance;
+  Figures results;  ///< SI
+  Figures timing;   ///< s
+};
+
+std::string fact(const Facts& facts, const std::string& name) {
+  for (const auto& [key, value] : facts)
+    if (key == name) return value;
+  return "unknown";
+}
+
+double figure(const Figures& figures, const std::string& name) {
+  for (const auto& [key, value] : figures)
+    if (key == name) return value;
+  return none;
+}
+
+/// The tolerance of the stored scenario; none where it is a scenario of another version.
+double tolerance_of(const RunHeader& header, const std::string& path) {
+  try {
+    return parse_scenario(header.scenario_resolved, path).solver.tolerance;
+  } catch (const Error&) {
+    return none;
+  }
+}
+
+void count_steps(const std::vector<StepRow>& steps, RunInfo& info) {
+  info.steps = steps.size();
+  for (const StepRow& row : steps) {
+    if (at(row, StepField::phase) != 1.0) continue;
+    info.residual_max = std::fmax(info.residual_max, at(row, StepField::residual));
+    if (at(row, StepField::converged) == 0.0) ++info.unconverged_steps;
+  }
+}
+
+RunInfo look_at(const std::string& path) {
+  const RunFile run = RunFile::open(path);
+  const RunStatics& statics = run.header().statics;
+  RunInfo info;
+  info.path = path;
+  info.complete = run.complete();
+  info.seed = run.header().seed;
+  info.grains = statics.free_count;
+  info.floor_grains = static_cast<Index>(statics.radius.size()) - statics.free_count;
+  info.frames = run.frame_count();
+  if (info.frames > 0) {
+    info.tilt_first = run.frame_tilts().front();
+    info.tilt_last = run.frame_tilts().back();
+  }
+  info.tilt = run.checkpoint().world.tilt;
+  count_steps(run.steps(), info);
+  info.solver_tolerance = tolerance_of(run.header(), path);
+  info.state_hash = hash_text(state_hash(run.checkpoint().world));
+  info.provenance = run.header().provenance;
+  info.results = run.checkpoint().results;
+  info.timing = run.checkpoint().timing;
+  return info;
+}
+
+/// The shortest text that gives the same number back; null where it is none.
+std::string json(double value) {
+  if (!std::isfinite(value)) return "null";
+  char text[32];
+  return {text, std::to_chars(text, text + sizeof text, value).ptr};
+}
+
+std::string json(bool value) { return value ? "true" : "false"; }
+template <std::integral Integer>
+std::string json(Integer value) {
+  return std::to_string(value);
+}
+
+std::string json(const std::string& text) {
+  std::string quoted = "\"";
+  for (const char c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    char escape[8] = {c, '\0'};
+    if (c == '"' || c == '\\') std::snprintf(escape, sizeof escape, "\\%c", c);
+    if (code < 0x20) std::snprintf(escape, sizeof escape, "\\u%04x", code);
+    quoted += escape;
+  }
+  return quoted + "\"";
+}
+
+template <typename Value>
+std::string json(const std::vector<std::pair<std::string, Value>>& members) {
+  std::string text = "{";
+  for (const auto& [name, value] : members) {
+    if (text.size() > 1) text += ", ";
+    text += json(name);
+    text += ": ";
+    text += json(value);
+  }
+  return text + "}";
+}
+
+void print_json(const RunInfo& info) {
+  const Facts members = {
+      {"path", json(info.path)},
+      {"complete", json(info.complete)},
+      {"seed", json(info.seed)},
+      {"grains", json(info.grains)},
+      {"floor_grains", json(info.floor_grains)},
+      {"frames", json(info.frames)},
+      {"tilt_first_deg", json(degrees(info.tilt_first))},
+      {"tilt_last_deg", json(degrees(info.tilt_last))},
+      {"tilt_deg", json(degrees(info.tilt))},
+      {"theta_c", json(degrees(figure(info.results, "theta_c")))},
+      {"solver_tolerance", json(info.solver_tolerance)},
+      {"residual_max", json(info.residual_max)},
+      {"unconverged_steps", json(info.unconverged_steps)},
+      {"steps", json(info.steps)},
+      {"state_hash", json(info.state_hash)},
+      {"talus_version", json(fact(info.provenance, "version"))},
+      {"git_hash", json(fact(info.provenance, "git_hash"))},
+      {"results", json(info.results)},
+      {"timing", json(info.timing)},
+      {"provenance", json(info.provenance)},
+  };
+  std::string text;
+  for (const auto& [name, value] : members)
+    text += (text.empty() ? "{\n  " : ",\n  ") + json(name) + ": " + value;
+  std::printf("%s\n}\n", text.c_str());
+}
+
+void print_line(const char* name, const std::string& value) { std::printf("%-20s%s\n", name, value.c_str()); }
+
+std::string in_degrees(double angle) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3f deg", degrees(angle));
+  return text;
+}
+
+std::string short_number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", value);
+  return std::isnan(value) ? "none" : text;
+}
+
+void print_text(const RunInfo& info) {
+  const double theta_c = figure(info.results, "theta_c");
+  print_line("run", info.path + (info.complete ? "" : " (not complete, at " + in_degrees(info.tilt) + ")"));
+  print_line("version", fact(info.provenance, "version") + " (" + fact(info.provenance, "git_hash") + ")");
+  print_line("seed", std::to_string(info.seed));
+  print_line("grains",
+             std::to_string(info.grains) + " free, " + std::to_string(info.floor_grains) + " on the floor");
+  print_line("frames",
+             std::to_string(info.frames) + (info.frames == 0 ? ""
+                                                             : ", tilt " + in_degrees(info.tilt_first) +
+                                                                   " to " + in_degrees(info.tilt_last)));
+  print_line("theta_c", std::isnan(theta_c) ? "none: the slope has not failed" : in_degrees(theta_c));
+  print_line("solver tolerance", short_number(info.solver_tolerance));
+  print_line("worst residual", short_number(info.residual_max) + " in the tilt, " +
+                                   std::to_string(info.unconverged_steps) + " of its steps not converged");
+  print_line("steps", std::to_string(info.steps));
+  print_line("state hash", info.state_hash);
+  std::printf("results (SI)\n");
+  for (const auto& [name, value] : info.results)
+    std::printf("  %-30s%s\n", name.c_str(), short_number(value).c_str());
+  std::printf("timing (s)\n");
+  for (const auto& [name, value] : info.timing) std::printf("  %-30s%.3f\n", name.c_str(), value);
+}
+
+}  // namespace
+
+void add_info_command(CLI::App& app) {
+  struct Arguments {
+    std::string path;
+    bool json = false;
+  };
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand("info", "Print what a run holds");
+  command->add_option("run", arguments->path, "Run file, or the name of a run that is not complete")
+      ->required();
+  command->add_flag("--json", arguments->json,
+                    "As JSON: theta_c and keys ending in _deg in degrees, results and timing in SI units");
+  command->callback([arguments] {
+    const RunInfo info = look_at(arguments->path);
+    if (arguments->json)
+      print_json(info);
+    else
+      print_text(info);
+  });
+}
+
+}  // namespace talus

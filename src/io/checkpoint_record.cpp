@@ -1,0 +1,154 @@
+#include <array>
+
+#include "core/hash.h"
+#include "io/run_records.h"
+
+namespace talus {
+namespace {
+
+const std::string here = "/checkpoint/";
+
+struct GrainField {
+  const char* name;
+  std::vector<double> Grains::*values;
+};
+constexpr std::array<GrainField, 11> grain_fields = {{{"x", &Grains::x},
+                                                      {"y", &Grains::y},
+                                                      {"vx", &Grains::vx},
+                                                      {"vy", &Grains::vy},
+                                                      {"omega", &Grains::omega},
+                                                      {"radius", &Grains::radius},
+                                                      {"inverse_mass", &Grains::inverse_mass},
+                                                      {"inverse_inertia", &Grains::inverse_inertia},
+                                                      {"mass", &Grains::mass},
+                                                      {"inertia", &Grains::inertia},
+                                                      {"angle", &Grains::angle}}};
+
+void write_boundary(hdf5::Writer& writer, const Boundary& boundary) {
+  std::vector<double> normal, offset;
+  std::vector<std::int8_t> wall;
+  for (const Plane& plane : boundary.planes) {
+    normal.insert(normal.end(), {plane.normal.x, plane.normal.y});
+    offset.push_back(plane.offset);
+    wall.push_back(plane.wall ? 1 : 0);
+  }
+  writer.write_scalar<std::int8_t>(here + "periodic", boundary.periodic ? 1 : 0);
+  writer.write_scalar(here + "length", boundary.length);
+  writer.write(here + "plane_normal", normal);
+  writer.write(here + "plane_offset", offset);
+  writer.write(here + "plane_wall", wall);
+}
+
+Boundary read_boundary(hdf5::Reader& reader) {
+  Boundary boundary;
+  boundary.periodic = reader.read_scalar<std::int8_t>(here + "periodic") != 0;
+  boundary.length = reader.read_scalar<double>(here + "length");
+  const auto normal = reader.read<double>(here + "plane_normal");
+  const auto offset = reader.read<double>(here + "plane_offset");
+  const auto wall = reader.read<std::int8_t>(here + "plane_wall");
+  for (std::size_t k = 0; k < offset.size(); ++k)
+    boundary.planes.push_back({{normal[2 * k], normal[2 * k + 1]}, offset[k], wall[k] != 0});
+  return boundary;
+}
+
+void write_memory(hdf5::Writer& writer, const Contacts& c) {
+  writer.write(here + "contact_pair", interleaved(c.a, c.b));
+  writer.write(here + "contact_shift", c.shift);
+  writer.write(here + "contact_normal", interleaved(c.nx, c.ny));
+  writer.write(here + "contact_gap", c.gap);
+  writer.write(here + "contact_force", interleaved(c.fn, c.ft));
+}
+
+Contacts read_memory(hdf5::Reader& reader) {
+  Contacts c;
+  const auto pair = reader.read<Index>(here + "contact_pair");
+  const auto normal = reader.read<double>(here + "contact_normal");
+  const auto force = reader.read<double>(here + "contact_force");
+  c.a = component(pair, 2, 0);
+  c.b = component(pair, 2, 1);
+  c.shift = reader.read<std::int8_t>(here + "contact_shift");
+  c.nx = component(normal, 2, 0);
+  c.ny = component(normal, 2, 1);
+  c.gap = reader.read<double>(here + "contact_gap");
+  c.fn = component(force, 2, 0);
+  c.ft = component(force, 2, 1);
+  return c;
+}
+
+void write_world(hdf5::Writer& writer, const World& world) {
+  writer.write_text(here + "state_hash", hash_text(state_hash(world)));
+  writer.write_scalar(here + "step", world.step);
+  writer.write_scalar(here + "time", world.time);
+  writer.write_scalar(here + "tilt", world.tilt);
+  writer.write_scalar(here + "gravity", world.gravity);
+  writer.write_scalar(here + "free_count", world.grains.free_count);
+  for (const GrainField& field : grain_fields) writer.write(here + field.name, world.grains.*field.values);
+  writer.write(here + "image", world.grains.image);
+  write_boundary(writer, world.boundary);
+  write_memory(writer, world.contacts);
+}
+
+World read_world(hdf5::Reader& reader) {
+  World world;
+  world.step = reader.read_scalar<std::int64_t>(here + "step");
+  world.time = reader.read_scalar<double>(here + "time");
+  world.tilt = reader.read_scalar<double>(here + "tilt");
+  world.gravity = reader.read_scalar<double>(here + "gravity");
+  for (const GrainField& field : grain_fields)
+    world.grains.*field.values = reader.read<double>(here + field.name);
+  world.grains.image = reader.read<Index>(here + "image");
+  world.grains.free_count = reader.read_scalar<Index>(here + "free_count");
+  if (world.grains.free_count < 0 || world.grains.free_count > world.grains.count())
+    reader.refuse(here + "free_count", "is not between 0 and the number of grains");
+  world.boundary = read_boundary(reader);
+  world.contacts = read_memory(reader);
+  const auto bodies = static_cast<std::size_t>(world.grains.count()) + world.boundary.planes.size();
+  for (std::size_t c = 0; c < world.contacts.a.size(); ++c)
+    if (world.contacts.a[c] < 0 || world.contacts.b[c] < 0 ||
+        static_cast<std::size_t>(std::max(world.contacts.a[c], world.contacts.b[c])) >= bodies)
+      reader.refuse(here + "contact_pair", "names a body that does not exist");
+  return world;
+}
+
+std::string member(const std::string& group, const std::string& name) {
+  std::string path = group;
+  path += '/';
+  path += name;
+  return path;
+}
+
+template <typename Named>
+void write_named(hdf5::Writer& writer, const std::string& group, const Named& values) {
+  writer.create_group(group);
+  for (const auto& [name, value] : values) writer.write_scalar(member(group, name), value);
+}
+
+template <typename T>
+std::vector<std::pair<std::string, T>> read_named(hdf5::Reader& reader, const std::string& group) {
+  std::vector<std::pair<std::string, T>> values;
+  for (const std::string& name : reader.names(group))
+    values.emplace_back(name, reader.read_scalar<T>(member(group, name)));
+  return values;
+}
+
+}  // namespace
+
+void write_checkpoint(hdf5::Writer& writer, const Checkpoint& checkpoint) {
+  write_world(writer, checkpoint.world);
+  write_named(writer, "/checkpoint/integers", checkpoint.integers);
+  write_named(writer, "/checkpoint/reals", checkpoint.reals);
+  write_named(writer, "/results", checkpoint.results);
+  write_named(writer, "/provenance/timing", checkpoint.timing);
+}
+
+Checkpoint read_checkpoint(hdf5::Reader& reader) {
+  Checkpoint checkpoint;
+  checkpoint.world = read_world(reader);
+  checkpoint.integers = read_named<std::int64_t>(reader, "/checkpoint/integers");
+  checkpoint.reals = read_named<double>(reader, "/checkpoint/reals");
+  checkpoint.results = read_named<double>(reader, "/results");
+  checkpoint.timing = read_named<double>(reader, "/provenance/timing");
+  return checkpoint;
+}
+
+}  // namespace talus

@@ -1,0 +1,232 @@
+#include "io/hdf5_writer.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "core/errors.h"
+
+namespace talus::hdf5 {
+namespace {
+
+constexpr std::size_t growth = std::size_t{1} << 20;  // bytes by which the image in memory grows
+constexpr hsize_t series_chunk = 1 << 16;             // rows of a series in a chunk
+constexpr std::size_t default_chunk_cache = std::size_t{1} << 20;
+constexpr unsigned deflate_level = 4;
+
+/// Passes on what HDF5 returned, unless it is a failure.
+template <typename Result>
+Result checked(Result result, const std::string& action) {
+  if (result < 0) throw Error(ExitCode::io_error, "HDF5 cannot " + action + " (in memory)");
+  return result;
+}
+
+std::string parent_of(const std::string& path) { return path.substr(0, path.rfind('/')); }
+
+Handle text_type(std::size_t length) {
+  Handle type(checked(H5Tcopy(H5T_C_S1), "copy a type"), H5Tclose);
+  checked(H5Tset_size(type.get(), std::max<std::size_t>(1, length)), "set the length of a text");
+  checked(H5Tset_strpad(type.get(), H5T_STR_NULLPAD), "set the padding of a text");
+  checked(H5Tset_cset(type.get(), H5T_CSET_UTF8), "set the character set of a text");
+  return type;
+}
+
+Handle space_of(const std::vector<hsize_t>& dims) {
+  const hid_t space = dims.empty() ? H5Screate(H5S_SCALAR)
+                                   : H5Screate_simple(static_cast<int>(dims.size()), dims.data(), nullptr);
+  return Handle(checked(space, "create a shape"), H5Sclose);
+}
+
+void attach(hid_t object, const char* name, hid_t type, const std::vector<hsize_t>& dims, const void* data) {
+  const Handle space = space_of(dims);
+  const Handle attribute(checked(H5Acreate2(object, name, type, space.get(), H5P_DEFAULT, H5P_DEFAULT),
+                                 std::string("create attribute ") + name),
+                         H5Aclose);
+  checked(H5Awrite(attribute.get(), type, data), std::string("write attribute ") + name);
+}
+
+void attach_text(hid_t object, const char* name, const std::string& text) {
+  attach(object, name, text_type(text.size()).get(), {}, text.c_str());
+}
+
+Handle properties(hid_t kind) {
+  Handle list(checked(H5Pcreate(kind), "create properties"), H5Pclose);
+  if (kind != H5P_FILE_ACCESS && kind != H5P_FILE_CREATE && kind != H5P_DATASET_ACCESS)
+    checked(H5Pset_obj_track_times(list.get(), false), "leave out times");  // equal runs, equal bytes
+  return list;
+}
+
+/// The shape of a chunk; empty for data that is stored in one piece as it is.
+std::vector<hsize_t> chunk_of(const DataSetField& field, const std::vector<hsize_t>& dims,
+                              const Sizes& sizes) {
+  if (dims.empty() || std::ranges::count(dims, 0u) > 0) return {};
+  std::vector<hsize_t> chunk = dims;
+  const char symbol = extents(field).front().symbol;
+  if (symbol == 'T' && dims.size() > 1)
+    chunk[0] = 1;
+  else if (symbol == 'M')
+    chunk[0] = (dims[0] + sizes.at('T') - 1) / sizes.at('T');  // about one frame
+  else if (symbol == 'R' || symbol == 'S')
+    chunk[0] = std::min(dims[0], series_chunk);
+  else
+    return {};
+  return chunk;
+}
+
+Handle creation_properties(ElementType type, const std::vector<hsize_t>& chunk) {
+  Handle list = properties(H5P_DATASET_CREATE);
+  if (type == ElementType::float32 || type == ElementType::float64) {
+    const double nan =
+        std::numeric_limits<double>::quiet_NaN();  // a value never written must not read as zero
+    checked(H5Pset_fill_value(list.get(), H5T_NATIVE_DOUBLE, &nan), "set the fill value");
+  }
+  if (chunk.empty()) return list;
+  checked(H5Pset_chunk(list.get(), static_cast<int>(chunk.size()), chunk.data()), "set the chunks");
+  checked(H5Pset_shuffle(list.get()), "shuffle");
+  checked(H5Pset_deflate(list.get(), deflate_level), "deflate");
+  return list;
+}
+
+/// A cache that holds the chunk being filled, whatever its size.
+Handle access_properties(const std::vector<hsize_t>& chunk) {
+  std::size_t bytes = sizeof(double);
+  for (hsize_t extent : chunk) bytes *= extent;
+  Handle access = properties(H5P_DATASET_ACCESS);
+  checked(H5Pset_chunk_cache(access.get(), H5D_CHUNK_CACHE_NSLOTS_DEFAULT,
+                             std::max(default_chunk_cache, bytes), 1.0),
+          "size the chunk cache");
+  return access;
+}
+
+}  // namespace
+
+Writer::Writer(Sizes sizes, std::size_t user_block) : sizes_(std::move(sizes)), user_block_(user_block) {
+  set_library_policy();
+  const Handle access = properties(H5P_FILE_ACCESS);
+  checked(H5Pset_fapl_core(access.get(), growth, false), "choose memory");
+  const Handle creation = properties(H5P_FILE_CREATE);
+  checked(H5Pset_userblock(creation.get(), user_block), "keep a user block");
+  file_ =
+      Handle(checked(H5Fcreate(memory_name("written").c_str(), H5F_ACC_TRUNC, creation.get(), access.get()),
+                     "create a file"),
+             H5Fclose);
+}
+
+std::vector<hsize_t> Writer::dims_of(const DataSetField& field) const {
+  std::vector<hsize_t> dims;
+  for (const Extent& extent : extents(field))
+    dims.push_back((extent.symbol != '\0' ? sizes_.at(extent.symbol) : 0) + extent.plus);
+  return dims;
+}
+
+void Writer::create(const std::string& path) {
+  const DataSetField& field = field_of(path);
+  create_group(parent_of(path));
+  DataSet set;
+  set.dims = dims_of(field);
+  const std::vector<hsize_t> chunk = chunk_of(field, set.dims, sizes_);
+  const Handle space = space_of(set.dims);
+  const Handle creation = creation_properties(field.type, chunk);
+  const Handle access = access_properties(chunk);
+  set.id = Handle(checked(H5Dcreate2(file_.get(), path.c_str(), file_type(field.type), space.get(),
+                                     H5P_DEFAULT, creation.get(), access.get()),
+                          "create " + path),
+                  H5Dclose);
+  attach_text(set.id.get(), "unit", field.unit);
+  open_.insert_or_assign(path, std::move(set));
+}
+
+void Writer::write_block(const std::string& path, std::uint64_t first_row, std::size_t count, hid_t type,
+                         const void* data) {
+  const DataSet& set = open_.at(path);
+  std::vector<hsize_t> block = set.dims, start(set.dims.size(), 0);
+  std::size_t row = 1;
+  for (std::size_t d = 1; d < block.size(); ++d) row *= block[d];
+  if (!block.empty()) {
+    start[0] = first_row;
+    block[0] = row > 0 ? count / row : 0;
+  }
+  const std::size_t expected = block.empty() ? 1 : block[0] * row;
+  if (count != expected || (!block.empty() && start[0] + block[0] > set.dims[0]))
+    throw Error(ExitCode::internal, std::to_string(count) + " values from row " + std::to_string(first_row) +
+                                        " do not fit into " + path + " of shape [" + field_of(path).shape +
+                                        "]");
+  if (count == 0) return;
+  const Handle space = space_of(set.dims), memory = space_of(block);
+  if (!block.empty())
+    checked(H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start.data(), nullptr, block.data(), nullptr),
+            "select rows of " + path);
+  checked(H5Dwrite(set.id.get(), type, memory.get(), space.get(), H5P_DEFAULT, data), "write " + path);
+}
+
+void Writer::put_text(const std::string& path, const std::string& text, const std::string& unit) {
+  create_group(parent_of(path));
+  const Handle type = text_type(text.size()), space = space_of({}), creation = properties(H5P_DATASET_CREATE);
+  const Handle set(checked(H5Dcreate2(file_.get(), path.c_str(), type.get(), space.get(), H5P_DEFAULT,
+                                      creation.get(), H5P_DEFAULT),
+                           "create " + path),
+                   H5Dclose);
+  checked(H5Dwrite(set.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, text.c_str()), "write " + path);
+  attach_text(set.get(), "unit", unit);
+}
+
+void Writer::write_text(const std::string& path, const std::string& text) {
+  put_text(path, text, field_of(path).unit);
+}
+
+void Writer::write_help(const std::string& path, const std::string& text) {
+  put_text("/help" + path, text, "1");
+}
+
+void Writer::create_group(const std::string& path) {
+  if (path.empty()) return;
+  create_group(parent_of(path));
+  if (checked(H5Lexists(file_.get(), path.c_str(), H5P_DEFAULT), "look for " + path) > 0) return;
+  const Handle creation = properties(H5P_GROUP_CREATE);
+  checked(H5Pset_link_creation_order(creation.get(), H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED),
+          "keep the order of " + path);
+  const Handle group(checked(H5Gcreate2(file_.get(), path.c_str(), H5P_DEFAULT, creation.get(), H5P_DEFAULT),
+                             "create " + path),
+                     H5Gclose);
+}
+
+void Writer::link(const std::string& path, const std::string& second_path) {
+  checked(
+      H5Lcreate_hard(file_.get(), path.c_str(), file_.get(), second_path.c_str(), H5P_DEFAULT, H5P_DEFAULT),
+      "link " + second_path);
+}
+
+void Writer::set_attribute(const std::string& path, const char* name,
+                           const std::vector<std::int32_t>& values) {
+  create_group(path);
+  const Handle object(checked(H5Oopen(file_.get(), path.c_str(), H5P_DEFAULT), "open " + path), H5Oclose);
+  std::vector<hsize_t> dims;
+  if (values.size() > 1) dims.push_back(values.size());
+  attach(object.get(), name, H5T_STD_I32LE, dims, values.data());
+}
+
+void Writer::set_attribute(const std::string& path, const char* name, const std::vector<std::string>& texts) {
+  create_group(path);
+  const Handle object(checked(H5Oopen(file_.get(), path.c_str(), H5P_DEFAULT), "open " + path), H5Oclose);
+  std::size_t length = 1;
+  for (const std::string& text : texts) length = std::max(length, text.size());
+  std::string padded;
+  for (const std::string& text : texts) padded += text + std::string(length - text.size(), '\0');
+  attach(object.get(), name, text_type(length).get(), {texts.size()}, padded.data());
+}
+
+void Writer::set_attribute(const std::string& path, const char* name, const std::string& text) {
+  create_group(path);
+  const Handle object(checked(H5Oopen(file_.get(), path.c_str(), H5P_DEFAULT), "open " + path), H5Oclose);
+  attach_text(object.get(), name, text);
+}
+
+std::vector<std::byte> Writer::image() {
+  checked(H5Fflush(file_.get(), H5F_SCOPE_LOCAL), "complete a file");
+  const ssize_t size = checked(H5Fget_file_image(file_.get(), nullptr, 0), "measure a file");
+  std::vector<std::byte> bytes(user_block_ + static_cast<std::size_t>(size));
+  checked(H5Fget_file_image(file_.get(), bytes.data() + user_block_, static_cast<std::size_t>(size)),
+          "copy a file");
+  return bytes;
+}
+
+}  // namespace talus::hdf5

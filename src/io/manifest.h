@@ -1,0 +1,45 @@
+#pragma once
+/// The manifest of a run folder: the single point at which a commit happens.
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace talus {
+
+/// A file of the folder, with what proves that it is whole.
+struct StoredFile {
+  std::string name;
+  std::uint64_t size = 0;
+  std::uint64_t hash = 0;  ///< XXH3 of its bytes
+};
+StoredFile describe(const std::string& name, std::span<const std::byte> bytes);
+
+struct StoredSegment {
+  StoredFile file;
+  std::uint64_t frames = 0;
+  std::uint64_t contacts = 0;     ///< of all frames
+  std::uint64_t observables = 0;  ///< rows
+  std::uint64_t steps = 0;        ///< rows
+};
+
+struct Manifest {
+  static constexpr const char* file_name = "manifest";
+
+  StoredFile header;
+  StoredFile checkpoint;
+  std::vector<StoredSegment> segments;
+};
+
+/// Lines of words, the last with the hash of all before it.
+std::string manifest_text(const Manifest& manifest);
+
+/// Reads `folder`/manifest. Throws Error(missing_input) where there is none, and Error(bad_data) where it is
+/// damaged.
+Manifest read_manifest(const std::string& folder);
+
+/// The bytes of a file of the folder. Throws Error(bad_data) where they are not those the manifest describes.
+std::vector<std::byte> read_stored(const std::string& folder, const StoredFile& file);
+
+}  // namespace talus

@@ -1,0 +1,102 @@
+#include "io/packed_file.h"
+
+#include <fcntl.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+
+#include "core/errors.h"
+#include "core/hash.h"
+#include "core/version.h"
+#include "io/descriptor.h"
+#include "io/run_records.h"
+
+namespace talus {
+namespace {
+
+constexpr const char* seal_begin = "talus run file 1\n";
+constexpr std::size_t read_size = std::size_t{1} << 20;
+
+std::vector<std::byte> seal_of(std::uint64_t size, std::uint64_t hash) {
+  const std::string text =
+      seal_begin + ("size " + std::to_string(size) + "\nxxh3 of all after byte 512 " + hash_text(hash)) +
+      "\n";
+  std::vector<std::byte> block(seal_size);
+  std::memcpy(block.data(), text.data(), text.size());
+  return block;
+}
+
+/// The metadata that H5MD 1.1 asks for.
+void write_h5md(hdf5::Writer& writer, const RunStatics& statics) {
+  writer.set_attribute("/h5md", "version", std::vector<std::int32_t>{1, 1});
+  writer.set_attribute("/h5md/author", "name", "unspecified");
+  writer.set_attribute("/h5md/creator", "name", "talus");
+  writer.set_attribute("/h5md/creator", "version", version);
+  const std::string box = "/particles/grains/box";
+  writer.set_attribute(box, "dimension", std::vector<std::int32_t>{2});
+  writer.set_attribute(box, "boundary",
+                       std::vector<std::string>{statics.periodic ? "periodic" : "none", "none"});
+}
+
+void write_help(hdf5::Writer& writer) {
+  for (const DataSetField& field : run_schema())
+    if (!field.path.ends_with("/*")) writer.write_help(field.path, field.help);
+}
+
+}  // namespace
+
+void seal(std::vector<std::byte>& file) {
+  const auto hash = hash_bytes(std::span(file).subspan(seal_size));
+  std::ranges::copy(seal_of(file.size(), hash), file.begin());
+}
+
+void verify_seal(const std::string& path) {
+  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  if (file.get() < 0) throw system_error(ExitCode::missing_input, "open", path, errno);
+  std::vector<std::byte> block(seal_size);
+  const std::size_t block_size = read_at_most(file, block, path);
+  if (std::memcmp(block.data(), seal_begin, std::strlen(seal_begin)) != 0)
+    throw Error(ExitCode::bad_data,
+                path + ": is not a Talus run file (it does not begin with 'talus run file 1')");
+  Hasher hasher;
+  std::uint64_t size = block_size;
+  std::vector<std::byte> buffer(read_size);
+  while (const std::size_t count = read_at_most(file, buffer, path)) {
+    hasher.add_bytes(buffer.data(), count);
+    size += count;
+  }
+  if (block != seal_of(size, hasher.value()))
+    throw Error(
+        ExitCode::bad_data,
+        path + ": is damaged: its " + std::to_string(size) + " bytes have the hash " +
+            hash_text(hasher.value()) +
+            ", its first lines say otherwise; restore it from a copy, or compute it again with --overwrite");
+}
+
+std::vector<std::byte> packed_bytes(const RunFile& run) {
+  const std::vector<ObservableRow> observables = run.observables();
+  const std::vector<StepRow> steps = run.steps();
+  const Checkpoint& checkpoint = run.checkpoint();
+  hdf5::Writer writer({{'T', run.frame_count()},
+                       {'N', run.header().statics.radius.size()},
+                       {'M', run.contact_count()},
+                       {'R', observables.size()},
+                       {'S', steps.size()},
+                       {'C', checkpoint.world.contacts.a.size()},
+                       {'P', checkpoint.world.boundary.planes.size()}},
+                      seal_size);
+  write_header(writer, run.header());
+  write_h5md(writer, run.header().statics);
+  write_frames(writer, [&run](std::size_t k) { return run.frame(k); });
+  write_observables(writer, observables);
+  write_steps(writer, steps);
+  write_checkpoint(writer, checkpoint);
+  write_help(writer);
+  std::vector<std::byte> file = writer.image();
+  seal(file);
+  return file;
+}
+
+}  // namespace talus

@@ -1,0 +1,27 @@
+#pragma once
+/// The packed file of a finished run: its seal, its H5MD metadata, its bytes. Private to this room.
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "io/run_file.h"
+
+namespace talus {
+
+/// Bytes before the HDF5 part (its "user block"): a text with the size and the hash of the file. With it
+/// damage anywhere is found before HDF5 sees the file, which malformed data can crash.
+inline constexpr std::size_t seal_size = 512;
+
+/// Fills the first seal_size bytes with the seal of the rest.
+void seal(std::vector<std::byte>& file);
+
+/// Reads the whole file at `path` once. Throws Error(missing_input) where it cannot be read and
+/// Error(bad_data) where its seal is missing or wrong.
+void verify_seal(const std::string& path);
+
+/// The packed file, sealed, of all that `run` holds. Equal runs give equal bytes, however they were
+/// committed.
+std::vector<std::byte> packed_bytes(const RunFile& run);
+
+}  // namespace talus

@@ -1,0 +1,171 @@
+#include "io/run_file.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+
+#include "core/errors.h"
+#include "io/durable_file.h"
+#include "io/manifest.h"
+#include "io/packed_file.h"
+#include "io/run_records.h"
+
+namespace talus {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Sizes of the letters of the shapes that a file must agree with.
+Sizes sizes_of(const StoredSegment& segment, std::size_t grains) {
+  return {{'T', segment.frames},
+          {'M', segment.contacts},
+          {'R', segment.observables},
+          {'S', segment.steps},
+          {'N', grains}};
+}
+
+hdf5::Reader open_stored(const std::string& folder, const StoredFile& file, const Sizes& known) {
+  return hdf5::Reader::from_memory(read_stored(folder, file), (fs::path(folder) / file.name).string(), known);
+}
+
+template <typename Row>
+void append(std::vector<Row>& rows, const std::vector<Row>& more) {
+  rows.insert(rows.end(), more.begin(), more.end());
+}
+
+}  // namespace
+
+/// A packed file is one segment that is open all the time; of a folder the segment used last is open.
+struct RunFile::State {
+  std::string folder;  ///< empty for a packed file
+  RunHeader header;
+  Checkpoint checkpoint;
+  std::vector<StoredSegment> segments;
+  std::vector<double> tilts;
+  std::size_t open_segment = 0;
+  std::optional<hdf5::Reader> reader;
+
+  hdf5::Reader& segment(std::size_t s) {
+    if (!reader || open_segment != s) {
+      reader = open_stored(folder, segments[s].file, sizes_of(segments[s], header.statics.radius.size()));
+      open_segment = s;
+    }
+    return *reader;
+  }
+
+  void read_tilts() {
+    for (std::size_t s = 0; s < segments.size(); ++s) append(tilts, segment(s).read<double>("/frames/tilt"));
+  }
+};
+
+namespace {
+
+/// What a packed file says of itself, in the words of a manifest.
+StoredSegment whole_file(hdf5::Reader& reader) {
+  StoredSegment segment;
+  segment.frames = reader.row_count("/frames/tilt");
+  segment.contacts = reader.row_count("/contacts/pair");
+  return segment;
+}
+
+[[noreturn]] void refuse_absent(const std::string& path) {
+  std::error_code unknown;
+  if (fs::is_directory(run_folder(path), unknown))
+    throw Error(ExitCode::missing_input, run_folder(path) +
+                                             ": nothing is committed there yet; wait for the first "
+                                             "checkpoint, or start again: talus run ... --resume");
+  throw Error(ExitCode::missing_input,
+              path + ": no such run; expected a run file, or a folder " + run_folder(path));
+}
+
+/// The folder of a run, or nothing where `path` is a packed file.
+std::optional<std::string> folder_to_read(const std::string& path) {
+  std::error_code unknown;
+  if (fs::is_regular_file(path, unknown)) return std::nullopt;
+  for (const std::string& folder : {path, run_folder(path)})
+    if (fs::exists(fs::path(folder) / Manifest::file_name, unknown)) return folder;
+  refuse_absent(path);
+}
+
+}  // namespace
+
+RunFile::RunFile(std::unique_ptr<State> state) : state_(std::move(state)) {}
+RunFile::RunFile(RunFile&&) noexcept = default;
+RunFile& RunFile::operator=(RunFile&&) noexcept = default;
+RunFile::~RunFile() = default;
+
+RunFile RunFile::open_packed(const std::string& path) {
+  verify_seal(path);
+  auto state = std::make_unique<State>();
+  state->reader = hdf5::Reader::from_file(path);
+  state->header = read_header(*state->reader);
+  state->checkpoint = read_checkpoint(*state->reader);
+  state->segments = {whole_file(*state->reader)};
+  state->read_tilts();
+  return RunFile(std::move(state));
+}
+
+RunFile RunFile::open_folder(const std::string& folder) {
+  const Manifest manifest = read_manifest(folder);
+  auto state = std::make_unique<State>();
+  state->folder = folder;
+  hdf5::Reader header = open_stored(folder, manifest.header, {});
+  state->header = read_header(header);
+  hdf5::Reader checkpoint =
+      open_stored(folder, manifest.checkpoint, {{'N', state->header.statics.radius.size()}});
+  state->checkpoint = read_checkpoint(checkpoint);
+  state->segments = manifest.segments;
+  state->read_tilts();
+  return RunFile(std::move(state));
+}
+
+RunFile RunFile::open(const std::string& path) {
+  for (int attempts_left = 5;; --attempts_left) {
+    const std::optional<std::string> folder = folder_to_read(path);
+    if (!folder) return open_packed(path);
+    const auto before = read_file((fs::path(*folder) / Manifest::file_name).string());
+    try {
+      return open_folder(*folder);
+    } catch (const Error&) {
+      // A writer at work replaces the checkpoint, and at the end packs the folder away: then look again.
+      const auto manifest = fs::path(*folder) / Manifest::file_name;
+      const bool changed = !fs::exists(manifest) || read_file(manifest.string()) != before;
+      if (!changed || attempts_left == 0) throw;
+    }
+  }
+}
+
+const RunHeader& RunFile::header() const { return state_->header; }
+bool RunFile::complete() const { return state_->folder.empty(); }
+std::size_t RunFile::frame_count() const { return state_->tilts.size(); }
+const std::vector<double>& RunFile::frame_tilts() const { return state_->tilts; }
+const Checkpoint& RunFile::checkpoint() const { return state_->checkpoint; }
+
+std::uint64_t RunFile::contact_count() const {
+  std::uint64_t count = 0;
+  for (const StoredSegment& segment : state_->segments) count += segment.contacts;
+  return count;
+}
+
+Frame RunFile::frame(std::size_t k) const {
+  std::size_t s = 0;
+  for (; s < state_->segments.size() && k >= state_->segments[s].frames; ++s) k -= state_->segments[s].frames;
+  if (s == state_->segments.size())
+    throw Error(ExitCode::internal, "the run has " + std::to_string(frame_count()) + " frames only");
+  return read_frame(state_->segment(s), k);
+}
+
+std::vector<ObservableRow> RunFile::observables() const {
+  std::vector<ObservableRow> rows;
+  for (std::size_t s = 0; s < state_->segments.size(); ++s)
+    append(rows, read_observables(state_->segment(s)));
+  return rows;
+}
+
+std::vector<StepRow> RunFile::steps() const {
+  std::vector<StepRow> rows;
+  for (std::size_t s = 0; s < state_->segments.size(); ++s) append(rows, read_steps(state_->segment(s)));
+  return rows;
+}
+
+}  // namespace talus

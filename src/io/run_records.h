@@ -1,0 +1,51 @@
+#pragma once
+/// The records of a run to and from HDF5: header, frames, series, checkpoint. The same data sets stand in the
+/// files of a run folder and in a packed file. Private to this room.
+
+#include <functional>
+
+#include "io/hdf5_reader.h"
+#include "io/hdf5_writer.h"
+#include "io/run_store.h"
+
+namespace talus {
+
+/// /parameters, /provenance and the static data sets of /particles. Sizes: N.
+void write_header(hdf5::Writer& writer, const RunHeader& header);
+RunHeader read_header(hdf5::Reader& reader);
+
+/// /frames, the time-dependent data sets of /particles, and /contacts. Sizes: T, N, M.
+/// `frame_at(k)` is called once for each frame, in order.
+void write_frames(hdf5::Writer& writer, const std::function<Frame(std::size_t)>& frame_at);
+/// Frame `row` of the file.
+Frame read_frame(hdf5::Reader& reader, std::size_t row);
+
+/// /observables and /steps. Sizes: R, S.
+void write_observables(hdf5::Writer& writer, const std::vector<ObservableRow>& rows);
+void write_steps(hdf5::Writer& writer, const std::vector<StepRow>& rows);
+std::vector<ObservableRow> read_observables(hdf5::Reader& reader);
+std::vector<StepRow> read_steps(hdf5::Reader& reader);
+
+/// /checkpoint, /results and /provenance/timing. Sizes: N, C, P.
+void write_checkpoint(hdf5::Writer& writer, const Checkpoint& checkpoint);
+Checkpoint read_checkpoint(hdf5::Reader& reader);
+
+/// Records of several numbers per item: { {x0, y0}, {x1, y1}, ... } in one array, and one component of it
+/// back.
+template <typename T>
+std::vector<T> interleaved(const std::vector<T>& x, const std::vector<T>& y) {
+  std::vector<T> pairs(2 * x.size());
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    pairs[2 * i] = x[i];
+    pairs[2 * i + 1] = y[i];
+  }
+  return pairs;
+}
+template <typename T>
+std::vector<T> component(const std::vector<T>& records, std::size_t width, std::size_t which) {
+  std::vector<T> values(records.size() / width);
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = records[i * width + which];
+  return values;
+}
+
+}  // namespace talus

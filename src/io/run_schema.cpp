@@ -1,0 +1,189 @@
+#include "io/run_schema.h"
+
+#include <sstream>
+
+#include "core/errors.h"
+#include "core/observables.h"
+
+namespace talus {
+namespace {
+
+using enum ElementType;
+
+std::vector<DataSetField> header_fields() {
+  return {
+      {"/parameters/schema_version", int32, "", "1", "version of this table of data sets"},
+      {"/parameters/scenario_given", text, "", "1", "the scenario as the user wrote it, TOML"},
+      {"/parameters/scenario_resolved", text, "", "1", "the scenario with every key, TOML"},
+      {"/parameters/periodic", int8, "", "1", "1 if the bed is periodic along x, 0 if it ends at side walls"},
+      {"/parameters/mean_diameter", float64, "", "m", "mean diameter of the free grains, D"},
+      {"/parameters/gravity", float64, "", "m/s^2", "magnitude of gravity, g"},
+      {"/parameters/friction", float64, "", "1", "coefficient of friction between grains, mu"},
+      {"/provenance/seed", uint64, "", "1", "seed of the random deposition"},
+      {"/provenance/*", text, "", "1",
+       "a fact about how the run was made: version, compiler, host, command, ..."},
+      {"/particles/grains/box/edges", float64, "2", "m",
+       "length of the bed (its period, or the distance between its walls) and its nominal depth"},
+      {"/particles/grains/id", int32, "N", "1",
+       "stable id of a grain, its index in every array; free grains come first"},
+      {"/particles/grains/species", int8, "N", "1", "0 free grain, 1 grain glued to the floor"},
+      {"/particles/grains/radius", float64, "N", "m", "radius"},
+      {"/particles/grains/mass", float64, "N", "kg", "mass, per metre of thickness"},
+  };
+}
+
+std::vector<DataSetField> frame_fields() {
+  return {
+      {"/frames/step", int64, "T", "1",
+       "steps taken since the beginning of the run; also linked as `step` beside each `value` of "
+       "/particles/grains"},
+      {"/frames/time", float64, "T", "s",
+       "simulated time; also linked as `time` beside each `value` of /particles/grains"},
+      {"/frames/tilt", float64, "T", "rad", "angle of the bed to the horizontal, theta; ascending"},
+      {"/particles/grains/position/value", float32, "T N 2", "m",
+       "centre (x, y) in the frame of the bed: x along it, downslope when the tilt is positive, in [0, L) of "
+       "a periodic bed; y away from the floor"},
+      {"/particles/grains/image/value", int32, "T N 2", "1",
+       "how often a grain left through the right periodic edge minus the left, and 0: the unwrapped centre "
+       "is position + image * edges"},
+      {"/particles/grains/angle/value", float32, "T N", "rad",
+       "angle turned since the beginning, counter-clockwise positive"},
+      {"/particles/grains/velocity/value", float32, "T N 2", "m/s", "velocity (vx, vy)"},
+      {"/particles/grains/angular_velocity/value", float32, "T N", "rad/s",
+       "rotation velocity, counter-clockwise positive"},
+      {"/particles/grains/internal_moment/value", float32, "T N 2 2", "J",
+       "internal moment tensor M_ij of a grain, per metre of thickness (paper, Eq. 4); compression positive; "
+       "the stress is M divided by an area"},
+      {"/particles/grains/gamma/value", float32, "T N", "1",
+       "stress ratio q/p of a grain; NaN where it carries nothing"},
+      {"/contacts/offset", int64, "T+1", "1",
+       "contacts of frame k are the rows offset[k] ... offset[k+1] - 1 of the arrays below"},
+      {"/contacts/pair", int32, "M 2", "1",
+       "ids (a, b) of the bodies, a < b; b = N + k is plane k of the boundary"},
+      {"/contacts/shift", int8, "M", "1", "periodic image: b touches a from x_b + shift * L"},
+      {"/contacts/normal", float32, "M 2", "1", "unit normal n, from a to b"},
+      {"/contacts/point", float32, "M 2", "m", "contact point"},
+      {"/contacts/force", float32, "M 2", "N",
+       "force (f_n, f_t) on b along n and t = (-n_y, n_x), per metre of thickness; f_n > 0 is compression"},
+      {"/contacts/status", int8, "M", "1", "0 open, 1 sticking, 2 sliding (friction fully mobilised)"},
+  };
+}
+
+std::vector<DataSetField> checkpoint_fields() {
+  return {
+      {"/results/theta_c", float64, "", "rad",
+       "angle of repose: the tilt at which the slope failed; NaN if it has not"},
+      {"/results/*", float64, "", "SI", "a figure of the run, in the SI unit of its kind"},
+      {"/provenance/timing/*", float64, "", "s", "wall time spent in a stage"},
+      {"/checkpoint/state_hash", text, "", "1",
+       "XXH3 of all that the future of the state depends on, 16 hexadecimal digits"},
+      {"/checkpoint/step", int64, "", "1", "steps taken since the beginning of the run"},
+      {"/checkpoint/time", float64, "", "s", "simulated time"},
+      {"/checkpoint/tilt", float64, "", "rad", "angle of the bed to the horizontal"},
+      {"/checkpoint/gravity", float64, "", "m/s^2", "magnitude of gravity"},
+      {"/checkpoint/free_count", int32, "", "1", "number of free grains"},
+      {"/checkpoint/x", float64, "N", "m", "centre, along the bed"},
+      {"/checkpoint/y", float64, "N", "m", "centre, away from the floor"},
+      {"/checkpoint/vx", float64, "N", "m/s", "velocity along the bed"},
+      {"/checkpoint/vy", float64, "N", "m/s", "velocity away from the floor"},
+      {"/checkpoint/omega", float64, "N", "rad/s", "rotation velocity"},
+      {"/checkpoint/radius", float64, "N", "m", "radius"},
+      {"/checkpoint/inverse_mass", float64, "N", "1/kg",
+       "inverse of the mass; 0 for a grain that does not move"},
+      {"/checkpoint/inverse_inertia", float64, "N", "1/(kg m^2)",
+       "inverse of the inertia; 0 for a grain that does not rotate"},
+      {"/checkpoint/mass", float64, "N", "kg", "mass, per metre of thickness"},
+      {"/checkpoint/inertia", float64, "N", "kg m^2",
+       "moment of inertia about the centre, per metre of thickness"},
+      {"/checkpoint/angle", float64, "N", "rad", "angle turned since the beginning"},
+      {"/checkpoint/image", int32, "N", "1",
+       "how often a grain left through the right periodic edge minus the left"},
+      {"/checkpoint/periodic", int8, "", "1", "1 if the bed is periodic along x"},
+      {"/checkpoint/length", float64, "", "m", "period, or distance between the side walls"},
+      {"/checkpoint/plane_normal", float64, "P 2", "1", "unit normal of a plane, into the free space"},
+      {"/checkpoint/plane_offset", float64, "P", "m", "a plane is { r : n.r = offset }"},
+      {"/checkpoint/plane_wall", int8, "P", "1", "1 side wall, 0 smooth floor"},
+      {"/checkpoint/contact_pair", int32, "C 2", "1",
+       "ids (a, b) of the contacts and near contacts of the last step"},
+      {"/checkpoint/contact_shift", int8, "C", "1", "periodic image of b"},
+      {"/checkpoint/contact_normal", float64, "C 2", "1", "unit normal, from a to b"},
+      {"/checkpoint/contact_gap", float64, "C", "m", "gap; negative where bodies overlap"},
+      {"/checkpoint/contact_force", float64, "C 2", "N",
+       "force (f_n, f_t) on b, per metre of thickness: the contact memory"},
+      {"/checkpoint/integers/*", int64, "", "1", "a value of the schedule of the run"},
+      {"/checkpoint/reals/*", float64, "", "SI",
+       "a value of the schedule of the run, in the SI unit of its kind"},
+  };
+}
+
+template <typename Fields>
+void append_series(std::vector<DataSetField>& schema, const std::string& group, const char* shape,
+                   const Fields& fields) {
+  for (const SeriesField& field : fields)
+    schema.push_back(
+        {group + std::string(field.name), float64, shape, std::string(field.unit), std::string(field.help)});
+}
+
+std::vector<DataSetField> make_schema() {
+  std::vector<DataSetField> schema = header_fields();
+  for (const DataSetField& field : frame_fields()) schema.push_back(field);
+  append_series(schema, "/observables/", "R", observable_fields);
+  append_series(schema, "/steps/", "S", step_fields);
+  for (const DataSetField& field : checkpoint_fields()) schema.push_back(field);
+  return schema;
+}
+
+}  // namespace
+
+std::string_view type_name(ElementType type) {
+  switch (type) {
+    case float32:
+      return "float32";
+    case float64:
+      return "float64";
+    case int8:
+      return "int8";
+    case int32:
+      return "int32";
+    case int64:
+      return "int64";
+    case uint64:
+      return "uint64";
+    case text:
+      break;
+  }
+  return "text";
+}
+
+const std::vector<DataSetField>& run_schema() {
+  static const std::vector<DataSetField> schema = make_schema();
+  return schema;
+}
+
+const DataSetField& field_of(const std::string& path) {
+  const std::string family = path.substr(0, path.rfind('/')) + "/*";
+  const DataSetField* found = nullptr;
+  for (const DataSetField& field : run_schema()) {
+    if (field.path == path) return field;
+    if (field.path == family) found = &field;
+  }
+  if (found == nullptr) throw Error(ExitCode::internal, "the schema of run files has no data set " + path);
+  return *found;
+}
+
+std::vector<Extent> extents(const DataSetField& field) {
+  std::vector<Extent> shape;
+  std::istringstream words(field.shape);
+  for (std::string word; words >> word;) {
+    Extent extent;
+    if (word[0] >= 'A' && word[0] <= 'Z') {
+      extent.symbol = word[0];
+      word.erase(0, 1);
+    }
+    if (!word.empty()) extent.plus = std::stoull(word);
+    shape.push_back(extent);
+  }
+  return shape;
+}
+
+}  // namespace talus

@@ -1,0 +1,185 @@
+/// What is written is what is read, from the folder and from the packed file.
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+
+#include "core/hash.h"
+#include "io/run_file.h"
+#include "unit/io/example_run.h"
+
+namespace talus {
+namespace {
+
+constexpr int commits = 5;  // frames: 0 + 1 + 2 + 0 + 1
+
+/// Equal to the last bit, after rounding to single precision; NaN equals NaN.
+void expect_rounded(const std::vector<double>& read, const std::vector<double>& written, const char* name) {
+  ASSERT_EQ(read.size(), written.size()) << name;
+  for (std::size_t i = 0; i < read.size(); ++i) {
+    const double expected = static_cast<float>(written[i]);
+    EXPECT_TRUE(read[i] == expected || (std::isnan(read[i]) && std::isnan(expected)))
+        << name << " " << i << ": " << read[i] << ", expected " << expected;
+  }
+}
+
+void expect_same_frame(const Frame& read, const Frame& written) {
+  EXPECT_EQ(read.step, written.step);
+  EXPECT_EQ(read.time, written.time);
+  EXPECT_EQ(read.tilt, written.tilt);
+  EXPECT_EQ(read.image, written.image);
+  expect_rounded(read.x, written.x, "x");
+  expect_rounded(read.y, written.y, "y");
+  expect_rounded(read.angle, written.angle, "angle");
+  expect_rounded(read.vx, written.vx, "vx");
+  expect_rounded(read.vy, written.vy, "vy");
+  expect_rounded(read.omega, written.omega, "omega");
+  expect_rounded(read.gamma, written.gamma, "gamma");
+  ASSERT_EQ(read.internal_moment.size(), written.internal_moment.size());
+  for (std::size_t i = 0; i < read.internal_moment.size(); ++i) {
+    const Tensor2 &r = read.internal_moment[i], &w = written.internal_moment[i];
+    expect_rounded({r.xx, r.xy, r.yx, r.yy}, {w.xx, w.xy, w.yx, w.yy}, "internal_moment");
+  }
+}
+
+void expect_same_contacts(const FrameContacts& read, const FrameContacts& written) {
+  EXPECT_EQ(read.a, written.a);
+  EXPECT_EQ(read.b, written.b);
+  EXPECT_EQ(read.shift, written.shift);
+  EXPECT_EQ(read.status, written.status);
+  expect_rounded(read.nx, written.nx, "nx");
+  expect_rounded(read.ny, written.ny, "ny");
+  expect_rounded(read.px, written.px, "px");
+  expect_rounded(read.py, written.py, "py");
+  expect_rounded(read.fn, written.fn, "fn");
+  expect_rounded(read.ft, written.ft, "ft");
+}
+
+void expect_same_header(const RunHeader& read, const RunHeader& written) {
+  EXPECT_EQ(read.scenario_given, written.scenario_given);
+  EXPECT_EQ(read.scenario_resolved, written.scenario_resolved);
+  EXPECT_EQ(read.seed, written.seed);
+  EXPECT_EQ(read.provenance, written.provenance);  // in the order of writing
+  EXPECT_EQ(read.statics.free_count, written.statics.free_count);
+  EXPECT_EQ(read.statics.radius, written.statics.radius);
+  EXPECT_EQ(read.statics.mass, written.statics.mass);
+  EXPECT_EQ(read.statics.periodic, written.statics.periodic);
+  EXPECT_EQ(read.statics.length, written.statics.length);
+  EXPECT_EQ(read.statics.depth, written.statics.depth);
+  EXPECT_EQ(read.statics.mean_diameter, written.statics.mean_diameter);
+  EXPECT_EQ(read.statics.gravity, written.statics.gravity);
+  EXPECT_EQ(read.statics.friction, written.statics.friction);
+}
+
+template <typename Named>
+void expect_same_bits(const Named& read, const Named& written) {
+  ASSERT_EQ(read.size(), written.size());
+  for (std::size_t i = 0; i < read.size(); ++i) {
+    EXPECT_EQ(read[i].first, written[i].first);
+    EXPECT_EQ(std::bit_cast<std::uint64_t>(read[i].second), std::bit_cast<std::uint64_t>(written[i].second))
+        << read[i].first;
+  }
+}
+
+void expect_same_checkpoint(const Checkpoint& read, const Checkpoint& written) {
+  EXPECT_EQ(hash_text(state_hash(read.world)), hash_text(state_hash(written.world)));
+  EXPECT_EQ(read.world.contacts.nx, written.world.contacts.nx);  // not part of the hash
+  EXPECT_EQ(read.world.contacts.ny, written.world.contacts.ny);
+  EXPECT_EQ(read.world.contacts.gap, written.world.contacts.gap);
+  ASSERT_EQ(read.world.boundary.planes.size(), written.world.boundary.planes.size());
+  for (std::size_t k = 0; k < read.world.boundary.planes.size(); ++k)
+    EXPECT_EQ(read.world.boundary.planes[k].wall, written.world.boundary.planes[k].wall);
+  expect_same_bits(read.integers, written.integers);
+  expect_same_bits(read.reals, written.reals);
+  expect_same_bits(read.results, written.results);
+  expect_same_bits(read.timing, written.timing);
+}
+
+void expect_example_run(const RunFile& run) {
+  expect_same_header(run.header(), example::header());
+  expect_same_checkpoint(run.checkpoint(), example::checkpoint(commits - 1));
+  std::size_t frames = 0;
+  std::vector<ObservableRow> observables;
+  std::vector<StepRow> steps;
+  for (int k = 0; k < commits; ++k) {
+    const Segment written = example::segment(k);
+    for (const Frame& frame : written.frames) {
+      ASSERT_LT(frames, run.frame_count());
+      EXPECT_EQ(run.frame_tilts()[frames], frame.tilt);
+      const Frame read = run.frame(frames++);
+      expect_same_frame(read, frame);
+      expect_same_contacts(read.contacts, frame.contacts);
+    }
+    observables.insert(observables.end(), written.observables.begin(), written.observables.end());
+    steps.insert(steps.end(), written.steps.begin(), written.steps.end());
+  }
+  EXPECT_EQ(run.frame_count(), frames);
+  EXPECT_EQ(run.observables(), observables);
+  EXPECT_EQ(run.steps(), steps);
+}
+
+TEST(RoundTrip, of_a_folder_under_both_its_names) {
+  const example::TemporaryFolder folder;
+  const RunStore store = example::store_with_commits(folder.path("run.h5"), commits);
+  for (const char* name : {"run.h5", "run.h5.run"}) {
+    const RunFile run = RunFile::open(folder.path(name));
+    EXPECT_FALSE(run.complete());
+    expect_example_run(run);
+  }
+}
+
+TEST(RoundTrip, of_a_packed_file) {
+  const example::TemporaryFolder folder;
+  example::store_with_commits(folder.path("run.h5"), commits).pack();
+  const RunFile run = RunFile::open(folder.path("run.h5"));
+  EXPECT_TRUE(run.complete());
+  expect_example_run(run);
+  EXPECT_FALSE(std::filesystem::exists(folder.path("run.h5.run")));
+}
+
+TEST(RoundTrip, of_a_run_without_frames) {
+  const example::TemporaryFolder folder;
+  RunStore store = RunStore::create(folder.path("run.h5"), example::header(), false);
+  store.commit({}, example::checkpoint(0));
+  store.pack();
+  const RunFile run = RunFile::open(folder.path("run.h5"));
+  EXPECT_EQ(run.frame_count(), 0u);
+  EXPECT_TRUE(run.steps().empty());
+  expect_same_checkpoint(run.checkpoint(), example::checkpoint(0));
+}
+
+TEST(RoundTrip, equal_runs_give_equal_bytes_however_they_were_committed) {
+  const example::TemporaryFolder folder;
+  example::store_with_commits(folder.path("one.h5"), commits).pack();
+
+  RunStore together = RunStore::create(folder.path("other.h5"), example::header(), false);
+  Segment all;
+  for (int k = 0; k < commits; ++k) {
+    const Segment part = example::segment(k);
+    all.frames.insert(all.frames.end(), part.frames.begin(), part.frames.end());
+    all.observables.insert(all.observables.end(), part.observables.begin(), part.observables.end());
+    all.steps.insert(all.steps.end(), part.steps.begin(), part.steps.end());
+  }
+  together.commit(all, example::checkpoint(commits - 1));
+  together.pack();
+  EXPECT_TRUE(example::file_text(folder.path("one.h5")) == example::file_text(folder.path("other.h5")));
+}
+
+TEST(RoundTrip, a_resumed_run_continues_with_the_same_bits) {
+  const example::TemporaryFolder folder;
+  example::store_with_commits(folder.path("one.h5"), commits).pack();
+
+  { const RunStore interrupted = example::store_with_commits(folder.path("other.h5"), 3); }
+  RunHeader header;
+  Checkpoint checkpoint;
+  RunStore resumed = RunStore::resume(folder.path("other.h5"), header, checkpoint);
+  expect_same_header(header, example::header());
+  expect_same_checkpoint(checkpoint, example::checkpoint(2));
+  for (int k = 3; k < commits; ++k) resumed.commit(example::segment(k), example::checkpoint(k));
+  resumed.pack();
+  EXPECT_TRUE(example::file_text(folder.path("one.h5")) == example::file_text(folder.path("other.h5")));
+}
+
+}  // namespace
+}  // namespace talus

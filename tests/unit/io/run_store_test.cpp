@@ -1,0 +1,143 @@
+/// Who may write where, and what is refused.
+
+#include "io/run_store.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+
+#include "core/errors.h"
+#include "io/run_file.h"
+#include "unit/io/example_run.h"
+
+namespace talus {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The error that `action` throws; fails the test where it throws none.
+template <typename Action>
+Error error_of(const Action& action) {
+  try {
+    action();
+  } catch (const Error& error) {
+    return error;
+  }
+  ADD_FAILURE() << "no error";
+  return Error(ExitCode::done, "");
+}
+
+std::vector<std::string> names_in(const std::string& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder)) names.push_back(entry.path().filename().string());
+  std::ranges::sort(names);
+  return names;
+}
+
+TEST(RunStore, a_second_writer_is_refused_and_told_whose_the_run_is) {
+  const example::TemporaryFolder folder;
+  const std::string path = folder.path("run.h5");
+  const RunStore store = example::store_with_commits(path, 1);
+  RunHeader header;
+  Checkpoint checkpoint;
+  const std::vector<Error> errors = {
+      error_of([&] { RunStore::create(path, example::header(), true); }),
+      error_of([&] { RunStore::resume(path, header, checkpoint); }),
+  };
+  for (const Error& error : errors) {
+    EXPECT_EQ(error.code(), ExitCode::cannot_create);
+    EXPECT_NE(std::string(error.what()).find("process " + std::to_string(getpid()) + " on host "),
+              std::string::npos)
+        << error.what();
+  }
+  EXPECT_EQ(RunFile::open(path).frame_count(), 0u);  // nothing was touched
+}
+
+TEST(RunStore, a_run_is_refused_where_one_exists) {
+  const example::TemporaryFolder folder;
+  const std::string path = folder.path("run.h5");
+  { const RunStore store = example::store_with_commits(path, 2); }
+  const auto create = [&] { RunStore::create(path, example::header(), false); };
+  EXPECT_EQ(run_presence(path), RunPresence::folder);
+  EXPECT_EQ(error_of(create).code(), ExitCode::cannot_create);
+
+  RunHeader header;
+  Checkpoint checkpoint;
+  RunStore::resume(path, header, checkpoint).pack();
+  EXPECT_EQ(run_presence(path), RunPresence::packed);
+  const std::string before = example::file_text(path);
+  EXPECT_EQ(error_of(create).code(), ExitCode::cannot_create);
+  EXPECT_TRUE(example::file_text(path) == before);
+  EXPECT_FALSE(fs::exists(run_folder(path)));
+}
+
+TEST(RunStore, overwrite_replaces_a_run_but_never_a_folder_or_a_foreign_file_in_it) {
+  const example::TemporaryFolder folder;
+  const std::string path = folder.path("run.h5");
+  example::store_with_commits(path, 2).pack();
+  fs::create_directory(run_folder(path));
+  example::write_text(run_folder(path) + "/notes.txt", "mine");
+  {
+    RunStore store = RunStore::create(path, example::header(), true);
+    EXPECT_EQ(run_presence(path), RunPresence::none);
+    store.commit(example::segment(1), example::checkpoint(1));
+    EXPECT_EQ(run_presence(path), RunPresence::folder);
+    store.pack();
+  }
+  EXPECT_EQ(RunFile::open(path).frame_count(), 1u);
+  EXPECT_EQ(names_in(run_folder(path)), std::vector<std::string>{"notes.txt"});
+
+  fs::create_directory(folder.path("folder.h5"));
+  EXPECT_EQ(error_of([&] { RunStore::create(folder.path("folder.h5"), example::header(), true); }).code(),
+            ExitCode::cannot_create);
+}
+
+TEST(RunStore, what_was_never_committed_does_not_exist) {
+  const example::TemporaryFolder folder;
+  const std::string path = folder.path("run.h5");
+  { const RunStore begun = RunStore::create(path, example::header(), false); }
+  EXPECT_EQ(run_presence(path), RunPresence::none);
+  EXPECT_EQ(error_of([&] { RunFile::open(path); }).code(), ExitCode::missing_input);
+  RunHeader header;
+  Checkpoint checkpoint;
+  EXPECT_EQ(error_of([&] { RunStore::resume(path, header, checkpoint); }).code(), ExitCode::missing_input);
+  example::store_with_commits(path, 1);  // create takes the folder over
+  EXPECT_EQ(run_presence(path), RunPresence::folder);
+}
+
+TEST(RunStore, resume_clears_leftovers_away_and_keeps_what_is_committed) {
+  const example::TemporaryFolder folder;
+  const std::string path = folder.path("run.h5");
+  { const RunStore store = example::store_with_commits(path, 2); }
+  const std::vector<std::string> before = names_in(run_folder(path));
+  for (const char* name :
+       {"segment_000003.h5", "checkpoint_000003.h5", "manifest.tmp", "segment_000004.h5.tmp"})
+    example::write_text(run_folder(path) + "/" + name, "half");
+  RunHeader header;
+  Checkpoint checkpoint;
+  const RunStore resumed = RunStore::resume(path, header, checkpoint);
+  EXPECT_EQ(names_in(run_folder(path)), before);
+  EXPECT_EQ(before, (std::vector<std::string>{"checkpoint_000002.h5", "header.h5", "lock", "manifest",
+                                              "segment_000001.h5", "segment_000002.h5"}));
+}
+
+TEST(RunStore, a_missing_parent_folder_is_named) {
+  const example::TemporaryFolder folder;
+  const Error error = error_of([&] { RunStore::create(folder.path("no/run.h5"), example::header(), false); });
+  EXPECT_EQ(error.code(), ExitCode::cannot_create);
+  EXPECT_NE(std::string(error.what()).find(folder.path("no/run.h5.run")), std::string::npos) << error.what();
+}
+
+TEST(RunStore, a_frame_of_another_size_is_refused_as_a_defect) {
+  const example::TemporaryFolder folder;
+  RunStore store = RunStore::create(folder.path("run.h5"), example::header(), false);
+  Segment segment = example::segment(1);
+  segment.frames[0].gamma.pop_back();
+  EXPECT_EQ(error_of([&] { store.commit(segment, example::checkpoint(1)); }).code(), ExitCode::internal);
+  store.commit(example::segment(1), example::checkpoint(1));  // the failed commit left nothing in the way
+  EXPECT_EQ(RunFile::open(folder.path("run.h5")).frame_count(), 1u);
+}
+
+}  // namespace
+}  // namespace talus
