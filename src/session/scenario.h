@@ -1,6 +1,6 @@
 #pragma once
 /// The scenario: every parameter of a run, checked. The reference of all keys is docs/scenario.md; the table
-/// of keys, units, defaults and ranges is scenario_keys.cpp, and both are compared by a test.
+/// of keys, units and ranges is scenario_keys.cpp (defaults are those of this struct); a test compares both.
 
 #include <cstdint>
 #include <optional>
@@ -21,59 +21,76 @@ struct Scenario {
     double mean_diameter = 0.01;  ///< D, m
     double size_ratio = 1.5;      ///< Dmax / Dmin; diameters are uniform in [Dmin, Dmax] with mean D
     double density = 2500.0;      ///< kg/m^3
+
+    bool operator==(const GrainSizes&) const = default;
   } grains;
 
   struct ContactLaw {
-    double friction = 0.5;               ///< between grains, and between grains and floor
-    double wall_friction = 0.5;          ///< between grains and side walls
-    double restitution = 0.0;            ///< e_n in [0, 1]
-    double tangential_restitution = 0.0; ///< e_t in [-1, 1]
+    double friction = 0.5;                ///< between grains, and between grains and floor
+    double wall_friction = 0.5;           ///< between grains and side walls
+    double restitution = 0.0;             ///< e_n in [0, 1]
+    double tangential_restitution = 0.0;  ///< e_t in [-1, 1]
+
+    bool operator==(const ContactLaw&) const = default;
   } contact;
 
   struct Bed {
     BedBoundary boundary = BedBoundary::periodic;  ///< "periodic" or "walls"
     double length = 200.0;                         ///< L, in mean diameters
-    double depth = 40.0;                           ///< H, in mean diameters; the bed has length * depth grains
-    BedFloor floor = BedFloor::rough;              ///< "rough" (glued grains of diameter D) or "smooth"
+    double depth = 40.0;               ///< H, in mean diameters; the bed has length * depth grains
+    BedFloor floor = BedFloor::rough;  ///< "rough" (glued grains of diameter D) or "smooth"
+
+    bool operator==(const Bed&) const = default;
   } bed;
 
   struct Deposition {
     DepositionMethod method = DepositionMethod::collapse;  ///< how the grains start: see docs/scenario.md
-    double initial_solid_fraction = 0.5;  ///< of the loose arrangement the grains fall from
-    double friction = 0.5;                ///< between all bodies while the bed is deposited and comes to rest
-    double rest_velocity = 1e-4;          ///< the bed is at rest when its rms velocity stays below this, in units of g h
-    double max_time = 60.0;               ///< s of simulated time after which a bed that has not come to rest is an error
+    double initial_solid_fraction = 0.5;                   ///< of the loose arrangement the grains fall from
+    double friction = 0.5;  ///< between all bodies while the bed is deposited and comes to rest
+    double rest_velocity =
+        0.01;                ///< the bed is at rest when its rms velocity stays below this, in units of g h
+    double max_time = 60.0;  ///< s of simulated time after which a bed that has not come to rest is an error
+
+    bool operator==(const Deposition&) const = default;
   } deposition;
 
   struct Tilt {
     double rate = 1.0;                ///< deg/s
     double step = 0.001;              ///< deg per time step; h = step / rate
     std::optional<double> end_angle;  ///< deg; without a value ("repose"): until the slope fails
+
+    bool operator==(const Tilt&) const = default;
   } tilt;
 
   struct SolverSettings {
     SolverMethod method = SolverMethod::accelerated;  ///< "accelerated" or "gauss-seidel"
-    double tolerance = 1e-6;         ///< natural-map residual eta asked of each step
-    double moving_tolerance = 1e-4;  ///< the same while the bed moves
-    int max_iterations = 5000;       ///< passes over all contacts
-    double overlap_correction = 0.05; ///< share of an overlap taken back in each step
+    double tolerance = 1e-6;                          ///< natural-map residual eta asked of each step
+    double moving_tolerance = 1e-4;                   ///< the same while the bed moves
+    int max_iterations = 1000;                        ///< passes over all contacts
+    double overlap_correction = 0.05;                 ///< share of an overlap taken back in each step
+
+    bool operator==(const SolverSettings&) const = default;
   } solver;
 
   struct Output {
     double frame_every = 0.25;       ///< deg of tilt between frames
     double observable_every = 0.01;  ///< deg of tilt between rows of observables
     double checkpoint_every = 30.0;  ///< s of wall time between checkpoints
+
+    bool operator==(const Output&) const = default;
   } output;
+
+  bool operator==(const Scenario&) const = default;
 };
 
 /// h, s.
 inline double time_step(const Scenario& scenario) { return scenario.tilt.step / scenario.tilt.rate; }
 
 /// Reads and checks a scenario.
-/// `text` is the TOML, `name` what messages call the file; `overrides` are "section.key=value" settings, which
-/// go through the same checks and are called by their own text in messages.
-/// Throws Error(bad_data) with every error of the text at once, one a line:
-/// `name:line:column: error: key 'grains.density' = -1: expected a finite number > 0, in kg/m^3`.
+/// `text` is the TOML, `name` what messages call the file; `overrides` are "section.key=value" settings,
+/// which go through the same checks and are called by their own text in messages. Throws Error(bad_data) with
+/// every error of the text at once, one a line: `name:line:column: error: key 'grains.density' = -1: expected
+/// a finite number > 0, in kg/m^3`.
 Scenario parse_scenario(const std::string& text, const std::string& name,
                         const std::vector<std::string>& overrides = {});
 

@@ -1,0 +1,32 @@
+#pragma once
+/// What a run will take, from its scenario alone.
+
+#include <cstdint>
+
+#include "core/types.h"
+#include "session/scenario.h"
+
+namespace talus {
+
+/// The angle at which a slope is assumed to fail where the run ends at repose, deg.
+inline constexpr double assumed_repose = 20.0;
+
+/// Sizes and steps follow from the scenario, but for the length of the deposition and the angle of repose;
+/// time, memory and disk are within a factor of about two for beds like the paper's.
+struct Estimate {
+  Index grains = 0;  ///< free
+  Index floor_grains = 0;
+  Index contacts = 0;                 ///< in the problem of a step at rest
+  double time_step = 0.0;             ///< h, s
+  std::int64_t deposition_steps = 0;  ///< until the bed is at rest
+  std::int64_t tilt_steps = 0;
+  std::int64_t frames = 0;
+  std::int64_t observable_rows = 0;
+  double seconds = 0.0;  ///< wall time on one core
+  double memory = 0.0;   ///< bytes, at most
+  double disk = 0.0;     ///< bytes of the run file; twice that while it is packed
+};
+
+Estimate estimate(const Scenario& scenario);
+
+}  // namespace talus

@@ -1,0 +1,68 @@
+/// What `talus check` expects of a run.
+
+#include "session/estimate.h"
+
+#include <gtest/gtest.h>
+
+namespace talus {
+namespace {
+
+TEST(Estimate, counts_what_the_scenario_says) {
+  Scenario scenario;
+  scenario.bed.length = 50.5;
+  scenario.bed.depth = 20.0;
+  scenario.tilt.rate = 2.0;
+  scenario.tilt.step = 0.004;
+  scenario.tilt.end_angle = 10.0;
+  scenario.output.frame_every = 0.5;
+  scenario.output.observable_every = 0.1;
+  const Estimate expected = estimate(scenario);
+  EXPECT_EQ(expected.grains, 1010);
+  EXPECT_EQ(expected.floor_grains, 50);
+  EXPECT_DOUBLE_EQ(expected.time_step, 0.002);
+  EXPECT_EQ(expected.tilt_steps, 2500);
+  EXPECT_EQ(expected.frames, 21);
+  EXPECT_EQ(expected.observable_rows, 101);
+}
+
+TEST(Estimate, a_smooth_floor_has_no_grains) {
+  Scenario scenario;
+  scenario.bed.floor = BedFloor::smooth;
+  EXPECT_EQ(estimate(scenario).floor_grains, 0);
+}
+
+TEST(Estimate, a_bed_of_the_paper_is_a_matter_of_minutes_and_megabytes) {
+  const Estimate expected = estimate({});
+  EXPECT_EQ(expected.grains, 8000);
+  EXPECT_EQ(expected.tilt_steps, 20000);
+  EXPECT_GT(expected.seconds, 60.0);
+  EXPECT_LT(expected.seconds, 7200.0);
+  EXPECT_GT(expected.memory, 5e7);
+  EXPECT_LT(expected.memory, 1e9);
+  EXPECT_GT(expected.disk, 1e7);
+  EXPECT_LT(expected.disk, 2e8);
+}
+
+TEST(Estimate, grows_with_all_that_costs) {
+  const Estimate usual = estimate({});
+  Scenario longer;
+  longer.bed.length *= 2.0;
+  EXPECT_GT(estimate(longer).seconds, 1.9 * usual.seconds);
+  EXPECT_GT(estimate(longer).memory, 1.5 * usual.memory);
+  Scenario more_frames;
+  more_frames.output.frame_every /= 10.0;
+  EXPECT_GT(estimate(more_frames).disk, 8.0 * usual.disk);
+  EXPECT_GT(estimate(more_frames).memory, usual.memory);
+  Scenario exact;
+  exact.solver.tolerance = 1e-10;
+  EXPECT_GT(estimate(exact).seconds, usual.seconds);
+  Scenario reference;
+  reference.solver.method = SolverMethod::gauss_seidel;
+  EXPECT_GT(estimate(reference).seconds, 2.0 * usual.seconds);
+  Scenario hurried;
+  hurried.solver.max_iterations = 10;
+  EXPECT_LT(estimate(hurried).seconds, 0.1 * usual.seconds);
+}
+
+}  // namespace
+}  // namespace talus
