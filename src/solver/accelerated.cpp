@@ -202,8 +202,12 @@ Outcome iterate(AcceleratedWorkspace& w, const GradientKernels& kernels, double 
   return outcome;
 }
 
+/// A thread is worth its waiting only with some work of its own.
+constexpr int blocks_per_thread = 2;
+
 void ensure_team(AcceleratedWorkspace& w, int threads) {
-  if (!w.team || w.team->size() != threads) w.team = std::make_unique<ThreadTeam>(threads);
+  const int useful = std::max(1, std::min(threads, static_cast<int>(w.sums.size()) / blocks_per_thread));
+  if (!w.team || w.team->size() != useful) w.team = std::make_unique<ThreadTeam>(useful);
 }
 
 }  // namespace

@@ -3,25 +3,24 @@
 namespace talus {
 namespace {
 
-/// Waits until the value differs from `old`: a short spin for passes that end at nearly the same time, then
-/// the processor is given away, then the thread sleeps in the kernel.
-void wait_while_equal(const std::atomic<unsigned>& value, unsigned old) {
-  for (int spin = 0; spin < 4000; ++spin) {
+/// Waits until the value differs from `old`: a spin of some tens of microseconds for passes that end at
+/// nearly the same time, then the thread sleeps in the kernel.
+void wait_while_equal(const std::atomic<unsigned>& value, unsigned old, int spins) {
+  for (int spin = 0; spin < spins; ++spin) {
     if (value.load(std::memory_order_acquire) != old) return;
 #if defined(__x86_64__)
     __builtin_ia32_pause();
 #endif
   }
-  for (int turn = 0; turn < 100; ++turn) {
-    if (value.load(std::memory_order_acquire) != old) return;
-    std::this_thread::yield();
-  }
   value.wait(old, std::memory_order_acquire);
 }
 
+/// Spinning pays only where every member has a processor of its own.
+int spins_for(int size) { return size <= static_cast<int>(std::thread::hardware_concurrency()) ? 2000 : 0; }
+
 }  // namespace
 
-ThreadTeam::ThreadTeam(int size) : size_(size) {
+ThreadTeam::ThreadTeam(int size) : size_(size), spins_(spins_for(size)) {
   for (int member = 1; member < size; ++member) threads_.emplace_back([this, member] { work(member); });
 }
 
@@ -47,14 +46,14 @@ void ThreadTeam::wait_for_all() {
     round_.fetch_add(1, std::memory_order_release);
     round_.notify_all();
   } else {
-    wait_while_equal(round_, round);
+    wait_while_equal(round_, round, spins_);
   }
 }
 
 void ThreadTeam::work(int member) {
   unsigned seen = 0;
   for (;;) {
-    wait_while_equal(task_number_, seen);
+    wait_while_equal(task_number_, seen, spins_);
     seen = task_number_.load(std::memory_order_acquire);
     if (leaving_.load()) return;
     (*task_)(member);

@@ -9,7 +9,7 @@
 namespace talus {
 
 /// The calling thread and size - 1 others. Made for passes of some tens of microseconds: members wait for
-/// each other by spinning for a moment, then yielding.
+/// each other by spinning for a moment, then sleeping.
 class ThreadTeam {
  public:
   explicit ThreadTeam(int size);
@@ -30,6 +30,7 @@ class ThreadTeam {
   void work(int member);
 
   int size_;
+  int spins_;
   std::atomic<int> arrived_{0};
   std::atomic<unsigned> round_{0};
   std::atomic<unsigned> task_number_{0};
