@@ -18,11 +18,13 @@ int report(talus::ExitCode code, const char* message) {
 
 int main(int argc, char** argv) {
   using talus::ExitCode;
-  CLI::App app{"Talus: granular slopes by Contact Dynamics, from a scenario file to maps of failure.", "talus"};
+  CLI::App app{"Talus: granular slopes by Contact Dynamics, from a scenario file to maps of failure.",
+               "talus"};
   app.set_version_flag("--version", talus::version_text());
   app.require_subcommand(1);
-  app.footer("Exit codes: 0 done, 64 usage, 65 bad scenario or run, 66 missing input, 69 no context or tool,\n"
-             "70 internal, 71 out of memory, 73 cannot create output, 74 I/O error, 75 stopped and resumable.");
+  app.footer(
+      "Exit codes: 0 done, 64 usage, 65 bad scenario or run, 66 missing input, 69 no context or tool,\n"
+      "70 internal, 71 out of memory, 73 cannot create output, 74 I/O error, 75 stopped and resumable.");
   try {
     talus::add_run_command(app);
     talus::add_check_command(app);

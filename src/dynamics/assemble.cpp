@@ -44,15 +44,10 @@ double free_normal_velocity(const ContactProblem& problem, Index c) {
   return (problem.vx[b] - problem.vx[a]) * problem.nx[c] + (problem.vy[b] - problem.vy[a]) * problem.ny[c];
 }
 
-double normal_constant(double gap, const ContactLawParameters& law, double h) {
-  if (gap > law.closed_gap) return (gap - law.closed_gap) / h;
-  return gap < 0.0 ? law.overlap_correction * gap / h : 0.0;
-}
-
 void assemble_contact(const World& world, const Contacts& contacts, const ContactLawParameters& law, double h,
                       Index c, ContactProblem& problem) {
   const double gap = contacts.gap[c];
-  problem.cn[c] = normal_constant(gap, law, h);
+  problem.cn[c] = gap > 0.0 ? gap / h : law.overlap_correction * gap / h;
   problem.ct[c] = 0.0;
   if (law.restitution == 0.0 && law.tangential_restitution == 0.0) return;
   const bool closes = gap + h * free_normal_velocity(problem, c) <= 0.0;

@@ -1,0 +1,118 @@
+#include "session/measure.h"
+
+#include "stress/bed.h"
+#include "stress/internal_moment.h"
+#include "stress/stress_state.h"
+
+namespace talus {
+namespace {
+
+double friction_of(const World& world, const ContactLawParameters& law, Index b) {
+  const Index plane = b - world.grains.count();
+  return plane >= 0 && world.boundary.planes[static_cast<std::size_t>(plane)].wall ? law.wall_friction
+                                                                                   : law.friction;
+}
+
+ContactStatus status_of(const World& world, const ContactLawParameters& law, Index c) {
+  return contact_status(world.contacts.fn[c], world.contacts.ft[c],
+                        friction_of(world, law, world.contacts.b[c]));
+}
+
+double critical_fraction(const World& world, const ContactLawParameters& law) {
+  Index carrying = 0;
+  Index critical = 0;
+  for (Index c = 0; c < world.contacts.count(); ++c) {
+    const ContactStatus status = status_of(world, law, c);
+    if (status != ContactStatus::open) ++carrying;
+    if (status == ContactStatus::sliding) ++critical;
+  }
+  return carrying > 0 ? static_cast<double>(critical) / carrying : 0.0;
+}
+
+double volume_of(const World& world, double mean_diameter) {
+  return bed_volume(world.grains, world.boundary, surface_sample_spacing * mean_diameter);
+}
+
+void append_contact(const World& world, const ContactLawParameters& law, Index c, FrameContacts& out) {
+  const Contacts& contacts = world.contacts;
+  const Index a = contacts.a[c];
+  out.a.push_back(a);
+  out.b.push_back(contacts.b[c]);
+  out.shift.push_back(contacts.shift[c]);
+  out.nx.push_back(contacts.nx[c]);
+  out.ny.push_back(contacts.ny[c]);
+  out.px.push_back(world.grains.x[a] + world.grains.radius[a] * contacts.nx[c]);
+  out.py.push_back(world.grains.y[a] + world.grains.radius[a] * contacts.ny[c]);
+  out.fn.push_back(contacts.fn[c]);
+  out.ft.push_back(contacts.ft[c]);
+  out.status.push_back(status_of(world, law, c));
+}
+
+}  // namespace
+
+Baseline measure_baseline(const World& world, double mean_diameter) {
+  return {volume_of(world, mean_diameter), centre_of_mass_height(world.grains)};
+}
+
+ObservableRow measure(const World& world, const RowContext& context) {
+  std::vector<Tensor2> moments;
+  internal_moments(world.grains, world.contacts, moments);
+  const Tensor2 sum = sum_of_moments(moments, 0, world.grains.free_count);
+  const double volume = volume_of(world, context.mean_diameter);
+  ObservableRow row{};
+  at(row, Observable::step) = static_cast<double>(world.step);
+  at(row, Observable::time) = world.time;
+  at(row, Observable::tilt) = world.tilt;
+  at(row, Observable::sigma_n) = sum.yy / volume;
+  // The paper's y axis points into the bed, ours out of it: the shear component changes its sign.
+  at(row, Observable::sigma_t) = -sum.yx / volume;
+  at(row, Observable::sigma_t_over_n) = -sum.yx / sum.yy;
+  at(row, Observable::stress_ratio) = stress_state(sum).ratio;
+  at(row, Observable::solid_fraction) = solid_area(world.grains) / volume;
+  at(row, Observable::coordination_number) = coordination_number(world.grains, world.contacts);
+  at(row, Observable::critical_fraction) = critical_fraction(world, context.law);
+  at(row, Observable::volume_strain) = volume / context.baseline.volume - 1.0;
+  at(row, Observable::centre_of_mass_strain) =
+      centre_of_mass_height(world.grains) / context.baseline.centre_of_mass_height - 1.0;
+  at(row, Observable::surface_displacement) = context.surface_displacement;
+  at(row, Observable::kinetic_energy) = kinetic_energy(world.grains);
+  at(row, Observable::rms_velocity) = rms_velocity(world.grains);
+  at(row, Observable::largest_overlap) = context.largest_overlap;
+  at(row, Observable::residual) = context.residual;
+  return row;
+}
+
+StepRow step_row(const World& world, const StepReport& report, double phase) {
+  StepRow row{};
+  at(row, StepField::step) = static_cast<double>(world.step);
+  at(row, StepField::phase) = phase;
+  at(row, StepField::contacts) = report.contacts;
+  at(row, StepField::iterations) = report.solver.iterations;
+  at(row, StepField::residual) = report.solver.residual.eta;
+  at(row, StepField::converged) = report.solver.converged ? 1.0 : 0.0;
+  at(row, StepField::rms_velocity) = report.rms_velocity;
+  return row;
+}
+
+Frame make_frame(const World& world, const ContactLawParameters& law) {
+  const Grains& grains = world.grains;
+  Frame frame;
+  frame.step = world.step;
+  frame.time = world.time;
+  frame.tilt = world.tilt;
+  frame.x = grains.x;
+  frame.y = grains.y;
+  frame.angle = grains.angle;
+  frame.vx = grains.vx;
+  frame.vy = grains.vy;
+  frame.omega = grains.omega;
+  frame.image = grains.image;
+  internal_moments(grains, world.contacts, frame.internal_moment);
+  frame.gamma.reserve(frame.internal_moment.size());
+  for (const Tensor2& moment : frame.internal_moment) frame.gamma.push_back(stress_state(moment).ratio);
+  for (Index c = 0; c < world.contacts.count(); ++c)
+    if (world.contacts.fn[c] > 0.0) append_contact(world, law, c, frame.contacts);
+  return frame;
+}
+
+}  // namespace talus

@@ -1,0 +1,37 @@
+#pragma once
+/// From the world to what a run records of it.
+
+#include "core/snapshot.h"
+#include "dynamics/contact_law_parameters.h"
+#include "dynamics/step.h"
+
+namespace talus {
+
+/// Where strains are counted from: the bed at rest before the tilt.
+struct Baseline {
+  double volume = 0.0;                 ///< V0, m^2
+  double centre_of_mass_height = 0.0;  ///< y0, m
+};
+Baseline measure_baseline(const World& world, double mean_diameter);
+
+/// Spacing of the samples of the free surface, in mean diameters.
+inline constexpr double surface_sample_spacing = 0.1;
+
+/// What a row of observables needs besides the world.
+struct RowContext {
+  Baseline baseline;
+  ContactLawParameters law;
+  double mean_diameter = 0.0;         ///< m
+  double surface_displacement = 0.0;  ///< m
+  double largest_overlap = 0.0;       ///< m
+  double residual = 0.0;              ///< worst eta since the last row
+};
+ObservableRow measure(const World& world, const RowContext& context);
+
+/// One row of the series of steps.
+StepRow step_row(const World& world, const StepReport& report, double phase);
+
+/// A frame: a copy of the state with grain stresses and the contacts that carry force.
+Frame make_frame(const World& world, const ContactLawParameters& law);
+
+}  // namespace talus

@@ -1,0 +1,31 @@
+#pragma once
+/// Carrying a run through: step, record, commit, stop on request.
+
+#include <csignal>
+#include <functional>
+
+#include "session/session.h"
+
+namespace talus {
+
+/// What a client is told while a run goes on.
+struct RunProgress {
+  const Session& session;
+  double wall_seconds = 0.0;  ///< since run_to_end was called
+};
+
+struct RunControl {
+  /// Set from outside (a signal handler) to stop after the step under way.
+  const volatile std::sig_atomic_t* stop = nullptr;
+  /// Called after each step; must not change anything the run depends on. May be empty.
+  std::function<void(const RunProgress&)> on_step;
+};
+
+enum class RunEnd { complete, stopped };
+
+/// Steps the session to its end and commits to the store: at each frame, every output.checkpoint_every
+/// seconds of wall time, and when it stops. A complete run is packed into its file. An error is thrown on
+/// after what was computed before it has been committed.
+RunEnd run_to_end(Session& session, RunStore& store, const RunControl& control);
+
+}  // namespace talus

@@ -1,0 +1,175 @@
+#include "session/session.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/errors.h"
+#include "core/trigonometry.h"
+#include "dynamics/bed.h"
+
+namespace talus {
+namespace {
+
+World loose_bed(const Scenario& scenario) {
+  BedPlan plan;
+  plan.mean_diameter = scenario.grains.mean_diameter;
+  plan.size_ratio = scenario.grains.size_ratio;
+  plan.density = scenario.grains.density;
+  plan.length = scenario.bed.length * scenario.grains.mean_diameter;
+  plan.grain_count = static_cast<Index>(std::lround(scenario.bed.length * scenario.bed.depth));
+  plan.periodic = scenario.bed.boundary == BedBoundary::periodic;
+  plan.rough_floor = scenario.bed.floor == BedFloor::rough;
+  plan.initial_solid_fraction = scenario.deposition.initial_solid_fraction;
+  plan.seed = scenario.seed;
+  return make_bed(plan);
+}
+
+std::int64_t steps_between(double degrees_between, double step) {
+  return std::max<std::int64_t>(1, std::llround(degrees_between / step));
+}
+
+double seconds(const StepReport& report) {
+  double sum = 0.0;
+  for (double stage : report.seconds) sum += stage;
+  return sum;
+}
+
+}  // namespace
+
+ContactLawParameters contact_law(const Scenario& scenario) {
+  ContactLawParameters law;
+  law.friction = scenario.contact.friction;
+  law.wall_friction = scenario.contact.wall_friction;
+  law.restitution = scenario.contact.restitution;
+  law.tangential_restitution = scenario.contact.tangential_restitution;
+  law.overlap_correction = scenario.solver.overlap_correction;
+  return law;
+}
+
+RunStatics run_statics(const Scenario& scenario, const World& world) {
+  RunStatics statics;
+  statics.free_count = world.grains.free_count;
+  statics.radius = world.grains.radius;
+  statics.mass = world.grains.mass;
+  statics.periodic = world.boundary.periodic;
+  statics.length = world.boundary.length;
+  statics.depth = scenario.bed.depth * scenario.grains.mean_diameter;
+  statics.mean_diameter = scenario.grains.mean_diameter;
+  statics.gravity = world.gravity;
+  statics.friction = scenario.contact.friction;
+  return statics;
+}
+
+Session::Session(const Scenario& scenario) : scenario_(scenario), world_(loose_bed(scenario)) {}
+
+StepSettings Session::settings() const {
+  StepSettings settings;
+  settings.h = time_step(scenario_);
+  settings.margin = 0.02 * scenario_.grains.mean_diameter;
+  settings.law = contact_law(scenario_);
+  if (phase_ == Phase::deposition)
+    settings.law.friction = settings.law.wall_friction = scenario_.deposition.friction;
+  settings.solver.kind = scenario_.solver.method == SolverMethod::accelerated ? SolverKind::accelerated
+                                                                              : SolverKind::gauss_seidel;
+  const double velocity = rms_velocity(world_.grains) / (world_.gravity * settings.h);
+  settings.solver.tolerance = std::clamp(velocity * scenario_.solver.moving_tolerance,
+                                         scenario_.solver.tolerance, scenario_.solver.moving_tolerance);
+  settings.solver.threads = threads_;
+  settings.solver.max_iterations = scenario_.solver.max_iterations;
+  return settings;
+}
+
+bool Session::is_at_rest() const {
+  return rms_velocity(world_.grains) <=
+         scenario_.deposition.rest_velocity * world_.gravity * time_step(scenario_);
+}
+
+const StepReport& Session::advance() {
+  if (phase_ == Phase::deposition)
+    advance_deposition();
+  else if (phase_ == Phase::tilt)
+    advance_tilt();
+  return report_;
+}
+
+void Session::advance_deposition() {
+  take_step();
+  quiet_steps_ = report_.solver.converged && is_at_rest() ? quiet_steps_ + 1 : 0;
+  if (quiet_steps_ >= rest_steps)
+    begin_tilt();
+  else if (world_.time >= scenario_.deposition.max_time)
+    throw Error(ExitCode::bad_data,
+                "the bed did not come to rest within deposition.max_time = " +
+                    std::to_string(scenario_.deposition.max_time) + " s: its rms velocity is " +
+                    std::to_string(report_.rms_velocity / (world_.gravity * time_step(scenario_))) +
+                    " g h, rest asks for deposition.rest_velocity = " +
+                    std::to_string(scenario_.deposition.rest_velocity) +
+                    " g h; allow more time, or set solver.tolerance lower");
+}
+
+void Session::begin_tilt() {
+  phase_ = Phase::tilt;
+  baseline_ = measure_baseline(world_, scenario_.grains.mean_diameter);
+  record_row();
+  segment_.frames.push_back(make_frame(world_, contact_law(scenario_)));
+}
+
+double Session::step_angle() const { return radians(scenario_.tilt.step); }
+
+void Session::advance_tilt() {
+  ++tilt_steps_;
+  world_.tilt = static_cast<double>(tilt_steps_) * step_angle();
+  take_step();
+
+  const double diameter = scenario_.grains.mean_diameter;
+  const double velocity = surface_velocity(world_.grains, surface_height_ - surface_layer_depth * diameter);
+  surface_displacement_ += time_step(scenario_) * velocity;
+  const bool failed_before = flow_.failed;
+  follow_surface(flow_, velocity, world_.tilt, time_step(scenario_), diameter, world_.gravity);
+
+  const double tilt = degrees(world_.tilt);
+  const bool ends = scenario_.tilt.end_angle ? tilt >= *scenario_.tilt.end_angle - 0.5 * scenario_.tilt.step
+                                             : flow_.failed || tilt >= steepest_tilt;
+  if (ends || tilt_steps_ % steps_between(scenario_.output.observable_every, scenario_.tilt.step) == 0)
+    record_row();
+  if (ends || flow_.failed != failed_before ||
+      tilt_steps_ % steps_between(scenario_.output.frame_every, scenario_.tilt.step) == 0)
+    segment_.frames.push_back(make_frame(world_, contact_law(scenario_)));
+  if (ends) phase_ = Phase::done;
+}
+
+void Session::take_step() {
+  const bool at_rest_before = is_at_rest();
+  report_ = step(world_, settings(), workspace_);
+  const bool tilting = phase_ == Phase::tilt;
+  if (!report_.solver.converged) ++(tilting ? record_.unconverged_tilt : record_.unconverged_deposition);
+  const double eta = report_.solver.residual.eta;
+  residual_since_row_ = std::max(residual_since_row_, eta);
+  if (tilting) {
+    double& worst = at_rest_before && is_at_rest() ? record_.residual_max_rest : record_.residual_max_moving;
+    worst = std::max(worst, eta);
+  }
+  for (std::size_t k = 0; k < stage_count; ++k) stage_seconds_[k] += report_.seconds[k];
+  (tilting ? tilt_seconds_ : deposition_seconds_) += seconds(report_);
+  segment_.steps.push_back(step_row(world_, report_, static_cast<double>(phase_)));
+}
+
+void Session::record_row() {
+  RowContext context;
+  context.baseline = baseline_;
+  context.law = contact_law(scenario_);
+  context.mean_diameter = scenario_.grains.mean_diameter;
+  context.surface_displacement = surface_displacement_;
+  context.largest_overlap = report_.largest_overlap;
+  context.residual = residual_since_row_;
+  segment_.observables.push_back(measure(world_, context));
+  residual_since_row_ = 0.0;
+  const double volume = (1.0 + at(segment_.observables.back(), Observable::volume_strain)) * baseline_.volume;
+  surface_height_ = volume / world_.boundary.length;
+}
+
+std::optional<double> Session::angle_of_repose() const {
+  return flow_.failed ? std::optional<double>(flow_.onset_tilt) : std::nullopt;
+}
+
+}  // namespace talus

@@ -1,0 +1,99 @@
+#pragma once
+/// A run as a value that is stepped: deposition, rest, tilt, failure. The command line and the interactive
+/// frontend are both thin clients of it.
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "dynamics/failure.h"
+#include "dynamics/step.h"
+#include "io/run_store.h"
+#include "session/measure.h"
+#include "session/scenario.h"
+
+namespace talus {
+
+enum class Phase : std::int64_t { deposition = 0, tilt = 1, done = 2 };
+
+/// How well the steps of the tilt were solved so far.
+struct SolverRecord {
+  std::int64_t unconverged_deposition = 0;  ///< steps that did not reach the tolerance asked of them
+  std::int64_t unconverged_tilt = 0;
+  double residual_max_rest = 0.0;    ///< worst eta of a step of the tilt that began and ended at rest
+  double residual_max_moving = 0.0;  ///< worst eta of the other steps of the tilt
+};
+
+/// The tolerance asked of a step grows with the velocity of the bed, from solver.tolerance at rest to
+/// solver.moving_tolerance at an rms velocity of g h: an error of the solver is a velocity too, and stays
+/// well below the real one, so that a bed can always come to rest.
+class Session {
+ public:
+  /// A new run: the loose bed of the scenario, about to fall.
+  explicit Session(const Scenario& scenario);
+  /// A run as its last commit left it. Throws Error(bad_data) where the checkpoint lacks a value.
+  Session(const Scenario& scenario, Checkpoint checkpoint);
+
+  /// Takes one step; what it records goes to segment(). Does nothing once done.
+  /// Throws Error(bad_data) when the bed does not come to rest within deposition.max_time.
+  const StepReport& advance();
+
+  /// Threads of the solver; the result does not depend on them.
+  void use_threads(int threads) { threads_ = threads; }
+
+  const Scenario& scenario() const { return scenario_; }
+  const World& world() const { return world_; }
+  Phase phase() const { return phase_; }
+  const StepReport& last_report() const { return report_; }
+  const SolverRecord& solver_record() const { return record_; }
+  /// rad; no value while the slope has not failed.
+  std::optional<double> angle_of_repose() const;
+
+  /// What was recorded since the last call of clear_segment.
+  const Segment& segment() const { return segment_; }
+  void clear_segment() { segment_ = {}; }
+
+  /// All that a resumed run needs. `seconds_writing` goes to the timing.
+  Checkpoint checkpoint(double seconds_writing) const;
+
+ private:
+  StepSettings settings() const;
+  bool is_at_rest() const;
+  void take_step();
+  void advance_deposition();
+  void begin_tilt();
+  void advance_tilt();
+  void record_row();
+  double step_angle() const;  ///< rad of tilt per step
+
+  Scenario scenario_;
+  World world_;
+  Phase phase_ = Phase::deposition;
+  std::int64_t tilt_steps_ = 0;
+  std::int64_t quiet_steps_ = 0;  ///< steps at rest in a row, during deposition
+  Baseline baseline_;
+  SurfaceFlow flow_;
+  double surface_height_ = 0.0;        ///< m, mean free surface at the last row
+  double surface_displacement_ = 0.0;  ///< m
+  double residual_since_row_ = 0.0;
+  SolverRecord record_;
+  std::array<double, stage_count> stage_seconds_{};
+  double deposition_seconds_ = 0.0;
+  double tilt_seconds_ = 0.0;
+
+  int threads_ = 1;
+  StepReport report_;
+  StepWorkspace workspace_;
+  Segment segment_;
+};
+
+/// The contact law of a scenario, after deposition.
+ContactLawParameters contact_law(const Scenario& scenario);
+
+/// What does not change during the run.
+RunStatics run_statics(const Scenario& scenario, const World& world);
+
+/// A slope that has not failed at this angle ends its run, deg.
+inline constexpr double steepest_tilt = 60.0;
+
+}  // namespace talus

@@ -1,0 +1,88 @@
+/// A session to and from its checkpoint, value by value.
+
+#include <cmath>
+#include <limits>
+
+#include "core/errors.h"
+#include "session/session.h"
+
+namespace talus {
+namespace {
+
+template <typename Pairs>
+auto value_of(const Pairs& pairs, const std::string& name) {
+  for (const auto& [key, value] : pairs)
+    if (key == name) return value;
+  throw Error(ExitCode::bad_data,
+              "the checkpoint has no value '" + name + "': it was written by another version");
+}
+
+double or_zero(const Figures& figures, const std::string& name) {
+  for (const auto& [key, value] : figures)
+    if (key == name) return value;
+  return 0.0;
+}
+
+}  // namespace
+
+Checkpoint Session::checkpoint(double seconds_writing) const {
+  Checkpoint checkpoint;
+  checkpoint.world = world_;
+  checkpoint.integers = {{"phase", static_cast<std::int64_t>(phase_)},
+                         {"tilt_steps", tilt_steps_},
+                         {"quiet_steps", quiet_steps_},
+                         {"flowing", flow_.flowing ? 1 : 0},
+                         {"failed", flow_.failed ? 1 : 0},
+                         {"unconverged_deposition", record_.unconverged_deposition},
+                         {"unconverged_tilt", record_.unconverged_tilt}};
+  checkpoint.reals = {{"baseline_volume", baseline_.volume},
+                      {"baseline_centre_of_mass_height", baseline_.centre_of_mass_height},
+                      {"onset_tilt", flow_.onset_tilt},
+                      {"flow_displacement", flow_.displacement},
+                      {"surface_height", surface_height_},
+                      {"surface_displacement", surface_displacement_},
+                      {"residual_since_row", residual_since_row_}};
+  checkpoint.results = {{"theta_c", angle_of_repose().value_or(std::numeric_limits<double>::quiet_NaN())},
+                        {"residual_max", std::max(record_.residual_max_rest, record_.residual_max_moving)},
+                        {"residual_max_rest", record_.residual_max_rest},
+                        {"residual_max_moving", record_.residual_max_moving},
+                        {"unconverged_steps_deposition", static_cast<double>(record_.unconverged_deposition)},
+                        {"unconverged_steps", static_cast<double>(record_.unconverged_tilt)}};
+  checkpoint.timing = {{"deposition", deposition_seconds_}, {"tilt", tilt_seconds_}};
+  for (std::size_t k = 0; k < stage_count; ++k)
+    checkpoint.timing.emplace_back(std::string("stage_") + std::string(stage_names[k]), stage_seconds_[k]);
+  checkpoint.timing.emplace_back("write", seconds_writing);
+  return checkpoint;
+}
+
+Session::Session(const Scenario& scenario, Checkpoint checkpoint)
+    : scenario_(scenario), world_(std::move(checkpoint.world)) {
+  const auto& integers = checkpoint.integers;
+  const auto& reals = checkpoint.reals;
+  const std::int64_t phase = value_of(integers, "phase");
+  if (phase < 0 || phase > static_cast<std::int64_t>(Phase::done))
+    throw Error(ExitCode::bad_data,
+                "the checkpoint has phase " + std::to_string(phase) + ", expected 0, 1 or 2");
+  phase_ = static_cast<Phase>(phase);
+  tilt_steps_ = value_of(integers, "tilt_steps");
+  quiet_steps_ = value_of(integers, "quiet_steps");
+  flow_.flowing = value_of(integers, "flowing") != 0;
+  flow_.failed = value_of(integers, "failed") != 0;
+  flow_.onset_tilt = value_of(reals, "onset_tilt");
+  flow_.displacement = value_of(reals, "flow_displacement");
+  record_.unconverged_deposition = value_of(integers, "unconverged_deposition");
+  record_.unconverged_tilt = value_of(integers, "unconverged_tilt");
+  record_.residual_max_rest = value_of(checkpoint.results, "residual_max_rest");
+  record_.residual_max_moving = value_of(checkpoint.results, "residual_max_moving");
+  baseline_.volume = value_of(reals, "baseline_volume");
+  baseline_.centre_of_mass_height = value_of(reals, "baseline_centre_of_mass_height");
+  surface_height_ = value_of(reals, "surface_height");
+  surface_displacement_ = value_of(reals, "surface_displacement");
+  residual_since_row_ = value_of(reals, "residual_since_row");
+  deposition_seconds_ = or_zero(checkpoint.timing, "deposition");
+  tilt_seconds_ = or_zero(checkpoint.timing, "tilt");
+  for (std::size_t k = 0; k < stage_count; ++k)
+    stage_seconds_[k] = or_zero(checkpoint.timing, std::string("stage_") + std::string(stage_names[k]));
+}
+
+}  // namespace talus
