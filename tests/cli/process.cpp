@@ -1,0 +1,86 @@
+#include "process.h"
+
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+
+namespace talus::test {
+namespace {
+
+std::string content(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+pid_t start(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
+            const std::string& out, const std::string& err) {
+  const pid_t child = fork();
+  if (child != 0) return child;
+  if (chdir(folder.c_str()) != 0) _exit(126);
+  setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);
+  dup2(open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDOUT_FILENO);
+  dup2(open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDERR_FILENO);
+  std::vector<char*> argv;
+  std::string program = TALUS_PROGRAM;
+  argv.push_back(program.data());
+  std::vector<std::string> copies = arguments;
+  for (std::string& argument : copies) argv.push_back(argument.data());
+  argv.push_back(nullptr);
+  execv(program.c_str(), argv.data());
+  _exit(127);
+}
+
+}  // namespace
+
+Outcome run_talus(const std::vector<std::string>& arguments, const std::filesystem::path& folder) {
+  const std::string out = (folder / ".stdout").string();
+  const std::string err = (folder / ".stderr").string();
+  Outcome outcome;
+  outcome.exit_code = wait_for(start(arguments, folder, out, err));
+  outcome.out = content(out);
+  outcome.err = content(err);
+  return outcome;
+}
+
+pid_t start_talus(const std::vector<std::string>& arguments, const std::filesystem::path& folder) {
+  return start(arguments, folder, "/dev/null", "/dev/null");
+}
+
+int wait_for(pid_t process) {
+  int status = 0;
+  waitpid(process, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+TemporaryFolder::TemporaryFolder() {
+  std::string pattern = (std::filesystem::temp_directory_path() / "talus-XXXXXX").string();
+  path_ = mkdtemp(pattern.data());
+}
+
+TemporaryFolder::~TemporaryFolder() {
+  std::error_code ignored;
+  std::filesystem::remove_all(path_, ignored);
+}
+
+std::string TemporaryFolder::file(const std::string& name, const std::string& text) const {
+  std::ofstream(path_ / name) << text;
+  return name;
+}
+
+std::string json_value(const std::string& json, const std::string& key) {
+  const std::string mark = "\"" + key + "\":";
+  const std::size_t at = json.find(mark);
+  if (at == std::string::npos) return {};
+  std::size_t begin = json.find_first_not_of(' ', at + mark.size());
+  const bool quoted = json[begin] == '"';
+  if (quoted) ++begin;
+  return json.substr(begin, json.find_first_of(quoted ? "\"" : ",}\n", begin) - begin);
+}
+
+}  // namespace talus::test

@@ -1,0 +1,43 @@
+#pragma once
+/// Running the program as a user does.
+
+#include <sys/types.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace talus::test {
+
+struct Outcome {
+  int exit_code = -1;  ///< -1 where a signal ended it
+  std::string out;
+  std::string err;
+};
+
+/// Runs `talus` with arguments in a folder and waits for it.
+Outcome run_talus(const std::vector<std::string>& arguments, const std::filesystem::path& folder);
+
+/// Starts it with its output thrown away; the caller sends signals and collects it with wait_for.
+pid_t start_talus(const std::vector<std::string>& arguments, const std::filesystem::path& folder);
+int wait_for(pid_t process);
+
+/// A fresh folder that is removed with its contents at the end.
+class TemporaryFolder {
+ public:
+  TemporaryFolder();
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+  /// Writes a file in the folder and returns its name.
+  std::string file(const std::string& name, const std::string& text) const;
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// The value of a key in flat JSON text: enough for the output of `talus info --json`.
+std::string json_value(const std::string& json, const std::string& key);
+
+}  // namespace talus::test

@@ -1,0 +1,174 @@
+/// Whole runs of a small bed: outputs, stops, resumption, the same bits every time.
+
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+#include "process.h"
+
+namespace talus::test {
+namespace {
+
+/// A bed that is deposited and tilted to its end in about a second.
+const char* const small_bed =
+    "seed = 3\n[bed]\nlength = 16\ndepth = 6\n[tilt]\nend_angle = 3.0\n[output]\nframe_every = 0.5\n";
+
+std::string hash_of(const std::string& run, const TemporaryFolder& folder) {
+  const Outcome outcome = run_talus({"info", run, "--json"}, folder.path());
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  return json_value(outcome.out, "state_hash");
+}
+
+TEST(Run, leaves_one_file_that_tells_what_it_holds) {
+  const TemporaryFolder folder;
+  folder.file("bed.toml", small_bed);
+  const Outcome run = run_talus({"run", "bed.toml", "-o", "bed.h5"}, folder.path());
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "bed.h5"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "bed.h5.run"));
+  const std::string json = run_talus({"info", "bed.h5", "--json"}, folder.path()).out;
+  EXPECT_EQ(json_value(json, "seed"), "3");
+  EXPECT_EQ(json_value(json, "grains"), "96");
+  EXPECT_EQ(json_value(json, "frames"), "7") << "0, 0.5, ... 3 deg";
+  EXPECT_EQ(json_value(json, "complete"), "true");
+  EXPECT_EQ(json_value(json, "theta_c"), "null") << "this bed stands at 3 deg";
+  EXPECT_EQ(json_value(json, "state_hash").size(), 16u);
+}
+
+TEST(Run, quiet_prints_nothing_but_warnings) {
+  const TemporaryFolder folder;
+  folder.file("bed.toml", small_bed);
+  const Outcome run = run_talus({"run", "bed.toml", "--quiet"}, folder.path());
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_EQ(run.out, "");
+  EXPECT_TRUE(run.err.empty() || run.err.find("warning") != std::string::npos) << run.err;
+}
+
+TEST(Run, existing_output_is_refused_unless_told) {
+  const TemporaryFolder folder;
+  folder.file("bed.toml", small_bed);
+  folder.file("bed.h5", "precious");
+  const Outcome refused = run_talus({"run", "bed.toml", "-o", "bed.h5"}, folder.path());
+  EXPECT_EQ(refused.exit_code, 73);
+  EXPECT_NE(refused.err.find("--overwrite"), std::string::npos) << refused.err;
+  std::ifstream file(folder.path() / "bed.h5");
+  std::string kept;
+  std::getline(file, kept);
+  EXPECT_EQ(kept, "precious");
+}
+
+TEST(Run, same_bits_for_any_number_of_threads) {
+  const TemporaryFolder folder;
+  // Large enough for two threads to share its contacts.
+  folder.file("bed.toml", "[bed]\nlength = 60\ndepth = 20\n[tilt]\nend_angle = 0.05\n");
+  ASSERT_EQ(run_talus({"run", "bed.toml", "-o", "one.h5", "--threads", "1"}, folder.path()).exit_code, 0);
+  ASSERT_EQ(run_talus({"run", "bed.toml", "-o", "two.h5", "--threads", "2"}, folder.path()).exit_code, 0);
+  EXPECT_EQ(hash_of("one.h5", folder), hash_of("two.h5", folder));
+}
+
+TEST(Run, another_seed_is_another_bed) {
+  const TemporaryFolder folder;
+  folder.file("bed.toml", small_bed);
+  ASSERT_EQ(
+      run_talus({"run", "bed.toml", "-o", "a.h5", "--set", "tilt.end_angle=0.5"}, folder.path()).exit_code,
+      0);
+  ASSERT_EQ(run_talus({"run", "bed.toml", "-o", "b.h5", "--seed", "4", "--set", "tilt.end_angle=0.5"},
+                      folder.path())
+                .exit_code,
+            0);
+  EXPECT_NE(hash_of("a.h5", folder), hash_of("b.h5", folder));
+}
+
+/// Everything in a packed run but its provenance, which tells when and how it was made.
+std::string science_of(const std::string& run, const TemporaryFolder& folder) {
+  const std::string script =
+      "import h5py,sys,hashlib\n"
+      "h=hashlib.sha256()\n"
+      "def visit(name,item):\n"
+      "    if isinstance(item,h5py.Dataset) and not name.startswith('provenance'):\n"
+      "        h.update(name.encode()); h.update(item[()].tobytes() if hasattr(item[()],'tobytes') else "
+      "bytes(item[()]))\n"
+      "h5py.File(sys.argv[1],'r').visititems(visit)\n"
+      "print(h.hexdigest())\n";
+  folder.file("science.py", script);
+  const std::filesystem::path out = folder.path() / "science.txt";
+  const std::string command = "/usr/bin/python3 " + (folder.path() / "science.py").string() + " " +
+                              (folder.path() / run).string() + " > " + out.string() + " 2> /dev/null";
+  if (std::system(command.c_str()) != 0) return {};
+  std::ifstream file(out);
+  std::string digest;
+  file >> digest;
+  return digest;
+}
+
+class Interrupted : public testing::TestWithParam<int> {};
+
+TEST_P(Interrupted, run_resumes_to_the_same_bits) {
+  const TemporaryFolder folder;
+  folder.file("bed.toml", small_bed);
+  ASSERT_EQ(run_talus({"run", "bed.toml", "-o", "whole.h5"}, folder.path()).exit_code, 0);
+  int stops = 0;
+  for (int attempt = 0; attempt < 200; ++attempt) {
+    const pid_t process = start_talus({"run", "bed.toml", "-o", "parts.h5", "--resume"}, folder.path());
+    std::this_thread::sleep_for(std::chrono::milliseconds(60 + 25 * attempt));
+    kill(process, GetParam());
+    const int code = wait_for(process);
+    if (code == 0) break;
+    EXPECT_EQ(code, GetParam() == SIGKILL ? -1 : 75);
+    ++stops;
+  }
+  EXPECT_GT(stops, 0) << "the run was never interrupted: nothing was tested";
+  ASSERT_EQ(run_talus({"run", "bed.toml", "-o", "parts.h5", "--resume"}, folder.path()).exit_code, 0);
+  EXPECT_EQ(hash_of("parts.h5", folder), hash_of("whole.h5", folder));
+  const std::string whole = science_of("whole.h5", folder);
+  if (whole.empty()) GTEST_SKIP() << "python3-h5py is not installed: data sets were not compared";
+  EXPECT_EQ(science_of("parts.h5", folder), whole);
+}
+
+INSTANTIATE_TEST_SUITE_P(Signals, Interrupted, testing::Values(SIGINT, SIGTERM, SIGKILL));
+
+TEST(Run, a_second_writer_is_refused) {
+  const TemporaryFolder folder;
+  folder.file("bed.toml", small_bed);
+  const pid_t first =
+      start_talus({"run", "bed.toml", "-o", "bed.h5", "--set", "tilt.end_angle=30"}, folder.path());
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  const Outcome second = run_talus({"run", "bed.toml", "-o", "bed.h5", "--resume"}, folder.path());
+  EXPECT_EQ(second.exit_code, 73) << second.err;
+  EXPECT_NE(second.err.find(std::to_string(first)), std::string::npos) << second.err;
+  kill(first, SIGKILL);
+  wait_for(first);
+}
+
+TEST(Run, another_scenario_cannot_resume_it) {
+  const TemporaryFolder folder;
+  folder.file("bed.toml", small_bed);
+  const pid_t process = start_talus({"run", "bed.toml", "-o", "bed.h5"}, folder.path());
+  std::this_thread::sleep_for(std::chrono::milliseconds(250));
+  kill(process, SIGTERM);
+  ASSERT_EQ(wait_for(process), 75);
+  const Outcome outcome = run_talus(
+      {"run", "bed.toml", "-o", "bed.h5", "--resume", "--set", "contact.friction=0.3"}, folder.path());
+  EXPECT_EQ(outcome.exit_code, 65) << outcome.err;
+}
+
+TEST(Run, maps_are_drawn_from_the_file) {
+  const TemporaryFolder folder;
+  folder.file("bed.toml", small_bed);
+  ASSERT_EQ(run_talus({"run", "bed.toml", "-o", "bed.h5"}, folder.path()).exit_code, 0);
+  const Outcome refused = run_talus({"render", "bed.h5", "--map", "overloaded", "-o", "maps"}, folder.path());
+  EXPECT_EQ(refused.exit_code, 65) << "this bed did not fail: Gamma_c is not known";
+  const Outcome outcome = run_talus(
+      {"render", "bed.h5", "--map", "gamma,overloaded", "--theta-c", "20", "--at", "0,2", "-o", "maps"},
+      folder.path());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  for (const char* name :
+       {"gamma_000.00.png", "gamma_002.00.png", "overloaded_000.00.png", "overloaded_002.00.png"})
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / "maps" / name)) << name;
+}
+
+}  // namespace
+}  // namespace talus::test
