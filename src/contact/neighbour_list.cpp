@@ -135,7 +135,13 @@ void pair_with_planes(NeighbourList& list, const Grains& grains, const Boundary&
 
 void update_neighbour_list(NeighbourList& list, const Grains& grains, const Boundary& boundary,
                            double reach) {
-  if (grains.count() == 0 || covers(list, grains, reach)) return;
+  if (covers(list, grains, reach)) return;
+  list.a.clear();
+  list.b.clear();
+  list.shift.clear();
+  list.x = grains.x;
+  list.y = grains.y;
+  if (grains.count() == 0) return;
   const double largest = *std::max_element(grains.radius.begin(), grains.radius.end());
   list.skin = 0.1 * largest;
   // While the bed moves fast the reach changes from step to step: some room above it saves rebuilds.
@@ -143,17 +149,12 @@ void update_neighbour_list(NeighbourList& list, const Grains& grains, const Boun
   const double range = list.reach + list.skin;
   const Grid grid = make_grid(grains, boundary, 2.0 * largest + range);
   fill_cells(list, grains, grid);
-  list.a.clear();
-  list.b.clear();
-  list.shift.clear();
   for (Index a = 0; a < grains.free_count; ++a) {
     const std::size_t first = list.a.size();
     pair_with_grains(list, grains, boundary, grid, a, range);
     pair_with_planes(list, grains, boundary, a, range);
     sort_pairs(list, first);
   }
-  list.x = grains.x;
-  list.y = grains.y;
   ++list.rebuilds;
 }
 

@@ -24,7 +24,8 @@ struct NeighbourList {
   std::vector<Index> cell_start, cell_grain, cell_of_grain;
 };
 
-/// Makes the list anew if it does not cover pairs up to a gap of `reach` at the present positions.
+/// Makes the list anew where it does not cover pairs up to a gap of `reach` at the present positions. A list
+/// serves one world: it does not see changed radii, planes or lengths.
 void update_neighbour_list(NeighbourList& list, const Grains& grains, const Boundary& boundary, double reach);
 
 }  // namespace talus

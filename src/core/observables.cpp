@@ -33,6 +33,8 @@ const std::array<SeriesField, observable_count> observable_fields = {{
     {"largest_overlap", "m",
      "largest overlap of two bodies at the midpoint of the step; 0 where nothing overlaps"},
     {"residual", "1", "largest natural-map residual eta of the steps since the last row"},
+    {"at_rest", "1",
+     "1 where the rms velocity stayed below deposition.rest_velocity g h for the last 50 steps, else 0"},
 }};
 
 const std::array<SeriesField, step_field_count> step_fields = {{

@@ -34,6 +34,7 @@ enum class Observable : std::size_t {
   rms_velocity,
   largest_overlap,
   residual,
+  at_rest,
   count
 };
 inline constexpr std::size_t observable_count = static_cast<std::size_t>(Observable::count);

@@ -27,7 +27,7 @@ void add_loose_grains(const BedPlan& plan, Grains& grains) {
   const auto columns =
       static_cast<Index>(std::max(1.0, std::floor(plan.length / std::sqrt(grain_area / fraction))));
   const double width = plan.length / columns;
-  const double height = grain_area / (fraction * width);
+  const double height = std::max(grain_area / (fraction * width), largest);
   Random random(plan.seed);
   for (Index i = 0; i < plan.grain_count; ++i) {
     const double radius = 0.5 * random.uniform(smallest, largest);

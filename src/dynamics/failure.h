@@ -5,8 +5,8 @@
 
 namespace talus {
 
-/// A bed is at rest when for `rest_steps` steps in a row its rms velocity stayed below a stated fraction of g
-/// h (the velocity that gravity gives a free grain within one step) and every step was solved to tolerance.
+/// A bed is at rest when for this many steps in a row its rms velocity stayed below a stated fraction of g h (the
+/// velocity that gravity gives a free grain within one step). A deposition ends there, with a step solved to tolerance.
 inline constexpr int rest_steps = 50;
 
 /// Mean velocity along x of the surface layer: the free grains whose centre lies above `lower_edge` (m). m/s.

@@ -47,6 +47,13 @@ void move(Grains& grains, const Boundary& boundary, double duration) {
   }
 }
 
+void copy_positions(const Grains& from, Grains& to) {
+  to.x = from.x;
+  to.y = from.y;
+  to.angle = from.angle;
+  to.image = from.image;
+}
+
 double largest_velocity(const Grains& grains) {
   double square = 0.0;
   for (Index i = 0; i < grains.free_count; ++i)
@@ -104,6 +111,7 @@ StepReport step(World& world, const StepSettings& settings, StepWorkspace& works
 
   // Two grains can approach by twice the largest velocity; gravity adds g h to it within the step.
   const double margin = settings.margin + 2.0 * h * (largest_velocity(grains) + world.gravity * h);
+  copy_positions(grains, workspace.before);
   move(grains, world.boundary, 0.5 * h);
   clock.end_of(Stage::move);
   detect_contacts(workspace.neighbours, grains, world.boundary, margin, contacts);
@@ -116,7 +124,7 @@ StepReport step(World& world, const StepSettings& settings, StepWorkspace& works
   report.solver = solve(workspace.problem, settings.solver, workspace.solver, workspace.solution);
   clock.end_of(Stage::solve);
   if (!finite(workspace.solution)) {
-    move(grains, world.boundary, -0.5 * h);
+    copy_positions(workspace.before, grains);
     throw Error(ExitCode::internal, "step " + std::to_string(world.step + 1) + ": a velocity is not finite");
   }
   store_forces(workspace.solution, h, contacts);

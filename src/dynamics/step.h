@@ -35,6 +35,7 @@ struct StepReport {
 
 /// Memory kept between steps; holds no state of the world.
 struct StepWorkspace {
+  Grains before;  ///< where the grains were, to go back to when a step fails
   NeighbourList neighbours;
   Contacts contacts;
   ContactProblem problem;

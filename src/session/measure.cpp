@@ -79,6 +79,7 @@ ObservableRow measure(const World& world, const RowContext& context) {
   at(row, Observable::rms_velocity) = rms_velocity(world.grains);
   at(row, Observable::largest_overlap) = context.largest_overlap;
   at(row, Observable::residual) = context.residual;
+  at(row, Observable::at_rest) = context.at_rest ? 1.0 : 0.0;
   return row;
 }
 

@@ -25,6 +25,7 @@ struct RowContext {
   double surface_displacement = 0.0;  ///< m
   double largest_overlap = 0.0;       ///< m
   double residual = 0.0;              ///< worst eta since the last row
+  bool at_rest = false;
 };
 ObservableRow measure(const World& world, const RowContext& context);
 

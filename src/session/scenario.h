@@ -11,7 +11,6 @@ namespace talus {
 
 enum class BedBoundary { periodic, walls };
 enum class BedFloor { rough, smooth };
-enum class DepositionMethod { collapse, layers };
 enum class SolverMethod { accelerated, gauss_seidel };
 
 struct Scenario {
@@ -44,11 +43,10 @@ struct Scenario {
   } bed;
 
   struct Deposition {
-    DepositionMethod method = DepositionMethod::collapse;  ///< how the grains start: see docs/scenario.md
-    double initial_solid_fraction = 0.5;                   ///< of the loose arrangement the grains fall from
-    double friction = 0.5;  ///< between all bodies while the bed is deposited and comes to rest
+    double initial_solid_fraction = 0.5;  ///< of the loose arrangement the grains fall from
+    double friction = 0.5;                ///< between all bodies while the bed is deposited and comes to rest
     double rest_velocity =
-        0.01;                ///< the bed is at rest when its rms velocity stays below this, in units of g h
+        0.005;               ///< the bed is at rest when its rms velocity stays below this, in units of g h
     double max_time = 60.0;  ///< s of simulated time after which a bed that has not come to rest is an error
 
     bool operator==(const Deposition&) const = default;
@@ -64,7 +62,7 @@ struct Scenario {
 
   struct SolverSettings {
     SolverMethod method = SolverMethod::accelerated;  ///< "accelerated" or "gauss-seidel"
-    double tolerance = 1e-6;                          ///< natural-map residual eta asked of each step
+    double tolerance = 3e-7;                          ///< natural-map residual eta asked of each step
     double moving_tolerance = 1e-4;                   ///< the same while the bed moves
     int max_iterations = 1000;                        ///< passes over all contacts
     double overlap_correction = 0.05;                 ///< share of an overlap taken back in each step

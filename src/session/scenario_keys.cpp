@@ -126,9 +126,6 @@ void add_bed_keys(Keys& keys) {
 }
 
 void add_loading_keys(Keys& keys) {
-  keys.push_back(choice(
-      "deposition", "method", {{"collapse"}}, "all grains fall together from a loose random arrangement",
-      [](auto& s) -> auto& { return s.deposition.method; }));
   keys.push_back(number(
       "deposition", "initial_solid_fraction", "", from_to(0.1, 0.7),
       "solid fraction of the loose arrangement; less where the size ratio needs room",
@@ -165,10 +162,12 @@ void add_computing_keys(Keys& keys) {
       "projected gradient with momentum, or the slow reference",
       [](auto& s) -> auto& { return s.solver.method; }));
   keys.push_back(number(
-      "solver", "tolerance", "", from_to(1e-12, 1e-2), "natural-map residual to reach in each step",
+      "solver", "tolerance", "", from_to(1e-12, 1e-2),
+      "natural-map residual to reach in a step of a bed at rest",
       [](auto& s) -> auto& { return s.solver.tolerance; }));
   keys.push_back(number(
-      "solver", "moving_tolerance", "", from_to(1e-12, 1e-2), "the same while the bed moves",
+      "solver", "moving_tolerance", "", from_to(1e-12, 1e-2),
+      "the same at an rms velocity of g h or more; in proportion to the velocity below it",
       [](auto& s) -> auto& { return s.solver.moving_tolerance; }));
   keys.push_back(integer(
       "solver", "max_iterations", {1, 10'000'000},

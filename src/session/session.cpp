@@ -79,7 +79,7 @@ StepSettings Session::settings() const {
   return settings;
 }
 
-bool Session::is_at_rest() const {
+bool Session::is_quiet() const {
   return rms_velocity(world_.grains) <=
          scenario_.deposition.rest_velocity * world_.gravity * time_step(scenario_);
 }
@@ -94,8 +94,7 @@ const StepReport& Session::advance() {
 
 void Session::advance_deposition() {
   take_step();
-  quiet_steps_ = report_.solver.converged && is_at_rest() ? quiet_steps_ + 1 : 0;
-  if (quiet_steps_ >= rest_steps)
+  if (is_at_rest() && report_.solver.converged)
     begin_tilt();
   else if (world_.time >= scenario_.deposition.max_time)
     throw Error(ExitCode::bad_data,
@@ -139,14 +138,14 @@ void Session::advance_tilt() {
 }
 
 void Session::take_step() {
-  const bool at_rest_before = is_at_rest();
   report_ = step(world_, settings(), workspace_);
+  quiet_steps_ = is_quiet() ? quiet_steps_ + 1 : 0;
   const bool tilting = phase_ == Phase::tilt;
   if (!report_.solver.converged) ++(tilting ? record_.unconverged_tilt : record_.unconverged_deposition);
   const double eta = report_.solver.residual.eta;
   residual_since_row_ = std::max(residual_since_row_, eta);
   if (tilting) {
-    double& worst = at_rest_before && is_at_rest() ? record_.residual_max_rest : record_.residual_max_moving;
+    double& worst = is_at_rest() ? record_.residual_max_rest : record_.residual_max_moving;
     worst = std::max(worst, eta);
   }
   for (std::size_t k = 0; k < stage_count; ++k) stage_seconds_[k] += report_.seconds[k];
@@ -162,6 +161,7 @@ void Session::record_row() {
   context.surface_displacement = surface_displacement_;
   context.largest_overlap = report_.largest_overlap;
   context.residual = residual_since_row_;
+  context.at_rest = is_at_rest();
   segment_.observables.push_back(measure(world_, context));
   residual_since_row_ = 0.0;
   const double volume = (1.0 + at(segment_.observables.back(), Observable::volume_strain)) * baseline_.volume;

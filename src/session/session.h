@@ -20,7 +20,7 @@ enum class Phase : std::int64_t { deposition = 0, tilt = 1, done = 2 };
 struct SolverRecord {
   std::int64_t unconverged_deposition = 0;  ///< steps that did not reach the tolerance asked of them
   std::int64_t unconverged_tilt = 0;
-  double residual_max_rest = 0.0;    ///< worst eta of a step of the tilt that began and ended at rest
+  double residual_max_rest = 0.0;    ///< worst eta of a step of the tilt at rest
   double residual_max_moving = 0.0;  ///< worst eta of the other steps of the tilt
 };
 
@@ -58,7 +58,8 @@ class Session {
 
  private:
   StepSettings settings() const;
-  bool is_at_rest() const;
+  bool is_quiet() const;  ///< slower than deposition.rest_velocity
+  bool is_at_rest() const { return quiet_steps_ >= rest_steps; }
   void take_step();
   void advance_deposition();
   void begin_tilt();
@@ -70,7 +71,7 @@ class Session {
   World world_;
   Phase phase_ = Phase::deposition;
   std::int64_t tilt_steps_ = 0;
-  std::int64_t quiet_steps_ = 0;  ///< steps at rest in a row, during deposition
+  std::int64_t quiet_steps_ = 0;  ///< in a row, until now
   Baseline baseline_;
   SurfaceFlow flow_;
   double surface_height_ = 0.0;        ///< m, mean free surface at the last row

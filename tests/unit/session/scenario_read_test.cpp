@@ -55,7 +55,9 @@ TEST(ReadScenario, repose_takes_the_end_angle_away) {
 
 TEST(ReadScenario, the_ends_of_a_range_belong_to_it) {
   EXPECT_EQ(message_of("[contact]\nfriction = 0\nrestitution = 1\ntangential_restitution = -1\n"), "");
-  EXPECT_EQ(message_of("[tilt]\nrate = 100\nstep = 0.001\n"), "");
+  // Time steps that are the ends of their range but for round-off.
+  EXPECT_EQ(message_of("[tilt]\nrate = 0.1\nstep = 1e-6\n"), "");
+  EXPECT_EQ(message_of("[tilt]\nrate = 4.1\nstep = 0.041\n[output]\nobservable_every = 1\n"), "");
   EXPECT_EQ(message_of("[bed]\nlength = 10\n"), "");
 }
 

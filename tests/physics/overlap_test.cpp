@@ -1,0 +1,93 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "core/trigonometry.h"
+#include "support/scenes.h"
+
+namespace talus {
+namespace {
+
+// The residual bounds what a step lets through: |P'_n - P_n| <= eta ||P||, so U_n >= - W_nn eta ||P||, and a
+// gap shrinks by no more than h times that, as the distance of two disks is convex. With the share alpha of
+// an overlap taken back in each step, d <- (1 - alpha) d + h W_nn eta ||P|| never passes h W_nn eta ||P|| /
+// alpha.
+double overlap_bound(const World& world, const StepSettings& settings, double eta, double impulse) {
+  const Grains& g = world.grains;
+  const double lightest = *std::max_element(g.inverse_mass.begin(), g.inverse_mass.end());
+  return settings.h * 2.0 * lightest * eta * impulse / settings.law.overlap_correction;
+}
+
+/// ||P|| of the last step, N s.
+double impulse_norm(const World& world, double h) {
+  double sum = 0.0;
+  for (Index c = 0; c < world.contacts.count(); ++c)
+    sum += world.contacts.fn[c] * world.contacts.fn[c] + world.contacts.ft[c] * world.contacts.ft[c];
+  return h * std::sqrt(sum);
+}
+
+struct LongRun {
+  double largest_overlap = 0.0;
+  double bound = 0.0;
+};
+
+/// A heap of 14 grains between walls, at rest, then rocked to and fro by 3 degrees for 100 000 steps.
+LongRun rock_a_heap(double tolerance) {
+  StepSettings settings = test::bed_step(tolerance);
+  World world = test::settled_bed(test::bed_plan(false, 14, 6, 2), settings);
+  StepWorkspace workspace;
+  LongRun run;
+  double eta = 0.0, impulse = 0.0;
+  for (int k = 0; k < 100000; ++k) {
+    const int phase = k % 6000;
+    world.tilt = radians(1e-3 * (phase < 3000 ? phase : 6000 - phase));
+    const StepReport report = step(world, settings, workspace);
+    eta = std::max(eta, report.solver.residual.eta);
+    impulse = std::max(impulse, impulse_norm(world, settings.h));
+    run.largest_overlap = std::max(run.largest_overlap, report.largest_overlap);
+  }
+  run.bound = overlap_bound(world, settings, eta, impulse);
+  return run;
+}
+
+void record(const char* name, double overlap) {
+  testing::Test::RecordProperty(name, std::to_string(overlap / BedPlan{}.mean_diameter * 1e12) + "e-12");
+}
+
+TEST(Overlap, stays_below_what_the_residual_allows_over_100_000_steps) {
+  const LongRun run = rock_a_heap(1e-6);
+  record("largest_overlap_over_D", run.largest_overlap);
+  record("bound_over_D", run.bound);
+  EXPECT_LT(run.largest_overlap, run.bound);
+  EXPECT_LT(run.largest_overlap, 1e-5 * BedPlan{}.mean_diameter);
+}
+
+// Ten digits below the diameter, with room for the few steps whose residual ends above the tolerance asked
+// for.
+TEST(Overlap, stays_at_round_off_where_the_solver_goes_there) {
+  const LongRun run = rock_a_heap(1e-12);
+  record("largest_overlap_over_D", run.largest_overlap);
+  record("bound_over_D", run.bound);
+  EXPECT_LT(run.largest_overlap, run.bound);
+  EXPECT_LT(run.largest_overlap, 1e-9 * BedPlan{}.mean_diameter);
+}
+
+// Ten times round-off of a position: neither overlap nor creep.
+TEST(Overlap, a_column_does_not_sink) {
+  World world = test::column(3);
+  const Grains start = world.grains;
+  StepSettings settings = test::exact_step(SolverKind::gauss_seidel);
+  settings.solver.tolerance = 1e-13;
+  StepWorkspace workspace;
+  double overlap = 0.0;
+  for (int k = 0; k < 100000; ++k)
+    overlap = std::max(overlap, step(world, settings, workspace).largest_overlap);
+  EXPECT_LT(overlap, 1e-14);
+
+  for (Index i = 0; i < 3; ++i) EXPECT_NEAR(world.grains.y[i], start.y[i], 1e-14);
+}
+
+}  // namespace
+}  // namespace talus

@@ -1,0 +1,97 @@
+#include "contact/memory.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "contact/detection.h"
+#include "core/random.h"
+#include "support/scenes.h"
+
+namespace talus {
+namespace {
+
+using Pairs = std::vector<std::pair<Index, Index>>;
+
+/// Contacts of the pairs given, contact c with the forces (c + 1, -c - 1).
+Contacts contacts_of(const Pairs& pairs) {
+  Contacts contacts;
+  contacts.resize(pairs.size());
+  for (std::size_t c = 0; c < pairs.size(); ++c) {
+    contacts.a[c] = pairs[c].first;
+    contacts.b[c] = pairs[c].second;
+    contacts.fn[c] = static_cast<double>(c) + 1.0;
+    contacts.ft[c] = -contacts.fn[c];
+  }
+  return contacts;
+}
+
+TEST(Memory, merges_what_stayed_and_forgets_what_went) {
+  const Contacts previous = contacts_of({{0, 1}, {0, 4}, {2, 3}, {2, 5}, {7, 9}});
+  Contacts contacts = contacts_of({{0, 2}, {0, 4}, {1, 3}, {2, 3}, {2, 4}, {2, 5}, {8, 9}});
+  recall_forces(previous, contacts);
+  EXPECT_EQ(contacts.fn, (std::vector<double>{0, 2, 0, 3, 0, 4, 0}));
+  EXPECT_EQ(contacts.ft, (std::vector<double>{0, -2, 0, -3, 0, -4, 0}));
+}
+
+TEST(Memory, of_nothing_is_nothing) {
+  Contacts contacts = contacts_of({{0, 1}, {1, 2}});
+  recall_forces({}, contacts);
+  EXPECT_EQ(contacts.fn, (std::vector<double>{0, 0}));
+  Contacts none;
+  recall_forces(contacts_of({{0, 1}}), none);
+  EXPECT_EQ(none.count(), 0);
+}
+
+TEST(Memory, of_random_sets_is_a_lookup_by_pair) {
+  Random random(5);
+  for (int round = 0; round < 20; ++round) {
+    Pairs before, after;
+    for (Index a = 0; a < 20; ++a)
+      for (Index b = a + 1; b < 20; ++b) {
+        if (random.uniform() < 0.2) before.emplace_back(a, b);
+        if (random.uniform() < 0.2) after.emplace_back(a, b);
+      }
+    const Contacts previous = contacts_of(before);
+    std::map<std::pair<Index, Index>, double> force;
+    for (std::size_t c = 0; c < before.size(); ++c) force[before[c]] = previous.fn[c];
+    Contacts contacts = contacts_of(after);
+    recall_forces(previous, contacts);
+    for (std::size_t c = 0; c < after.size(); ++c) {
+      const auto known = force.find(after[c]);
+      EXPECT_EQ(contacts.fn[c], known == force.end() ? 0.0 : known->second);
+      EXPECT_EQ(contacts.ft[c], -contacts.fn[c]);
+    }
+  }
+}
+
+// A pair that meets across the edge is the same pair after one of the two has wrapped.
+TEST(Memory, a_grain_that_wraps_around_the_edge_keeps_its_forces) {
+  World world;
+  world.boundary.periodic = true;
+  world.boundary.length = 20.0;
+  add_disk(world.grains, {19.5, 1.0}, 1.0, test::density, false);
+  add_disk(world.grains, {1.5, 1.0}, 1.0, test::density, false);
+  add_disk(world.grains, {17.5, 1.0}, 1.0, test::density, false);
+  NeighbourList list;
+  Contacts before, after;
+  detect_contacts(list, world.grains, world.boundary, 0.1, before);
+  ASSERT_EQ(before.count(), 2);
+  before.fn = {3.0, 5.0};
+  before.ft = {0.5, -0.25};
+  world.grains.x[0] += 0.75 - world.boundary.length;
+  world.grains.x[1] += 0.75;
+  world.grains.x[2] += 0.75;
+  detect_contacts(list, world.grains, world.boundary, 0.1, after);
+  ASSERT_EQ(after.count(), 2);
+  EXPECT_EQ(before.shift, (std::vector<std::int8_t>{1, 0}));
+  EXPECT_EQ(after.shift, (std::vector<std::int8_t>{0, -1}));
+  recall_forces(before, after);
+  EXPECT_EQ(after.fn, before.fn);
+  EXPECT_EQ(after.ft, before.ft);
+}
+
+}  // namespace
+}  // namespace talus

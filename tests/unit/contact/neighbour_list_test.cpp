@@ -1,0 +1,172 @@
+#include "contact/neighbour_list.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+#include <vector>
+
+#include "contact/detection.h"
+#include "support/scenes.h"
+
+namespace talus {
+namespace {
+
+using test::radius;
+using Key = std::tuple<Index, Index, int>;
+
+/// All pairs with a gap below `margin`, by trying every pair through every image; sorted.
+std::vector<Key> brute_force(const Grains& grains, const Boundary& boundary, double margin) {
+  std::vector<Key> keys;
+  for (Index a = 0; a < grains.free_count; ++a) {
+    for (Index b = a + 1; b < grains.count(); ++b)
+      for (int shift = boundary.periodic ? -1 : 0; shift <= (boundary.periodic ? 1 : 0); ++shift) {
+        const double dx = grains.x[b] + shift * boundary.length - grains.x[a];
+        const double dy = grains.y[b] - grains.y[a];
+        if (std::hypot(dx, dy) - grains.radius[a] - grains.radius[b] < margin) keys.emplace_back(a, b, shift);
+      }
+    for (std::size_t k = 0; k < boundary.planes.size(); ++k) {
+      const Plane& plane = boundary.planes[k];
+      const double height = plane.normal.x * grains.x[a] + plane.normal.y * grains.y[a] - plane.offset;
+      if (height - grains.radius[a] < margin) keys.emplace_back(a, grains.count() + static_cast<Index>(k), 0);
+    }
+  }
+  std::sort(keys.begin(), keys.end());
+  return keys;
+}
+
+std::vector<Key> keys_of(const Contacts& contacts) {
+  std::vector<Key> keys;
+  for (Index c = 0; c < contacts.count(); ++c)
+    keys.emplace_back(contacts.a[c], contacts.b[c], contacts.shift[c]);
+  return keys;
+}
+
+/// A cloud with glued grains below it and, where it is not periodic, walls and a plane.
+World crowded_world(std::uint64_t seed, bool periodic, double length, Index count = 80) {
+  World world = test::random_cloud(seed, count, periodic, length);
+  for (double x = radius; x < length; x += 2.0 * radius)
+    add_disk(world.grains, {x, -radius}, radius, test::density, true);
+  if (!periodic) {
+    world.boundary.planes = {{{1.0, 0.0}, 0.0}, {{-1.0, 0.0}, -length}, {{0.6, 0.8}, 0.3 * length, false}};
+  }
+  return world;
+}
+
+/// Moves the free grains along their velocities, of up to 1 m/s each way, and keeps x in the period.
+void drift(World& world, double duration) {
+  Grains& grains = world.grains;
+  for (Index i = 0; i < grains.free_count; ++i) {
+    grains.x[i] += duration * grains.vx[i];
+    grains.y[i] += duration * grains.vy[i];
+    if (world.boundary.periodic)
+      grains.x[i] -= std::floor(grains.x[i] / world.boundary.length) * world.boundary.length;
+  }
+}
+
+void expect_same(const Contacts& found, const Contacts& expected) {
+  EXPECT_EQ(keys_of(found), keys_of(expected));
+  EXPECT_EQ(found.nx, expected.nx);
+  EXPECT_EQ(found.ny, expected.ny);
+  EXPECT_EQ(found.gap, expected.gap);
+}
+
+/// One list through many small moves, a large one and a change of the margin: what it finds is what brute
+/// force finds, and the same to the last bit as through a list made at the moment.
+void follow_a_list(bool periodic, double length, Index count) {
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    World world = crowded_world(seed, periodic, length, count);
+    NeighbourList list;
+    for (int round = 0; round < 30; ++round) {
+      const double margin = round == 5 ? 0.8 * radius : 0.05 * radius;
+      Contacts through_aged, through_fresh;
+      NeighbourList fresh;
+      detect_contacts(list, world.grains, world.boundary, margin, through_aged);
+      detect_contacts(fresh, world.grains, world.boundary, margin, through_fresh);
+      EXPECT_EQ(keys_of(through_aged), brute_force(world.grains, world.boundary, margin))
+          << "seed " << seed << ", round " << round;
+      expect_same(through_aged, through_fresh);
+      drift(world, round == 7 ? radius : 0.015 * radius);
+    }
+    EXPECT_LT(list.rebuilds, 30) << "the list was never used twice";
+    EXPECT_GT(list.rebuilds, 5) << "the list never aged";
+  }
+}
+
+TEST(NeighbourList, finds_what_brute_force_finds_between_walls) { follow_a_list(false, 14.0 * radius, 80); }
+
+TEST(NeighbourList, finds_what_brute_force_finds_in_a_periodic_bed) {
+  follow_a_list(true, 14.0 * radius, 80);
+}
+
+// With fewer than three columns of cells a grain meets its neighbours through several images.
+TEST(NeighbourList, finds_all_images_in_short_periodic_beds) {
+  for (double length : {3.0, 4.5, 6.0, 7.5, 9.0}) follow_a_list(true, length * radius, 20);
+}
+
+TEST(NeighbourList, finds_each_image_of_a_pair_that_meets_twice) {
+  World world;
+  world.boundary.periodic = true;
+  world.boundary.length = 4.0 * radius;
+  add_disk(world.grains, {radius, radius}, radius, test::density, false);
+  add_disk(world.grains, {3.0 * radius, radius}, radius, test::density, false);
+  NeighbourList list;
+  Contacts contacts;
+  detect_contacts(list, world.grains, world.boundary, 1e-6, contacts);
+  EXPECT_EQ(keys_of(contacts), (std::vector<Key>{{0, 1, -1}, {0, 1, 0}}));
+}
+
+TEST(NeighbourList, is_sorted_by_key_and_pairs_no_two_fixed_grains) {
+  World world = crowded_world(3, true, 14.0 * radius);
+  NeighbourList list;
+  update_neighbour_list(list, world.grains, world.boundary, 0.5 * radius);
+  ASSERT_GT(list.a.size(), 100u);
+  for (std::size_t k = 0; k < list.a.size(); ++k) {
+    EXPECT_LT(list.a[k], world.grains.free_count);
+    EXPECT_LT(list.a[k], list.b[k]);
+    if (k == 0) continue;
+    EXPECT_LT((Key{list.a[k - 1], list.b[k - 1], list.shift[k - 1]}),
+              (Key{list.a[k], list.b[k], list.shift[k]}));
+  }
+}
+
+TEST(NeighbourList, is_kept_while_no_grain_moved_by_half_the_skin) {
+  World world = crowded_world(1, true, 14.0 * radius);
+  NeighbourList list;
+  update_neighbour_list(list, world.grains, world.boundary, 0.1 * radius);
+  ASSERT_EQ(list.rebuilds, 1);
+  world.grains.y[7] += 0.49 * list.skin;
+  update_neighbour_list(list, world.grains, world.boundary, 0.1 * radius);
+  EXPECT_EQ(list.rebuilds, 1);
+  world.grains.y[7] += 0.02 * list.skin;
+  update_neighbour_list(list, world.grains, world.boundary, 0.1 * radius);
+  EXPECT_EQ(list.rebuilds, 2);
+  update_neighbour_list(list, world.grains, world.boundary, 0.1 * radius);
+  EXPECT_EQ(list.rebuilds, 2);
+  update_neighbour_list(list, world.grains, world.boundary, 2.0 * list.reach);
+  EXPECT_EQ(list.rebuilds, 3);
+}
+
+// A grain thrown far above the bed must not make the grid so coarse or so large that pairs are lost.
+TEST(NeighbourList, bears_a_grain_far_away) {
+  World world = crowded_world(2, false, 14.0 * radius);
+  world.grains.y[5] = 1e4;
+  world.grains.x[6] = -1e5;
+  NeighbourList list;
+  Contacts contacts;
+  detect_contacts(list, world.grains, world.boundary, 0.1 * radius, contacts);
+  EXPECT_EQ(keys_of(contacts), brute_force(world.grains, world.boundary, 0.1 * radius));
+  EXPECT_LT(list.cell_start.size(), 10000u);
+}
+
+TEST(NeighbourList, of_no_grains_is_empty) {
+  NeighbourList list;
+  Contacts contacts;
+  contacts.resize(3);
+  detect_contacts(list, Grains{}, Boundary{}, 0.1, contacts);
+  EXPECT_EQ(contacts.count(), 0);
+}
+
+}  // namespace
+}  // namespace talus

@@ -1,0 +1,108 @@
+#include "dynamics/failure.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/scenes.h"
+
+namespace talus {
+namespace {
+
+constexpr double h = 1e-3;
+constexpr double diameter = 0.01;
+constexpr double gravity = 9.81;
+/// Slowest velocity that is a flow, m/s.
+const double threshold = flow_velocity * std::sqrt(gravity * diameter);
+
+/// Follows `velocity` for `count` steps from `tilt` on, 0.001 rad a step; returns the tilt after them.
+double follow(SurfaceFlow& flow, double velocity, double tilt, int count) {
+  for (int k = 0; k < count; ++k, tilt += 1e-3) follow_surface(flow, velocity, tilt, h, diameter, gravity);
+  return tilt;
+}
+
+int steps_to_failure(double velocity) {
+  return static_cast<int>(std::ceil(failure_displacement * diameter / (h * velocity)));
+}
+
+TEST(Failure, a_burst_that_stops_is_forgotten) {
+  SurfaceFlow flow;
+  const double fast = 10.0 * threshold;
+  const double tilt = follow(flow, fast, 0.1, steps_to_failure(fast) - 1);
+  EXPECT_TRUE(flow.flowing);
+  EXPECT_FALSE(flow.failed);
+  follow(flow, 0.0, tilt, 1);
+  EXPECT_FALSE(flow.flowing);
+  EXPECT_EQ(flow.displacement, 0.0);
+  EXPECT_EQ(flow.onset_tilt, 0.0);
+  // What it moved does not count for the next.
+  follow(flow, fast, 0.2, steps_to_failure(fast) - 1);
+  EXPECT_FALSE(flow.failed);
+}
+
+TEST(Failure, a_flow_that_goes_on_gives_the_tilt_of_its_onset) {
+  SurfaceFlow flow;
+  double tilt = follow(flow, 10.0 * threshold, 0.1, 20);
+  tilt = follow(flow, 0.5 * threshold, tilt, 5);
+  const double onset = tilt;
+  const double fast = 10.0 * threshold;
+  tilt = follow(flow, fast, tilt, steps_to_failure(fast) - 1);
+  EXPECT_FALSE(flow.failed);
+  follow(flow, fast, tilt, 1);
+  EXPECT_TRUE(flow.failed);
+  EXPECT_EQ(flow.onset_tilt, onset);
+  EXPECT_GE(flow.displacement, failure_displacement * diameter);
+}
+
+TEST(Failure, the_velocity_of_the_threshold_is_no_flow_yet) {
+  SurfaceFlow flow;
+  follow(flow, threshold, 0.1, 5000);
+  EXPECT_FALSE(flow.flowing);
+  follow(flow, threshold * (1.0 + 1e-12), 0.1, 1);
+  EXPECT_TRUE(flow.flowing);
+}
+
+TEST(Failure, a_creep_below_the_threshold_never_fails) {
+  SurfaceFlow flow;
+  follow(flow, 0.99 * threshold, 0.1, 100000);
+  EXPECT_FALSE(flow.flowing);
+  EXPECT_FALSE(flow.failed);
+}
+
+TEST(Failure, only_downslope_counts) {
+  SurfaceFlow flow;
+  follow(flow, -10.0 * threshold, 0.1, 1000);
+  EXPECT_FALSE(flow.flowing);
+}
+
+TEST(Failure, is_final) {
+  SurfaceFlow flow;
+  const double fast = 10.0 * threshold;
+  follow(flow, fast, 0.1, steps_to_failure(fast) + 1);
+  ASSERT_TRUE(flow.failed);
+  const SurfaceFlow before = flow;
+  follow(flow, 0.0, 0.5, 10);
+  follow(flow, fast, 0.6, 10);
+  EXPECT_TRUE(flow.failed);
+  EXPECT_EQ(flow.onset_tilt, before.onset_tilt);
+  EXPECT_EQ(flow.displacement, before.displacement);
+}
+
+TEST(Failure, displacement_is_velocity_times_time) {
+  SurfaceFlow flow;
+  follow(flow, 2.0 * threshold, 0.1, 7);
+  EXPECT_NEAR(flow.displacement, 7 * h * 2.0 * threshold, 1e-15);
+}
+
+TEST(SurfaceVelocity, is_the_mean_along_x_of_the_free_grains_above) {
+  World world = test::column(4);
+  add_disk(world.grains, {0.3, 1.0}, test::radius, test::density, true);
+  world.grains.vx = {8.0, 4.0, 2.0, 1.0, 100.0};
+  EXPECT_DOUBLE_EQ(surface_velocity(world.grains, world.grains.y[1]), 1.5);  // centres above, not at
+  EXPECT_DOUBLE_EQ(surface_velocity(world.grains, -1.0), 15.0 / 4.0);
+  EXPECT_EQ(surface_velocity(world.grains, 2.0), 0.0);
+  EXPECT_EQ(surface_velocity(Grains{}, 0.0), 0.0);
+}
+
+}  // namespace
+}  // namespace talus

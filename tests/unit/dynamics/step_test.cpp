@@ -1,0 +1,123 @@
+#include "dynamics/step.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "core/errors.h"
+#include "support/scenes.h"
+
+namespace talus {
+namespace {
+
+BedPlan falling_plan(bool periodic) { return test::bed_plan(periodic, 36, 8, 11); }
+
+TEST(Step, a_copied_world_goes_on_with_the_same_bits) {
+  for (const bool periodic : {true, false}) {
+    const StepSettings settings = test::bed_step(1e-6);
+    World world = make_bed(falling_plan(periodic));
+    StepWorkspace workspace;
+    for (int k = 0; k < 120; ++k) step(world, settings, workspace);
+    World copy = world;
+    StepWorkspace fresh;
+    for (int k = 0; k < 50; ++k) {
+      world.tilt = copy.tilt = 1e-4 * k;
+      const StepReport report = step(world, settings, workspace);
+      const StepReport again = step(copy, settings, fresh);
+      ASSERT_EQ(state_hash(copy), state_hash(world)) << k;
+      EXPECT_EQ(again.solver.iterations, report.solver.iterations);
+      EXPECT_EQ(again.largest_overlap, report.largest_overlap);
+      EXPECT_EQ(copy.contacts.gap, world.contacts.gap);
+    }
+  }
+}
+
+// Without the forces of the last step the future is another: they are state.
+TEST(Step, forgotten_forces_change_the_bits) {
+  const StepSettings settings = test::bed_step(1e-6);
+  World world = test::fallen_bed(falling_plan(true), settings, 200);
+  World forgetful = world;
+  forgetful.contacts.resize(0);
+  StepWorkspace workspace;
+  step(world, settings, workspace);
+  step(forgetful, settings, workspace);
+  EXPECT_NE(state_hash(forgetful), state_hash(world));
+}
+
+TEST(Step, counts_steps_and_time_and_reports_what_it_did) {
+  const StepSettings settings = test::bed_step(1e-8);
+  World world = test::fallen_bed(falling_plan(true), settings, 100);
+  EXPECT_EQ(world.step, 100);
+  EXPECT_NEAR(world.time, 0.1, 1e-15);
+  StepWorkspace workspace;
+  const StepReport report = step(world, settings, workspace);
+  EXPECT_EQ(world.step, 101);
+  EXPECT_EQ(report.contacts, world.contacts.count());
+  EXPECT_EQ(report.rms_velocity, rms_velocity(world.grains));
+  double overlap = 0.0;
+  for (double gap : world.contacts.gap) overlap = std::max(overlap, -gap);
+  EXPECT_EQ(report.largest_overlap, overlap);
+  EXPECT_TRUE(report.solver.converged);
+  EXPECT_LE(report.solver.residual.eta, 1e-8 * (1.0 + 1e-9));
+  for (double seconds : report.seconds) EXPECT_GE(seconds, 0.0);
+}
+
+TEST(Step, floor_grains_never_move) {
+  const BedPlan plan = falling_plan(true);
+  const World start = make_bed(plan);
+  const World world = test::fallen_bed(plan, test::bed_step(), 150);
+  for (Index i = start.grains.free_count; i < start.grains.count(); ++i) {
+    EXPECT_EQ(world.grains.x[i], start.grains.x[i]);
+    EXPECT_EQ(world.grains.y[i], start.grains.y[i]);
+    EXPECT_EQ(world.grains.vx[i], 0.0);
+    EXPECT_EQ(world.grains.vy[i], 0.0);
+    EXPECT_EQ(world.grains.omega[i], 0.0);
+    EXPECT_EQ(world.grains.angle[i], 0.0);
+  }
+}
+
+TEST(Step, forces_obey_the_contact_law) {
+  const StepSettings settings = test::bed_step(1e-6);
+  const World world = test::fallen_bed(falling_plan(false), settings, 200);
+  const Contacts& contacts = world.contacts;
+  Index carrying = 0;
+  for (Index c = 0; c < contacts.count(); ++c) {
+    EXPECT_GE(contacts.fn[c], 0.0);
+    EXPECT_LE(std::abs(contacts.ft[c]), settings.law.friction * contacts.fn[c] * (1.0 + 1e-15));
+    if (contacts.fn[c] > 0.0) ++carrying;
+  }
+  EXPECT_GT(carrying, 36);
+}
+
+// A world that cannot be computed is refused, and stays as it was.
+TEST(Step, a_velocity_that_is_not_finite_is_an_error_that_leaves_the_world_alone) {
+  World world = test::fallen_bed(falling_plan(true), test::bed_step(), 50);
+  world.gravity = std::numeric_limits<double>::infinity();
+  const World before = world;
+  StepWorkspace workspace;
+  try {
+    step(world, test::bed_step(), workspace);
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::internal);
+    EXPECT_EQ(std::string(error.what()), "step 51: a velocity is not finite");
+  }
+  EXPECT_EQ(state_hash(world), state_hash(before));
+}
+
+TEST(Step, an_empty_world_only_ages) {
+  World world;
+  StepWorkspace workspace;
+  const StepReport report = step(world, test::bed_step(), workspace);
+  EXPECT_EQ(world.step, 1);
+  EXPECT_TRUE(report.solver.converged);
+  EXPECT_EQ(report.contacts, 0);
+}
+
+TEST(Step, every_stage_has_a_name) {
+  for (std::string_view name : stage_names) EXPECT_FALSE(name.empty());
+}
+
+}  // namespace
+}  // namespace talus

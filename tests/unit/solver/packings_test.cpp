@@ -1,0 +1,96 @@
+/// Both solvers on dozens of small packings, on their way down and at rest.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "solver/solve.h"
+#include "support/scenes.h"
+#include "unit/solver/small_problems.h"
+
+namespace talus {
+namespace {
+
+/// The packing of a seed: periodic or walled, with and without friction, moving or at rest, and every fifth
+/// with restitution as its first grains reach the floor.
+test::FrozenStep packing(std::uint64_t seed) {
+  StepSettings settings = test::bed_step(1e-8, seed % 4 == 0 ? 0.0 : 0.5);
+  settings.law.restitution = seed % 5 == 0 ? 0.5 : 0.0;
+  const BedPlan plan = test::bed_plan(seed % 2 == 0, 24, 6, seed);
+  World world = test::fallen_bed(plan, settings, 75 + 25 * static_cast<int>(seed % 5));
+  world.tilt = 0.02 * static_cast<double>(seed % 6);
+  test::FrozenStep frozen = test::next_problem(world, settings);
+  // Loops of contacts fit up to the error of the steps before. Closing gaps and overlaps of that size keeps
+  // the problem solvable to any tolerance: a loop that does not fit drains or loads its forces sweep by
+  // sweep.
+  for (double& cn : frozen.problem.cn)
+    if (std::fabs(cn) < 1e-8 / settings.h) cn = 0.0;
+  return frozen;
+}
+
+double largest_difference(const std::vector<double>& one, const std::vector<double>& other) {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < one.size(); ++i) largest = std::max(largest, std::fabs(one[i] - other[i]));
+  return largest;
+}
+
+SolverSettings settings_of(SolverKind kind, double tolerance, int max_iterations) {
+  SolverSettings settings;
+  settings.kind = kind;
+  settings.tolerance = tolerance;
+  settings.max_iterations = max_iterations;
+  return settings;
+}
+
+class Packing : public testing::TestWithParam<int> {};
+
+INSTANTIATE_TEST_SUITE_P(Seeds, Packing, testing::Range(1, 31));
+
+// Forces of a frictional packing are not unique, its velocities are.
+TEST_P(Packing, solvers_agree_on_velocities) {
+  const test::FrozenStep frozen = packing(static_cast<std::uint64_t>(GetParam()));
+  ASSERT_GT(frozen.problem.contact_count(), 10);
+  SolverWorkspace workspace;
+  ContactSolution reference = frozen.guess;
+  ContactSolution accelerated = frozen.guess;
+  const SolverReport first =
+      solve(frozen.problem, settings_of(SolverKind::gauss_seidel, 1e-10, 50000), workspace, reference);
+  const SolverReport second =
+      solve(frozen.problem, settings_of(SolverKind::accelerated, 1e-10, 50000), workspace, accelerated);
+  EXPECT_TRUE(first.converged) << first.residual.eta;
+  EXPECT_TRUE(second.converged) << second.residual.eta;
+  const double fall = 9.81 * test::time_step;
+  const double rim = 0.5 * BedPlan{}.mean_diameter;
+  const double difference = std::max({largest_difference(reference.vx, accelerated.vx),
+                                      largest_difference(reference.vy, accelerated.vy),
+                                      rim * largest_difference(reference.omega, accelerated.omega)});
+  EXPECT_LT(difference, 1e-6 * fall);
+  RecordProperty("difference_over_gh", std::to_string(difference / fall * 1e9) + "e-9");
+  RecordProperty("sweeps", std::to_string(first.iterations) + "/" + std::to_string(second.iterations));
+}
+
+// No state hides in a workspace: a second solve, and one after other problems, give the same bits.
+TEST_P(Packing, the_same_problem_has_the_same_bits) {
+  const auto seed = static_cast<std::uint64_t>(GetParam());
+  const test::FrozenStep frozen = packing(seed);
+  const test::FrozenStep other = packing(seed + 1);
+  for (SolverKind kind : test::both_solvers) {
+    const SolverSettings settings = settings_of(kind, 1e-8, 500);
+    SolverWorkspace fresh, used;
+    ContactSolution first = frozen.guess;
+    ContactSolution second = frozen.guess;
+    ContactSolution elsewhere = other.guess;
+    const SolverReport report = solve(frozen.problem, settings, fresh, first);
+    solve(other.problem, settings, used, elsewhere);
+    const SolverReport again = solve(frozen.problem, settings, used, second);
+    EXPECT_EQ(report.iterations, again.iterations) << test::name_of(kind);
+    EXPECT_EQ(report.residual.eta, again.residual.eta) << test::name_of(kind);
+    for (auto field : {&ContactSolution::pn, &ContactSolution::pt, &ContactSolution::vx, &ContactSolution::vy,
+                       &ContactSolution::omega})
+      EXPECT_EQ(first.*field, second.*field) << test::name_of(kind);
+  }
+}
+
+}  // namespace
+}  // namespace talus

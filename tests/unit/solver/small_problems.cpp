@@ -1,0 +1,65 @@
+#include "unit/solver/small_problems.h"
+
+#include <cmath>
+
+#include "core/random.h"
+#include "core/trigonometry.h"
+
+namespace talus::test {
+
+void add_body(ContactProblem& problem, double mass, double radius, double vx, double vy, double omega) {
+  problem.vx.push_back(vx);
+  problem.vy.push_back(vy);
+  problem.omega.push_back(omega);
+  problem.inverse_mass.push_back(mass > 0.0 ? 1.0 / mass : 0.0);
+  problem.inverse_inertia.push_back(mass > 0.0 ? 2.0 / (mass * radius * radius) : 0.0);
+  problem.lever.push_back(radius);
+}
+
+void add_contact(ContactProblem& problem, Index a, Index b, double nx, double ny, double mu, double cn,
+                 double ct) {
+  problem.a.push_back(a);
+  problem.b.push_back(b);
+  problem.nx.push_back(nx);
+  problem.ny.push_back(ny);
+  problem.mu.push_back(mu);
+  problem.cn.push_back(cn);
+  problem.ct.push_back(ct);
+}
+
+ContactProblem one_contact(double vx, double mu) {
+  ContactProblem problem;
+  add_body(problem, 2.0, 0.1, vx, -1.0, 0.0);
+  add_body(problem, 0.0, 0.2, 0.0, 0.0, 0.0);
+  add_contact(problem, 0, 1, 0.0, -1.0, mu);
+  return problem;
+}
+
+ContactProblem random_problem(std::uint64_t seed, Index bodies, Index contacts) {
+  Random random(seed);
+  ContactProblem problem;
+  for (Index i = 0; i < bodies; ++i) {
+    const bool fixed = i % 5 == 4;
+    add_body(problem, fixed ? 0.0 : random.uniform(0.5, 2.0), random.uniform(0.5, 2.0),
+             random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0));
+  }
+  const auto count = static_cast<std::uint32_t>(bodies);
+  while (problem.contact_count() < contacts) {
+    const auto a = static_cast<Index>(random.below(count));
+    const auto b = static_cast<Index>(random.below(count));
+    if (a >= b || a % 5 == 4) continue;  // two fixed bodies have no contact
+    const double angle = random.uniform(-pi, pi);
+    add_contact(problem, a, b, std::cos(angle), std::sin(angle), 0.5, random.uniform(-0.1, 0.1),
+                random.uniform(-0.1, 0.1));
+  }
+  return problem;
+}
+
+ContactSolution no_guess(const ContactProblem& problem) {
+  ContactSolution solution;
+  solution.pn.assign(static_cast<std::size_t>(problem.contact_count()), 0.0);
+  solution.pt = solution.pn;
+  return solution;
+}
+
+}  // namespace talus::test

@@ -1,0 +1,24 @@
+#pragma once
+/// Contact problems written down by hand.
+
+#include <cstdint>
+
+#include "solver/problem.h"
+
+namespace talus::test {
+
+/// A solid disk of mass m (kg) and radius r (m) at the free velocity given; m = 0 is a body that never moves.
+void add_body(ContactProblem& problem, double mass, double radius, double vx, double vy, double omega);
+void add_contact(ContactProblem& problem, Index a, Index b, double nx, double ny, double mu, double cn = 0.0,
+                 double ct = 0.0);
+
+/// Body 0 of mass 2 and radius 0.1 falls on the fixed body 1, straight down at 1 m/s and sliding at `vx`.
+ContactProblem one_contact(double vx, double mu);
+
+/// Bodies with random masses, radii and velocities, some fixed; random contacts between them, no geometry.
+ContactProblem random_problem(std::uint64_t seed, Index bodies, Index contacts);
+
+/// No impulses yet.
+ContactSolution no_guess(const ContactProblem& problem);
+
+}  // namespace talus::test

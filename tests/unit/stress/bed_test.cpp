@@ -1,0 +1,115 @@
+#include "stress/bed.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/trigonometry.h"
+
+namespace talus {
+namespace {
+
+constexpr double r = 0.5;
+
+World empty_bed(double length, bool periodic) {
+  World world;
+  world.boundary.periodic = periodic;
+  world.boundary.length = length;
+  return world;
+}
+
+void add_grain(World& world, double x, double y, double radius = r, bool fixed = false) {
+  add_disk(world.grains, {x, y}, radius, 1.0, fixed);
+}
+
+double volume(const World& world, double spacing = 1e-3) {
+  return bed_volume(world.grains, world.boundary, spacing);
+}
+
+// The upper half of a disk stands on average pi/4 r above its centre. Samples err where the envelope is
+// steepest, by less than (spacing / r)^1.5.
+TEST(BedVolume, of_a_row_of_touching_disks) {
+  for (const bool periodic : {true, false}) {
+    World world = empty_bed(10.0, periodic);
+    for (int k = 0; k < 10; ++k) add_grain(world, k + 0.5, 0.75);
+    EXPECT_NEAR(volume(world), 10.0 * (0.75 + 0.25 * pi * r), 10.0 * 1e-4);
+  }
+}
+
+TEST(BedVolume, uncovered_places_count_with_height_zero) {
+  World world = empty_bed(10.0, true);
+  EXPECT_EQ(volume(world), 0.0);
+  add_grain(world, 5.0, 2.0);
+  EXPECT_NEAR(volume(world), 2.0 * r * (2.0 + 0.25 * pi * r), 1e-3);
+}
+
+TEST(BedVolume, only_the_highest_grain_counts_and_only_free_ones) {
+  World world = empty_bed(10.0, true);
+  add_grain(world, 5.0, 2.0);
+  const double alone = volume(world);
+  add_grain(world, 5.2, 0.9, 0.2);
+  add_grain(world, 5.0, 7.0, r, true);
+  add_grain(world, 2.0, -0.5, r, true);
+  EXPECT_EQ(volume(world), alone);
+}
+
+TEST(BedVolume, reaches_through_the_periodic_edge_and_stops_at_walls) {
+  World middle = empty_bed(10.0, true);
+  add_grain(middle, 5.0, 2.0);
+  World edge = empty_bed(10.0, true);
+  add_grain(edge, 0.1, 2.0);
+  EXPECT_NEAR(volume(edge), volume(middle), 1e-3);
+  World walled = empty_bed(10.0, false);
+  add_grain(walled, 0.0, 2.0);
+  EXPECT_NEAR(volume(walled), 0.5 * volume(middle), 2e-3);
+}
+
+// A tall staircase of two steps, sampled so coarsely that each sample sees one of them.
+TEST(BedVolume, samples_at_the_middle_of_each_interval) {
+  World world = empty_bed(4.0, true);
+  add_grain(world, 1.0, 1.0);
+  add_grain(world, 3.0, 2.0);
+  EXPECT_DOUBLE_EQ(volume(world, 2.0), 2.0 * (1.5 + 2.5));
+}
+
+TEST(Bed, area_and_height_are_those_of_the_free_grains) {
+  World world = empty_bed(10.0, true);
+  add_grain(world, 1.0, 1.0, 1.0);
+  add_grain(world, 4.0, 6.0, 2.0);
+  add_grain(world, 7.0, 100.0, 3.0, true);
+  EXPECT_DOUBLE_EQ(solid_area(world.grains), 5.0 * pi);
+  EXPECT_DOUBLE_EQ(centre_of_mass_height(world.grains), (1.0 * 1.0 + 4.0 * 6.0) / 5.0);
+  EXPECT_EQ(centre_of_mass_height({}), 0.0);
+}
+
+TEST(ContactStatus, tells_open_sticking_and_sliding_apart) {
+  EXPECT_EQ(contact_status(0.0, 0.0, 0.5), ContactStatus::open);
+  EXPECT_EQ(contact_status(2.0, 0.9, 0.5), ContactStatus::sticking);
+  EXPECT_EQ(contact_status(2.0, 1.0, 0.5), ContactStatus::sliding);
+  EXPECT_EQ(contact_status(2.0, -1.0, 0.5), ContactStatus::sliding);
+  EXPECT_EQ(contact_status(2.0, 0.0, 0.0), ContactStatus::sliding);  // nothing to mobilise is left
+}
+
+TEST(ContactStatus, sliding_is_judged_within_the_tolerance) {
+  EXPECT_EQ(contact_status(2.0, 1.0 - 1.9e-6, 0.5), ContactStatus::sliding);
+  EXPECT_EQ(contact_status(2.0, 1.0 - 2.1e-6, 0.5), ContactStatus::sticking);
+  EXPECT_EQ(contact_status(2.0, 0.95, 0.5, 0.03), ContactStatus::sliding);
+}
+
+// Grains 0, 1, 2 free, 3 a rattler, 4 glued, 5 a plane. Ends at free grains with force: 0-1 gives two, 1-4
+// and 2-5 one each; 0-2 carries nothing.
+TEST(CoordinationNumber, counts_each_force_for_each_free_grain_it_touches) {
+  World world = empty_bed(10.0, true);
+  for (int k = 0; k < 4; ++k) add_grain(world, k, 1.0);
+  add_grain(world, 1.0, 0.0, r, true);
+  Contacts contacts;
+  contacts.resize(4);
+  contacts.a = {0, 0, 1, 2};
+  contacts.b = {1, 2, 4, 5};
+  contacts.fn = {1.0, 0.0, 2.0, 3.0};
+  EXPECT_DOUBLE_EQ(coordination_number(world.grains, contacts), 4.0 / 3.0);
+  EXPECT_EQ(coordination_number(world.grains, {}), 0.0);
+}
+
+}  // namespace
+}  // namespace talus
