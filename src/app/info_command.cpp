@@ -1,6 +1,5 @@
 /// `talus info`: what a run holds.
 
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -8,6 +7,7 @@
 #include <optional>
 
 #include "app/commands.h"
+#include "app/json.h"
 #include "core/errors.h"
 #include "core/hash.h"
 #include "core/trigonometry.h"
@@ -93,70 +93,43 @@ RunInfo look_at(const std::string& path) {
   return info;
 }
 
-/// The shortest text that gives the same number back; null where it is none.
-std::string json(double value) {
-  if (!std::isfinite(value)) return "null";
-  char text[32];
-  return {text, std::to_chars(text, text + sizeof text, value).ptr};
+json::Members as_json(const Figures& figures) {
+  json::Members members;
+  for (const auto& [name, value] : figures) members.emplace_back(name, json::number(value));
+  return members;
 }
 
-std::string json(bool value) { return value ? "true" : "false"; }
-template <std::integral Integer>
-std::string json(Integer value) {
-  return std::to_string(value);
-}
-
-std::string json(const std::string& text) {
-  std::string quoted = "\"";
-  for (const char c : text) {
-    const auto code = static_cast<unsigned char>(c);
-    char escape[8] = {c, '\0'};
-    if (c == '"' || c == '\\') std::snprintf(escape, sizeof escape, "\\%c", c);
-    if (code < 0x20) std::snprintf(escape, sizeof escape, "\\u%04x", code);
-    quoted += escape;
-  }
-  return quoted + "\"";
-}
-
-template <typename Value>
-std::string json(const std::vector<std::pair<std::string, Value>>& members) {
-  std::string text = "{";
-  for (const auto& [name, value] : members) {
-    if (text.size() > 1) text += ", ";
-    text += json(name);
-    text += ": ";
-    text += json(value);
-  }
-  return text + "}";
+json::Members as_json(const Facts& facts) {
+  json::Members members;
+  for (const auto& [name, value] : facts) members.emplace_back(name, json::quoted(value));
+  return members;
 }
 
 void print_json(const RunInfo& info) {
-  const Facts members = {
-      {"path", json(info.path)},
-      {"complete", json(info.complete)},
-      {"seed", json(info.seed)},
-      {"grains", json(info.grains)},
-      {"floor_grains", json(info.floor_grains)},
-      {"frames", json(info.frames)},
-      {"tilt_first_deg", json(degrees(info.tilt_first))},
-      {"tilt_last_deg", json(degrees(info.tilt_last))},
-      {"tilt_deg", json(degrees(info.tilt))},
-      {"theta_c", json(degrees(figure(info.results, "theta_c")))},
-      {"solver_tolerance", json(info.solver_tolerance)},
-      {"residual_max", json(info.residual_max)},
-      {"unconverged_steps", json(info.unconverged_steps)},
-      {"steps", json(info.steps)},
-      {"state_hash", json(info.state_hash)},
-      {"talus_version", json(fact(info.provenance, "version"))},
-      {"git_hash", json(fact(info.provenance, "git_hash"))},
-      {"results", json(info.results)},
-      {"timing", json(info.timing)},
-      {"provenance", json(info.provenance)},
-  };
-  std::string text;
-  for (const auto& [name, value] : members)
-    text += (text.empty() ? "{\n  " : ",\n  ") + json(name) + ": " + value;
-  std::printf("%s\n}\n", text.c_str());
+  using json::number, json::quoted;
+  const std::string text = json::object({
+      {"path", quoted(info.path)},
+      {"complete", json::truth(info.complete)},
+      {"seed", number(info.seed)},
+      {"grains", number(info.grains)},
+      {"floor_grains", number(info.floor_grains)},
+      {"frames", number(info.frames)},
+      {"tilt_first_deg", number(degrees(info.tilt_first))},
+      {"tilt_last_deg", number(degrees(info.tilt_last))},
+      {"tilt_deg", number(degrees(info.tilt))},
+      {"theta_c", number(degrees(figure(info.results, "theta_c")))},
+      {"solver_tolerance", number(info.solver_tolerance)},
+      {"residual_max", number(info.residual_max)},
+      {"unconverged_steps", number(info.unconverged_steps)},
+      {"steps", number(info.steps)},
+      {"state_hash", quoted(info.state_hash)},
+      {"talus_version", quoted(fact(info.provenance, "version"))},
+      {"git_hash", quoted(fact(info.provenance, "git_hash"))},
+      {"results", json::object(as_json(info.results), 1)},
+      {"timing", json::object(as_json(info.timing), 1)},
+      {"provenance", json::object(as_json(info.provenance), 1)},
+  });
+  std::printf("%s\n", text.c_str());
 }
 
 void print_line(const char* name, const std::string& value) { std::printf("%-20s%s\n", name, value.c_str()); }

@@ -1,6 +1,7 @@
 #pragma once
 /// Values as JSON text.
 
+#include <cmath>
 #include <concepts>
 #include <cstdio>
 #include <string>
@@ -27,8 +28,9 @@ inline std::string quoted(const std::string& text) {
   return result + "\"";
 }
 
-/// The shortest digits that read back as the same number. `value` is finite.
-inline std::string number(double value) { return short_text(value); }
+/// The shortest digits that read back as the same number; null where the value is none.
+inline std::string number(double value) { return std::isfinite(value) ? short_text(value) : "null"; }
+inline std::string truth(bool value) { return value ? "true" : "false"; }
 inline std::string number(std::integral auto value) { return std::to_string(value); }
 
 /// { "name": value, ... }, one member a line, `depth` levels deep.

@@ -51,7 +51,7 @@ TEST(CommandLine, missing_input_leaves_with_66_and_names_it) {
 
 TEST(CommandLine, bad_scenario_leaves_with_65_and_tells_where) {
   const TemporaryFolder folder;
-  const std::string name = folder.file("bad.toml", "[contact]\nfricton = 0.5\nwall_friction = -1\n");
+  const std::string name = write_file(folder, "bad.toml", "[contact]\nfricton = 0.5\nwall_friction = -1\n");
   const Outcome outcome = run_talus({"run", name, "-o", "bad.h5"}, folder.path());
   EXPECT_EQ(outcome.exit_code, 65);
   EXPECT_NE(outcome.err.find("bad.toml:2:1: error:"), std::string::npos) << outcome.err;
@@ -63,7 +63,7 @@ TEST(CommandLine, bad_scenario_leaves_with_65_and_tells_where) {
 
 TEST(CommandLine, a_file_that_is_no_run_leaves_with_65) {
   const TemporaryFolder folder;
-  folder.file("text.h5", "this is no run file");
+  write_file(folder, "text.h5", "this is no run file");
   const Outcome outcome = run_talus({"info", "text.h5"}, folder.path());
   EXPECT_EQ(outcome.exit_code, 65) << outcome.err;
   EXPECT_NE(outcome.err.find("text.h5"), std::string::npos) << outcome.err;

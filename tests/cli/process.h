@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "support/temporary_folder.h"
+
 namespace talus::test {
 
 struct Outcome {
@@ -22,20 +24,8 @@ Outcome run_talus(const std::vector<std::string>& arguments, const std::filesyst
 pid_t start_talus(const std::vector<std::string>& arguments, const std::filesystem::path& folder);
 int wait_for(pid_t process);
 
-/// A fresh folder that is removed with its contents at the end.
-class TemporaryFolder {
- public:
-  TemporaryFolder();
-  ~TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-  /// Writes a file in the folder and returns its name.
-  std::string file(const std::string& name, const std::string& text) const;
-
- private:
-  std::filesystem::path path_;
-};
+/// Writes a file in the folder and returns its name.
+std::string write_file(const TemporaryFolder& folder, const std::string& name, const std::string& text);
 
 /// The value of a key in flat JSON text: enough for the output of `talus info --json`.
 std::string json_value(const std::string& json, const std::string& key);

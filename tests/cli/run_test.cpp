@@ -24,7 +24,7 @@ std::string hash_of(const std::string& run, const TemporaryFolder& folder) {
 
 TEST(Run, leaves_one_file_that_tells_what_it_holds) {
   const TemporaryFolder folder;
-  folder.file("bed.toml", small_bed);
+  write_file(folder, "bed.toml", small_bed);
   const Outcome run = run_talus({"run", "bed.toml", "-o", "bed.h5"}, folder.path());
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "bed.h5"));
@@ -40,7 +40,7 @@ TEST(Run, leaves_one_file_that_tells_what_it_holds) {
 
 TEST(Run, quiet_prints_nothing_but_warnings) {
   const TemporaryFolder folder;
-  folder.file("bed.toml", small_bed);
+  write_file(folder, "bed.toml", small_bed);
   const Outcome run = run_talus({"run", "bed.toml", "--quiet"}, folder.path());
   EXPECT_EQ(run.exit_code, 0);
   EXPECT_EQ(run.out, "");
@@ -49,8 +49,8 @@ TEST(Run, quiet_prints_nothing_but_warnings) {
 
 TEST(Run, existing_output_is_refused_unless_told) {
   const TemporaryFolder folder;
-  folder.file("bed.toml", small_bed);
-  folder.file("bed.h5", "precious");
+  write_file(folder, "bed.toml", small_bed);
+  write_file(folder, "bed.h5", "precious");
   const Outcome refused = run_talus({"run", "bed.toml", "-o", "bed.h5"}, folder.path());
   EXPECT_EQ(refused.exit_code, 73);
   EXPECT_NE(refused.err.find("--overwrite"), std::string::npos) << refused.err;
@@ -63,7 +63,7 @@ TEST(Run, existing_output_is_refused_unless_told) {
 TEST(Run, same_bits_for_any_number_of_threads) {
   const TemporaryFolder folder;
   // Large enough for two threads to share its contacts.
-  folder.file("bed.toml", "[bed]\nlength = 60\ndepth = 20\n[tilt]\nend_angle = 0.05\n");
+  write_file(folder, "bed.toml", "[bed]\nlength = 60\ndepth = 20\n[tilt]\nend_angle = 0.05\n");
   ASSERT_EQ(run_talus({"run", "bed.toml", "-o", "one.h5", "--threads", "1"}, folder.path()).exit_code, 0);
   ASSERT_EQ(run_talus({"run", "bed.toml", "-o", "two.h5", "--threads", "2"}, folder.path()).exit_code, 0);
   EXPECT_EQ(hash_of("one.h5", folder), hash_of("two.h5", folder));
@@ -71,7 +71,7 @@ TEST(Run, same_bits_for_any_number_of_threads) {
 
 TEST(Run, another_seed_is_another_bed) {
   const TemporaryFolder folder;
-  folder.file("bed.toml", small_bed);
+  write_file(folder, "bed.toml", small_bed);
   ASSERT_EQ(
       run_talus({"run", "bed.toml", "-o", "a.h5", "--set", "tilt.end_angle=0.5"}, folder.path()).exit_code,
       0);
@@ -93,7 +93,7 @@ std::string science_of(const std::string& run, const TemporaryFolder& folder) {
       "bytes(item[()]))\n"
       "h5py.File(sys.argv[1],'r').visititems(visit)\n"
       "print(h.hexdigest())\n";
-  folder.file("science.py", script);
+  write_file(folder, "science.py", script);
   const std::filesystem::path out = folder.path() / "science.txt";
   const std::string command = "/usr/bin/python3 " + (folder.path() / "science.py").string() + " " +
                               (folder.path() / run).string() + " > " + out.string() + " 2> /dev/null";
@@ -108,7 +108,7 @@ class Interrupted : public testing::TestWithParam<int> {};
 
 TEST_P(Interrupted, run_resumes_to_the_same_bits) {
   const TemporaryFolder folder;
-  folder.file("bed.toml", small_bed);
+  write_file(folder, "bed.toml", small_bed);
   ASSERT_EQ(run_talus({"run", "bed.toml", "-o", "whole.h5"}, folder.path()).exit_code, 0);
   int stops = 0;
   for (int attempt = 0; attempt < 200; ++attempt) {
@@ -132,7 +132,7 @@ INSTANTIATE_TEST_SUITE_P(Signals, Interrupted, testing::Values(SIGINT, SIGTERM, 
 
 TEST(Run, a_second_writer_is_refused) {
   const TemporaryFolder folder;
-  folder.file("bed.toml", small_bed);
+  write_file(folder, "bed.toml", small_bed);
   const pid_t first =
       start_talus({"run", "bed.toml", "-o", "bed.h5", "--set", "tilt.end_angle=30"}, folder.path());
   std::this_thread::sleep_for(std::chrono::milliseconds(300));
@@ -145,7 +145,7 @@ TEST(Run, a_second_writer_is_refused) {
 
 TEST(Run, another_scenario_cannot_resume_it) {
   const TemporaryFolder folder;
-  folder.file("bed.toml", small_bed);
+  write_file(folder, "bed.toml", small_bed);
   const pid_t process = start_talus({"run", "bed.toml", "-o", "bed.h5"}, folder.path());
   std::this_thread::sleep_for(std::chrono::milliseconds(250));
   kill(process, SIGTERM);
@@ -157,7 +157,7 @@ TEST(Run, another_scenario_cannot_resume_it) {
 
 TEST(Run, maps_are_drawn_from_the_file) {
   const TemporaryFolder folder;
-  folder.file("bed.toml", small_bed);
+  write_file(folder, "bed.toml", small_bed);
   ASSERT_EQ(run_talus({"run", "bed.toml", "-o", "bed.h5"}, folder.path()).exit_code, 0);
   const Outcome refused = run_talus({"render", "bed.h5", "--map", "overloaded", "-o", "maps"}, folder.path());
   EXPECT_EQ(refused.exit_code, 65) << "this bed did not fail: Gamma_c is not known";

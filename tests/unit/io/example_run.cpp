@@ -50,20 +50,6 @@ Frame frame(Random& random, int number) {
 
 }  // namespace
 
-// In memory where there is such a place: the tests make many small files durable.
-TemporaryFolder::TemporaryFolder() {
-  std::filesystem::path place = "/dev/shm";
-  if (access(place.c_str(), W_OK) != 0) place = std::filesystem::temp_directory_path();
-  std::string name = (place / "talus_io_test.XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-  folder_ = name;
-}
-
-TemporaryFolder::~TemporaryFolder() {
-  std::error_code ignored;
-  std::filesystem::remove_all(folder_, ignored);
-}
-
 RunHeader header() {
   RunHeader header;
   header.statics.free_count = free_grain_count;

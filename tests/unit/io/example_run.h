@@ -1,26 +1,14 @@
 #pragma once
 /// A small run with a value of its own in every field, for the tests of the run store.
 
-#include <filesystem>
 #include <string>
 
 #include "io/run_store.h"
+#include "support/temporary_folder.h"
 
 namespace talus::example {
 
-/// An empty folder that is removed with everything in it.
-class TemporaryFolder {
- public:
-  TemporaryFolder();
-  ~TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  std::string path(const std::string& name) const { return (folder_ / name).string(); }
-
- private:
-  std::filesystem::path folder_;
-};
+using test::TemporaryFolder;
 
 inline constexpr Index grain_count = 6;
 inline constexpr Index free_grain_count = 4;
