@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <optional>
 
 #include "core/trigonometry.h"
 
@@ -47,14 +48,16 @@ void ProgressLine::show(const RunProgress& progress) {
       tilt_started_at_ = progress.wall_seconds;
       tilt_started_from_ = tilt;
     }
-    const double end = session.scenario().tilt.end_angle.value_or(expected_repose);
+    const std::optional<double> asked = session.scenario().tilt.end_angle;
+    const double end = asked.value_or(expected_repose);
     const double speed = (tilt - tilt_started_from_) / (progress.wall_seconds - tilt_started_at_ + 1e-9);
-    const std::string eta = speed > 0.0 && tilt < end ? duration_text((end - tilt) / speed) : "-";
+    std::string remaining;
+    if (speed > 0.0 && tilt < end)
+      remaining = "  ETA " + duration_text((end - tilt) / speed) + (asked ? "" : " (if it fails at 20 deg)");
     std::snprintf(text, sizeof text,
-                  "tilt  theta = %.3f deg  residual %.1e  E_kin %.1e J  v = %.2e g h  ETA %s%s  (%s)", tilt,
+                  "tilt  theta = %.3f deg  residual %.1e  E_kin %.1e J  v = %.2e g h%s  (%s)", tilt,
                   report.solver.residual.eta, kinetic_energy(world.grains), report.rms_velocity / gh,
-                  eta.c_str(), session.scenario().tilt.end_angle ? "" : " to 20 deg",
-                  duration_text(progress.wall_seconds).c_str());
+                  remaining.c_str(), duration_text(progress.wall_seconds).c_str());
   }
   std::fprintf(stderr, terminal_ ? "\r\033[K%s" : "%s\n", text);
   open_ = terminal_;

@@ -2,11 +2,13 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <ctime>
 #include <filesystem>
 #include <memory>
+#include <thread>
 
 #include "app/commands.h"
 #include "app/progress.h"
@@ -25,7 +27,7 @@ struct RunArguments {
   std::vector<std::string> settings;
   std::uint64_t seed = 0;
   bool has_seed = false;
-  int threads = 1;
+  int threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   bool resume = false;
   bool overwrite = false;
   bool quiet = false;

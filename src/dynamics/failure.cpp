@@ -1,5 +1,6 @@
 #include "dynamics/failure.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace talus {
@@ -15,16 +16,21 @@ double surface_velocity(const Grains& grains, double lower_edge) {
   return count > 0 ? sum / count : 0.0;
 }
 
-void follow_surface(SurfaceFlow& flow, double velocity, double tilt, double h, double mean_diameter,
-                    double gravity) {
+FlowRule flow_rule(double mean_diameter, double gravity, const Boundary& boundary) {
+  const double distance = 5.0 * mean_diameter;
+  return {.velocity = 0.02 * std::sqrt(gravity * mean_diameter),
+          .distance = boundary.periodic ? distance : std::min(distance, boundary.length / 20.0)};
+}
+
+void follow_surface(SurfaceFlow& flow, double velocity, double tilt, double h, const FlowRule& rule) {
   if (flow.failed) return;
-  if (!(velocity > flow_velocity * std::sqrt(gravity * mean_diameter))) {
+  if (!(velocity > rule.velocity)) {
     flow = {};
     return;
   }
   if (!flow.flowing) flow = {.flowing = true, .onset_tilt = tilt};
   flow.displacement += h * velocity;
-  flow.failed = flow.displacement >= failure_displacement * mean_diameter;
+  flow.failed = flow.displacement >= rule.distance;
 }
 
 }  // namespace talus

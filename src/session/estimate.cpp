@@ -6,13 +6,13 @@
 namespace talus {
 namespace {
 
-// Measured on one core (x86-64, AVX2) with a bed of L = 50 D, H = 20 D, tilted to failure; see
-// docs/scenario.md.
-constexpr double seconds_per_contact_and_pass = 6.5e-9;
+// Measured on one core (x86-64, AVX2) with beds of L = 50 D, H = 20 D and L = 200 D, H = 40 D, tilted to
+// failure; see docs/scenario.md.
+constexpr double seconds_per_contact_and_pass = 5.5e-9;
 constexpr double contacts_per_grain = 1.9;  // near contacts included
-constexpr double passes_of_deposition = 400.0;
-constexpr double passes_of_tilt = 250.0;
-constexpr double falls_until_rest = 6.5;     // times sqrt(H / g)
+constexpr double passes_of_deposition = 160.0;
+constexpr double passes_of_tilt = 120.0;
+constexpr double falls_until_rest = 5.0;     // times sqrt(H / g)
 constexpr double gauss_seidel_passes = 5.0;  // times those of the accelerated solver
 
 constexpr double bytes_of_process = 2e7;

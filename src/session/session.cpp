@@ -124,7 +124,8 @@ void Session::advance_tilt() {
   const double velocity = surface_velocity(world_.grains, surface_height_ - surface_layer_depth * diameter);
   surface_displacement_ += time_step(scenario_) * velocity;
   const bool failed_before = flow_.failed;
-  follow_surface(flow_, velocity, world_.tilt, time_step(scenario_), diameter, world_.gravity);
+  follow_surface(flow_, velocity, world_.tilt, time_step(scenario_),
+                 flow_rule(diameter, world_.gravity, world_.boundary));
 
   const double tilt = degrees(world_.tilt);
   const bool ends = scenario_.tilt.end_angle ? tilt >= *scenario_.tilt.end_angle - 0.5 * scenario_.tilt.step

@@ -12,17 +12,27 @@ namespace {
 constexpr double h = 1e-3;
 constexpr double diameter = 0.01;
 constexpr double gravity = 9.81;
+const FlowRule rule =
+    flow_rule(diameter, gravity, {.periodic = true, .length = 100 * diameter, .planes = {}});
 /// Slowest velocity that is a flow, m/s.
-const double threshold = flow_velocity * std::sqrt(gravity * diameter);
+const double threshold = rule.velocity;
 
 /// Follows `velocity` for `count` steps from `tilt` on, 0.001 rad a step; returns the tilt after them.
 double follow(SurfaceFlow& flow, double velocity, double tilt, int count) {
-  for (int k = 0; k < count; ++k, tilt += 1e-3) follow_surface(flow, velocity, tilt, h, diameter, gravity);
+  for (int k = 0; k < count; ++k, tilt += 1e-3) follow_surface(flow, velocity, tilt, h, rule);
   return tilt;
 }
 
-int steps_to_failure(double velocity) {
-  return static_cast<int>(std::ceil(failure_displacement * diameter / (h * velocity)));
+int steps_to_failure(double velocity) { return static_cast<int>(std::ceil(rule.distance / (h * velocity))); }
+
+TEST(Failure, rule_is_the_one_documented) {
+  EXPECT_DOUBLE_EQ(rule.velocity, 0.02 * std::sqrt(gravity * diameter));
+  EXPECT_DOUBLE_EQ(rule.distance, 5.0 * diameter);
+  const auto walled = [](double length) {
+    return flow_rule(diameter, gravity, {.periodic = false, .length = length, .planes = {}}).distance;
+  };
+  EXPECT_DOUBLE_EQ(walled(20.0 * diameter), 1.0 * diameter) << "a flow between near walls ends soon";
+  EXPECT_DOUBLE_EQ(walled(300.0 * diameter), 5.0 * diameter);
 }
 
 TEST(Failure, a_burst_that_stops_is_forgotten) {
@@ -51,7 +61,7 @@ TEST(Failure, a_flow_that_goes_on_gives_the_tilt_of_its_onset) {
   follow(flow, fast, tilt, 1);
   EXPECT_TRUE(flow.failed);
   EXPECT_EQ(flow.onset_tilt, onset);
-  EXPECT_GE(flow.displacement, failure_displacement * diameter);
+  EXPECT_GE(flow.displacement, rule.distance);
 }
 
 TEST(Failure, the_velocity_of_the_threshold_is_no_flow_yet) {
