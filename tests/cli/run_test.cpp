@@ -117,7 +117,8 @@ TEST_P(Interrupted, run_resumes_to_the_same_bits) {
     kill(process, GetParam());
     const int code = wait_for(process);
     if (code == 0) break;
-    EXPECT_EQ(code, GetParam() == SIGKILL ? -1 : 75);
+    // A signal may come before the run listens for it.
+    EXPECT_TRUE(code == -1 || (code == 75 && GetParam() != SIGKILL)) << code;
     ++stops;
   }
   EXPECT_GT(stops, 0) << "the run was never interrupted: nothing was tested";
@@ -130,12 +131,19 @@ TEST_P(Interrupted, run_resumes_to_the_same_bits) {
 
 INSTANTIATE_TEST_SUITE_P(Signals, Interrupted, testing::Values(SIGINT, SIGTERM, SIGKILL));
 
+/// Starts a run that would go on for a minute, and returns once it has committed something.
+pid_t start_long_run(const TemporaryFolder& folder) {
+  write_file(folder, "bed.toml", "[bed]\nlength = 50\ndepth = 20\n[output]\ncheckpoint_every = 0\n");
+  const pid_t process = start_talus({"run", "bed.toml", "-o", "bed.h5"}, folder.path());
+  for (int wait = 0; wait < 1000 && !std::filesystem::exists(folder.path("bed.h5.run/manifest")); ++wait)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  EXPECT_TRUE(std::filesystem::exists(folder.path("bed.h5.run/manifest")));
+  return process;
+}
+
 TEST(Run, a_second_writer_is_refused) {
   const TemporaryFolder folder;
-  write_file(folder, "bed.toml", small_bed);
-  const pid_t first =
-      start_talus({"run", "bed.toml", "-o", "bed.h5", "--set", "tilt.end_angle=30"}, folder.path());
-  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  const pid_t first = start_long_run(folder);
   const Outcome second = run_talus({"run", "bed.toml", "-o", "bed.h5", "--resume"}, folder.path());
   EXPECT_EQ(second.exit_code, 73) << second.err;
   EXPECT_NE(second.err.find(std::to_string(first)), std::string::npos) << second.err;
@@ -145,9 +153,7 @@ TEST(Run, a_second_writer_is_refused) {
 
 TEST(Run, another_scenario_cannot_resume_it) {
   const TemporaryFolder folder;
-  write_file(folder, "bed.toml", small_bed);
-  const pid_t process = start_talus({"run", "bed.toml", "-o", "bed.h5"}, folder.path());
-  std::this_thread::sleep_for(std::chrono::milliseconds(250));
+  const pid_t process = start_long_run(folder);
   kill(process, SIGTERM);
   ASSERT_EQ(wait_for(process), 75);
   const Outcome outcome = run_talus(
