@@ -34,7 +34,8 @@ void add_loose_grains(const BedPlan& plan, Grains& grains) {
     const double free_x = std::max(0.0, width - 2.0 * radius);
     const double free_y = std::max(0.0, height - 2.0 * radius);
     const double x = (i % columns) * width + radius + free_x * random.uniform();
-    const double y = (i / columns) * height + radius + free_y * random.uniform();
+    const Index row = i / columns;
+    const double y = row * height + radius + free_y * random.uniform();
     add_disk(grains, {x, y}, radius, plan.density, false);
   }
 }
