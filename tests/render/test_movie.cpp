@@ -5,7 +5,7 @@
 
 #include "core/errors.h"
 #include "render/movie.h"
-#include "render/temporary_folder.h"
+#include "support/temporary_folder.h"
 
 namespace talus {
 namespace {
@@ -71,53 +71,53 @@ TEST(Movie, HasAllFrames) {
     GTEST_SKIP() << "ffmpeg or ffprobe is not installed";
   const test::TemporaryFolder folder;
   for (auto [name, size] : {std::pair{"a.mp4", "162,100,12"}, {"a.gif", "161,99,12"}}) {
-    make_movie(folder.file(name), 12);
+    make_movie(folder.path(name), 12);
     EXPECT_EQ(
         output_of(
             "ffprobe -v error -count_frames -show_entries stream=width,height,nb_read_frames -of csv=p=0 " +
-            folder.file(name)),
+            folder.path(name)),
         std::string(size) + "\n");
   }
 }
 
 TEST(Movie, SaysThatFfmpegIsMissing) {
   const test::TemporaryFolder folder;
-  const SearchPath nowhere(folder.file("bin"));
-  const Failure failure = failure_of_movie(folder.file("a.mp4"), 1);
+  const SearchPath nowhere(folder.path("bin"));
+  const Failure failure = failure_of_movie(folder.path("a.mp4"), 1);
   EXPECT_EQ(failure.code, ExitCode::unavailable);
   EXPECT_NE(failure.message.find("apt-get install ffmpeg"), std::string::npos) << failure.message;
-  EXPECT_TRUE(folder.empty());
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
 TEST(Movie, ReportsWhatFfmpegSaysAndLeavesNothing) {
   const test::TemporaryFolder folder, tools;
-  const SearchPath here(tools.file("") + ":/usr/bin:/bin");
+  const SearchPath here(tools.path("") + ":/usr/bin:/bin");
   // One that reads all and fails at its end, and one that leaves at once while frames are still coming.
   for (const char* script :
        {"cat >/dev/null; echo encoder on strike >&2; exit 1", "echo encoder on strike >&2; exit 1"}) {
-    write_false_ffmpeg(tools.file("ffmpeg"), script);
-    const Failure failure = failure_of_movie(folder.file("a.mp4"), 200);
+    write_false_ffmpeg(tools.path("ffmpeg"), script);
+    const Failure failure = failure_of_movie(folder.path("a.mp4"), 200);
     EXPECT_EQ(failure.code, ExitCode::io_error);
     EXPECT_NE(failure.message.find("encoder on strike"), std::string::npos) << failure.message;
-    EXPECT_TRUE(folder.empty());
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
   }
 }
 
 TEST(Movie, LeavesNothingWhenGivenUp) {
   const test::TemporaryFolder folder, tools;
-  const SearchPath here(tools.file("") + ":/usr/bin:/bin");
-  write_false_ffmpeg(tools.file("ffmpeg"), "exec cat >/dev/null");
-  { Movie movie(folder.file("a.mp4"), 161, 99, 10.0); }
-  EXPECT_TRUE(folder.empty());
+  const SearchPath here(tools.path("") + ":/usr/bin:/bin");
+  write_false_ffmpeg(tools.path("ffmpeg"), "exec cat >/dev/null");
+  { Movie movie(folder.path("a.mp4"), 161, 99, 10.0); }
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
 TEST(Movie, RefusesOtherFormatsAndSizes) {
   const test::TemporaryFolder folder, tools;
-  EXPECT_EQ(failure_of_movie(folder.file("a.avi"), 1).code, ExitCode::usage);
-  EXPECT_EQ(failure_of_movie(folder.file("missing/a.mp4"), 1).code, ExitCode::cannot_create);
-  const SearchPath here(tools.file("") + ":/usr/bin:/bin");
-  write_false_ffmpeg(tools.file("ffmpeg"), "exec cat >/dev/null");
-  Movie movie(folder.file("a.mp4"), 161, 99, 10.0);
+  EXPECT_EQ(failure_of_movie(folder.path("a.avi"), 1).code, ExitCode::usage);
+  EXPECT_EQ(failure_of_movie(folder.path("missing/a.mp4"), 1).code, ExitCode::cannot_create);
+  const SearchPath here(tools.path("") + ":/usr/bin:/bin");
+  write_false_ffmpeg(tools.path("ffmpeg"), "exec cat >/dev/null");
+  Movie movie(folder.path("a.mp4"), 161, 99, 10.0);
   EXPECT_THROW(movie.add(frame(161, 98, 0)), Error);
 }
 

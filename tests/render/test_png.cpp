@@ -7,7 +7,7 @@
 #include "core/errors.h"
 #include "render/png.h"
 #include "render/read_png.h"
-#include "render/temporary_folder.h"
+#include "support/temporary_folder.h"
 
 namespace talus {
 namespace {
@@ -31,8 +31,8 @@ ExitCode code_of_writing(const std::string& path, const Image& image) {
 TEST(Png, ReadsBackAsItWas) {
   const test::TemporaryFolder folder;
   const Image image = gradient(301, 77);
-  write_png(folder.file("a.png"), image);
-  const Image back = test::read_png(folder.file("a.png"));
+  write_png(folder.path("a.png"), image);
+  const Image back = test::read_png(folder.path("a.png"));
   EXPECT_EQ(back.width, image.width);
   EXPECT_EQ(back.height, image.height);
   EXPECT_EQ(back.gray, image.gray);
@@ -40,8 +40,8 @@ TEST(Png, ReadsBackAsItWas) {
 
 TEST(Png, SaysWhereItCannotBeCreated) {
   const test::TemporaryFolder folder;
-  EXPECT_EQ(code_of_writing(folder.file("missing/a.png"), gradient(9, 9)), ExitCode::cannot_create);
-  EXPECT_TRUE(folder.empty());
+  EXPECT_EQ(code_of_writing(folder.path("missing/a.png"), gradient(9, 9)), ExitCode::cannot_create);
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
 /// Files of this process may not grow beyond a size while it lives.
@@ -65,14 +65,14 @@ TEST(Png, LeavesNothingWhereWritingFails) {
   const test::TemporaryFolder folder;
   {
     const FileSizeLimit limit(1000);
-    EXPECT_EQ(code_of_writing(folder.file("a.png"), gradient(300, 300)), ExitCode::io_error);
+    EXPECT_EQ(code_of_writing(folder.path("a.png"), gradient(300, 300)), ExitCode::io_error);
   }
-  EXPECT_TRUE(folder.empty());
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
 TEST(Png, KeepsTheOldFileWhereWritingFails) {
   const test::TemporaryFolder folder;
-  const std::string path = folder.file("a.png");
+  const std::string path = folder.path("a.png");
   write_png(path, gradient(20, 20));
   {
     const FileSizeLimit limit(1000);
