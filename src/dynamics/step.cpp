@@ -100,15 +100,10 @@ bool finite(const ContactSolution& solution) {
   return sum == 0.0;
 }
 
-}  // namespace
-
-StepReport step(World& world, const StepSettings& settings, StepWorkspace& workspace) {
-  StepReport report;
-  StageClock clock(report);
+void form_problem(World& world, const StepSettings& settings, StepWorkspace& workspace, StageClock& clock) {
   const double h = settings.h;
   Grains& grains = world.grains;
   Contacts& contacts = workspace.contacts;
-
   // Two grains can approach by twice the largest velocity; gravity adds g h to it within the step.
   const double margin = settings.margin + 2.0 * h * (largest_velocity(grains) + world.gravity * h);
   copy_positions(grains, workspace.before);
@@ -121,6 +116,23 @@ StepReport step(World& world, const StepSettings& settings, StepWorkspace& works
   recall_forces(world.contacts, contacts);
   guess_impulses(contacts, h, workspace.solution);
   clock.end_of(Stage::recall);
+}
+
+}  // namespace
+
+void form_problem(World& world, const StepSettings& settings, StepWorkspace& workspace) {
+  StepReport unused;
+  StageClock clock(unused);
+  form_problem(world, settings, workspace, clock);
+}
+
+StepReport step(World& world, const StepSettings& settings, StepWorkspace& workspace) {
+  StepReport report;
+  StageClock clock(report);
+  const double h = settings.h;
+  Grains& grains = world.grains;
+  Contacts& contacts = workspace.contacts;
+  form_problem(world, settings, workspace, clock);
   report.solver = solve(workspace.problem, settings.solver, workspace.solver, workspace.solution);
   clock.end_of(Stage::solve);
   if (!finite(workspace.solution)) {

@@ -43,6 +43,10 @@ struct StepWorkspace {
   SolverWorkspace solver;
 };
 
+/// The first part of a step: moves the grains to the midpoint, and leaves in the workspace their contacts, the
+/// problem of the step, and the first guess of its solution from the force memory.
+void form_problem(World& world, const StepSettings& settings, StepWorkspace& workspace);
+
 /// Advances the world by h: move to the midpoint, detect contacts, assemble, recall forces, solve, store
 /// forces, move to the end (Moreau 1988, Jean 1999). Contacts of the world then hold the mean forces P/h of
 /// the step. Throws Error(internal) where a velocity is not finite; the world is then as before the step.
