@@ -8,10 +8,11 @@ namespace {
 
 // Measured on one core (x86-64, AVX2) with beds of L = 50 D, H = 20 D and L = 200 D, H = 40 D, tilted to
 // failure; see docs/scenario.md.
-constexpr double seconds_per_contact_and_pass = 5.5e-9;
-constexpr double contacts_per_grain = 1.9;  // near contacts included
+constexpr double seconds_per_contact_and_pass = 4e-9;
+constexpr double seconds_per_contact_and_sweep = 15e-9;  // Gauss-Seidel
+constexpr double contacts_per_grain = 1.9;               // near contacts included
 constexpr double passes_of_deposition = 160.0;
-constexpr double passes_of_tilt = 120.0;
+constexpr double passes_of_tilt = 90.0;
 constexpr double falls_until_rest = 5.0;     // times sqrt(H / g)
 constexpr double gauss_seidel_passes = 5.0;  // times those of the accelerated solver
 
@@ -40,7 +41,9 @@ double estimated_seconds(const Scenario& scenario, const Estimate& sizes) {
   const double passes =
       std::min(passes_of_deposition * factor, most) * static_cast<double>(sizes.deposition_steps) +
       std::min(passes_of_tilt * factor, most) * static_cast<double>(sizes.tilt_steps);
-  return seconds_per_contact_and_pass * sizes.contacts * passes;
+  const bool accelerated = scenario.solver.method == SolverMethod::accelerated;
+  return (accelerated ? seconds_per_contact_and_pass : seconds_per_contact_and_sweep) * sizes.contacts *
+         passes;
 }
 
 double estimated_file(const Estimate& sizes) {

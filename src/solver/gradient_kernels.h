@@ -1,59 +1,88 @@
 #pragma once
-/// The inner loops of the accelerated solver, compiled for the baseline processor and again for AVX2, and
-/// chosen at run time. Both do the same operations on four lanes in the same order, so they give the same
-/// bits. Only plain data here: an inline function of the library compiled for AVX2 could end up in the
-/// baseline program.
+/// The inner loops of the accelerated solver, in single precision, compiled for the baseline processor and
+/// again for AVX2, and chosen at run time. Both do the same operations on eight lanes in the same order, so
+/// they give the same bits. Only plain data here: an inline function of the library compiled for AVX2 could
+/// end up in the baseline program.
+
+#include <cstddef>
+#include <cstdint>
 
 #include "core/types.h"
 
 namespace talus {
 
-/// One row of four doubles, as wide as a vector register: (x, y, spin, unused) of a body or of a contact.
-struct alignas(32) Quad {
-  double x, y, spin, unused;
+/// Four floats, as wide as a vector register of the baseline: velocity or mobility of a body, or impulse of a
+/// contact in the axes of the bed. The spin of a body is r omega, which makes disks of any size alike; its
+/// mobility is negative, as P_t slows both bodies down.
+struct alignas(16) Row {
+  float x, spin, y, unused;
 };
 
-/// Contacts are worked on four at a time.
-inline constexpr int lane_count = 4;
+/// Contacts are worked on eight at a time.
+inline constexpr int lane_count = 8;
+using Lane = float[lane_count];
 
-/// Contacts are worked on in blocks of this many; the sums of a block do not depend on who computes it.
-inline constexpr Index contacts_per_block = 512;
+/// Where in its group of eight a contact stands: neighbours in halves of the register, four lanes apart.
+constexpr int lane_of(std::size_t contact) {
+  return static_cast<int>(contact % lane_count / 2 + (contact % 2) * (lane_count / 2));
+}
+
+/// Eight contacts around the impulses P0 at which the problem was linearised, in the units of the solve. The
+/// increment p = P - P0 is what the passes look for: in single precision, it can be found to any digit.
+struct alignas(64) ContactGroup {
+  Lane nx, ny;
+  Lane un, ut;        ///< relative velocity at P0
+  Lane pn;            ///< P0_n: the increment may not fall below -P0_n
+  Lane above, below;  ///< mu P0_n - P0_t and mu P0_n + P0_t: what is left until the contact slides
+  Lane mu;
+  Lane wn, wt;                                 ///< inverse of the Delassus diagonal
+  std::uint32_t a[lane_count], b[lane_count];  ///< where the rows of the two bodies begin, bytes
+};
+
+/// Increments of eight contacts.
+struct alignas(64) ImpulseGroup {
+  Lane n, t;
+};
+
+/// Impulses of eight contacts in the axes of the bed, in the order of the contacts.
+struct alignas(64) ForceGroup {
+  Row rows[lane_count];
+};
+
+/// Contacts are shared out in blocks of this many groups; the sums of a block do not depend on who computes
+/// it.
+inline constexpr Index groups_per_block = 64;
+inline constexpr Index contacts_per_block = groups_per_block * lane_count;
 
 /// Sums over contacts at the extrapolated point y.
 struct PassSums {
-  double change = 0.0;         ///< || P' - y ||^2 of the natural map
-  double impulse = 0.0;        ///< || y ||^2
-  double impulse_after = 0.0;  ///< || P' ||^2
-  double ascent = 0.0;         ///< (y - P_new) . D (P_new - P): > 0 where the momentum points uphill
+  double change = 0.0;  ///< || p_new - y ||^2
+  double ascent = 0.0;  ///< (y - p_new) . (p_new - p): > 0 where the momentum points uphill
 };
 
-/// What the passes work on. The spin of a body is r omega, which makes disks of any size alike:
-/// U_t = (v_b - v_a) . t - (s_a + s_b) + c_t.
-struct GradientArrays {
-  // Bodies.
-  const Quad* free;      ///< velocity at zero impulse, m/s
-  const Quad* mobility;  ///< (1/m, 1/m, r^2/I, 0), 1/kg
-  Quad* now;             ///< velocity at P
-  Quad* ahead;           ///< velocity at y
-  const Index* first_a;  ///< contacts first_a[i] ... first_a[i + 1] - 1 have body i as their a
-  const Index* first_b;  ///< entries first_b[i] ... of b_contact have it as their b
-  const Index* b_contact;
-  // Contacts.
-  const double *nx, *ny, *cn, *ct;
-  const double *wn, *wt;  ///< inverse of the Delassus diagonal, kg
-  const double* mu;
-  const Index *a, *b;
-  double *pn, *pt;                ///< P
-  double *pn_before, *pt_before;  ///< in: P of the pass before; out: the new P
-  Quad* force;                    ///< the new P in the bed's axes: (f_x, f_y, P_t, 0)
-  double beta;                    ///< y = P + beta (P - P_before)
-  double step;                    ///< of the gradient, in units of the inverse diagonal
+struct ContactPassArrays {
+  const ContactGroup* contacts;
+  ImpulseGroup* increment;  ///< in: p of the pass before; out: the new p
+  ImpulseGroup* ahead;      ///< in: y; out: the next y = p_new + beta (p_new - p)
+  const Row* velocity;      ///< of the bodies, due to y
+  ForceGroup* force;        ///< out: the next y in the axes of the bed
 };
 
-/// One projected gradient step for contacts first ... last - 1 (multiples of the lane count).
-using ContactPass = void (*)(const GradientArrays& arrays, Index first, Index last, PassSums& sums);
-/// Velocities of bodies first ... last - 1 at the new impulses, and extrapolated by `beta`.
-using BodyPass = void (*)(const GradientArrays& arrays, Index first, Index last, double beta);
+struct BodyPassArrays {
+  const Row* mobility;
+  const ForceGroup* force;
+  /// Body i is the first body of contacts first_a[i] ... first_a[i + 1] - 1, and the second body of those
+  /// listed in entries first_b[i] ... first_b[i + 1] - 1 of b_force, as the bytes where their rows begin.
+  const Index *first_a, *first_b;
+  const std::uint32_t* b_force;
+  Row* velocity;
+};
+
+/// One projected gradient step, in units of the inverse diagonal, for groups first ... last - 1.
+using ContactPass = void (*)(const ContactPassArrays& arrays, Index first, Index last, float step, float beta,
+                             PassSums& sums);
+/// Velocities of bodies first ... last - 1 due to the forces of their contacts.
+using BodyPass = void (*)(const BodyPassArrays& arrays, Index first, Index last);
 
 struct GradientKernels {
   ContactPass contacts;

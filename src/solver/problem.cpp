@@ -1,6 +1,21 @@
 #include "solver/problem.h"
 
 namespace talus {
+namespace {
+
+RelativeVelocity relative_velocity(const ContactProblem& problem, const std::vector<double>& vx,
+                                   const std::vector<double>& vy, const std::vector<double>& omega, Index c) {
+  const Index a = problem.a[c];
+  const Index b = problem.b[c];
+  const double nx = problem.nx[c];
+  const double ny = problem.ny[c];
+  const double dvx = vx[b] - vx[a];
+  const double dvy = vy[b] - vy[a];
+  const double spin = problem.lever[a] * omega[a] + problem.lever[b] * omega[b];
+  return {dvx * nx + dvy * ny + problem.cn[c], dvy * nx - dvx * ny - spin + problem.ct[c]};
+}
+
+}  // namespace
 
 DelassusDiagonal delassus_diagonal(const ContactProblem& problem, Index c) {
   const Index a = problem.a[c];
@@ -12,14 +27,11 @@ DelassusDiagonal delassus_diagonal(const ContactProblem& problem, Index c) {
 }
 
 RelativeVelocity relative_velocity(const ContactProblem& problem, const ContactSolution& at, Index c) {
-  const Index a = problem.a[c];
-  const Index b = problem.b[c];
-  const double nx = problem.nx[c];
-  const double ny = problem.ny[c];
-  const double dvx = at.vx[b] - at.vx[a];
-  const double dvy = at.vy[b] - at.vy[a];
-  const double spin = problem.lever[a] * at.omega[a] + problem.lever[b] * at.omega[b];
-  return {dvx * nx + dvy * ny + problem.cn[c], dvy * nx - dvx * ny - spin + problem.ct[c]};
+  return relative_velocity(problem, at.vx, at.vy, at.omega, c);
+}
+
+RelativeVelocity free_relative_velocity(const ContactProblem& problem, Index c) {
+  return relative_velocity(problem, problem.vx, problem.vy, problem.omega, c);
 }
 
 void velocities_from_impulses(const ContactProblem& problem, ContactSolution& solution) {

@@ -51,6 +51,9 @@ struct RelativeVelocity {
 };
 RelativeVelocity relative_velocity(const ContactProblem& problem, const ContactSolution& at, Index c);
 
+/// q_c = (H v_free + c)_c: what U is at contact c without impulses, U = W P + q.
+RelativeVelocity free_relative_velocity(const ContactProblem& problem, Index c);
+
 /// v = v_free + M^-1 H^T P, summed contact by contact in their order.
 void velocities_from_impulses(const ContactProblem& problem, ContactSolution& solution);
 

@@ -30,13 +30,17 @@ SolverReport solve(const ContactProblem& problem, const SolverSettings& settings
   switch (settings.kind) {
     case SolverKind::gauss_seidel:
       report.iterations = solve_gauss_seidel(problem, settings, solution);
+      report.residual = natural_map_residual(problem, solution);
       break;
-    case SolverKind::accelerated:
-      report.iterations = solve_accelerated(problem, settings.tolerance, settings.max_iterations,
-                                            settings.threads, workspace.accelerated, solution);
+    case SolverKind::accelerated: {
+      const AcceleratedOutcome outcome =
+          solve_accelerated(problem, settings.tolerance, settings.max_iterations, settings.threads,
+                            workspace.accelerated, solution);
+      report.iterations = outcome.iterations;
+      report.residual = outcome.residual;
       break;
+    }
   }
-  report.residual = natural_map_residual(problem, solution);
   report.converged = report.residual.eta <= settings.tolerance * (1.0 + 1e-9);
   return report;
 }

@@ -31,11 +31,10 @@ ThreadTeam::~ThreadTeam() {
   for (std::thread& thread : threads_) thread.join();
 }
 
-void ThreadTeam::run(const std::function<void(int)>& task) {
-  task_ = &task;
+void ThreadTeam::start() {
   task_number_.fetch_add(1, std::memory_order_release);
   task_number_.notify_all();
-  task(0);
+  call_(task_, 0);
   wait_for_all();
 }
 
@@ -56,7 +55,7 @@ void ThreadTeam::work(int member) {
     wait_while_equal(task_number_, seen, spins_);
     seen = task_number_.load(std::memory_order_acquire);
     if (leaving_.load()) return;
-    (*task_)(member);
+    call_(task_, member);
     wait_for_all();
   }
 }

@@ -2,14 +2,14 @@
 /// A few threads that work through short tasks together.
 
 #include <atomic>
-#include <functional>
 #include <thread>
+#include <type_traits>
 #include <vector>
 
 namespace talus {
 
 /// The calling thread and size - 1 others. Made for passes of some tens of microseconds: members wait for
-/// each other by spinning for a moment, then sleeping.
+/// each other by spinning for a moment, then sleeping. Running a task allocates nothing.
 class ThreadTeam {
  public:
   explicit ThreadTeam(int size);
@@ -21,12 +21,19 @@ class ThreadTeam {
 
   /// Runs task(member) on every member, member = 0 ... size - 1, and returns when all are done. `task` must
   /// not throw.
-  void run(const std::function<void(int)>& task);
+  template <class Task>
+  void run(Task&& task) {
+    using Callable = std::remove_reference_t<Task>;
+    task_ = &task;
+    call_ = [](void* callable, int member) { (*static_cast<Callable*>(callable))(member); };
+    start();
+  }
 
   /// To be called by every member from within a task: none goes on before all have come.
   void wait_for_all();
 
  private:
+  void start();
   void work(int member);
 
   int size_;
@@ -35,7 +42,8 @@ class ThreadTeam {
   std::atomic<unsigned> round_{0};
   std::atomic<unsigned> task_number_{0};
   std::atomic<bool> leaving_{false};
-  const std::function<void(int)>* task_ = nullptr;
+  void* task_ = nullptr;
+  void (*call_)(void*, int) = nullptr;
   std::vector<std::thread> threads_;
 };
 

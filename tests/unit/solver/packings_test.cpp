@@ -45,7 +45,7 @@ SolverSettings settings_of(SolverKind kind, double tolerance, int max_iterations
 
 class Packing : public testing::TestWithParam<int> {};
 
-INSTANTIATE_TEST_SUITE_P(Seeds, Packing, testing::Range(1, 31));
+INSTANTIATE_TEST_SUITE_P(Seeds, Packing, testing::Range(1, 61));
 
 // Forces of a frictional packing are not unique, its velocities are.
 TEST_P(Packing, solvers_agree_on_velocities) {

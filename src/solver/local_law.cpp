@@ -1,0 +1,80 @@
+#include "solver/local_law.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace talus {
+namespace {
+
+/// Below this share of the diagonal the coupling within a block is round-off.
+constexpr double coupling_round_off = 1e-13;
+
+/// Sliding with P_t = sign mu P_n; whether that is a solution.
+bool slides(const LocalContact& contact, RelativeVelocity b, double sign, Impulse& p) {
+  const DelassusBlock& w = contact.w;
+  const double softness = w.nn + sign * contact.mu * w.nt;
+  if (!(softness > 0.0)) return false;
+  p.normal = -b.normal / softness;
+  p.tangential = sign * contact.mu * p.normal;
+  return p.normal >= 0.0 && sign * (b.tangential + w.tn * p.normal + w.tt * p.tangential) <= 0.0;
+}
+
+}  // namespace
+
+LocalContact local_contact(const DelassusBlock& w, double mu) {
+  LocalContact contact;
+  contact.w = w;
+  contact.w_n = w.nn > 0.0 ? 1.0 / w.nn : 0.0;
+  contact.w_t = w.tt > 0.0 ? 1.0 / w.tt : 0.0;
+  contact.mu = mu;
+  contact.coupled =
+      w.nn > 0.0 && std::max(std::fabs(w.nt), std::fabs(w.tn)) > coupling_round_off * std::max(w.nn, w.tt);
+  return contact;
+}
+
+std::vector<LocalContact> local_contacts(const LocalProblem& problem) {
+  std::vector<LocalContact> contacts;
+  contacts.reserve(problem.mu.size());
+  for (Index c = 0; c < problem.contact_count(); ++c)
+    contacts.push_back(local_contact(problem.block[problem.diagonal[c]], problem.mu[c]));
+  return contacts;
+}
+
+Impulse coupled_solution(const LocalContact& contact, Impulse p, RelativeVelocity u) {
+  const DelassusBlock& w = contact.w;
+  const RelativeVelocity b{u.normal - w.nn * p.normal - w.nt * p.tangential,
+                           u.tangential - w.tn * p.normal - w.tt * p.tangential};
+  if (b.normal >= 0.0) return {};
+  const double determinant = w.nn * w.tt - w.nt * w.tn;
+  if (determinant > 0.0) {
+    const Impulse stick{(w.nt * b.tangential - w.tt * b.normal) / determinant,
+                        (w.tn * b.normal - w.nn * b.tangential) / determinant};
+    if (stick.normal >= 0.0 && std::fabs(stick.tangential) <= contact.mu * stick.normal) return stick;
+  }
+  Impulse slide;
+  if (slides(contact, b, 1.0, slide) || slides(contact, b, -1.0, slide)) return slide;
+  return local_solution(p.normal, p.tangential, u.normal, u.tangential, contact.w_n, contact.w_t, contact.mu);
+}
+
+Residual natural_map_residual(const LocalProblem& problem, const LocalSolution& solution) {
+  double change = 0.0;
+  double largest = 0.0;
+  double impulse = 0.0;
+  double impulse_after = 0.0;
+  for (Index c = 0; c < problem.contact_count(); ++c) {
+    const Impulse p = solution.p[c];
+    const LocalContact contact = local_contact(problem.block[problem.diagonal[c]], problem.mu[c]);
+    const Impulse after = local_solution(contact, p, solution.u[c]);
+    const double dn = after.normal - p.normal;
+    const double dt = after.tangential - p.tangential;
+    change += dn * dn + dt * dt;
+    largest = std::max(largest, dn * dn + dt * dt);
+    impulse += p.normal * p.normal + p.tangential * p.tangential;
+    impulse_after += after.normal * after.normal + after.tangential * after.tangential;
+  }
+  const double scale = impulse > 0.0 ? impulse : impulse_after;
+  if (!(scale > 0.0)) return {};
+  return {std::sqrt(change / scale), std::sqrt(largest / scale)};
+}
+
+}  // namespace talus

@@ -1,0 +1,70 @@
+#pragma once
+/// A contact problem in local form: W, q and mu are all that is known, no bodies. Problems of other programs
+/// come in this form.
+
+#include <vector>
+
+#include "solver/contact_law.h"
+#include "solver/problem.h"
+
+namespace talus {
+
+/// A 2 x 2 block of the Delassus operator, 1/kg, column by column: `tn` is the tangential velocity that a
+/// unit normal impulse gives.
+struct DelassusBlock {
+  double nn = 0.0, tn = 0.0;
+  double nt = 0.0, tt = 0.0;
+};
+
+/// Unknown impulses P_c = (P_n, P_t) with the relative velocities U = W P + q must satisfy the contact law of
+/// ContactProblem. W is kept in block rows.
+struct LocalProblem {
+  std::vector<Index> row_begin;      ///< blocks of contact c: row_begin[c] ... row_begin[c + 1] - 1
+  std::vector<Index> column;         ///< contact of a block, ascending in a row
+  std::vector<DelassusBlock> block;  ///< 1/kg
+  std::vector<Index> diagonal;       ///< where the block of c with itself is; every row has one
+  std::vector<RelativeVelocity> q;   ///< m/s, relative velocity without impulses
+  std::vector<double> mu;
+
+  Index contact_count() const { return static_cast<Index>(mu.size()); }
+};
+
+/// Impulses, N s, and the relative velocities U = W P + q, m/s.
+struct LocalSolution {
+  std::vector<Impulse> p;           ///< in: first guess; out: solution
+  std::vector<RelativeVelocity> u;  ///< out
+};
+
+/// An entry of W as a matrix of scalars; row and column 2 c are the normal of contact c, 2 c + 1 its tangent.
+struct MatrixEntry {
+  Index row = 0;
+  Index column = 0;
+  double value = 0.0;
+};
+
+/// The problem with the given entries of W, in any order; entries of the same place are added.
+LocalProblem local_problem(std::vector<MatrixEntry> entries, std::vector<RelativeVelocity> q,
+                           std::vector<double> mu);
+
+/// W = H M^-1 H^T and q = H v_free + c of a problem with bodies.
+LocalProblem local_problem(const ContactProblem& problem);
+/// Impulses and relative velocities of a solution with bodies.
+LocalSolution local_solution(const ContactProblem& problem, const ContactSolution& solution);
+
+/// U_c = (W P + q)_c.
+inline RelativeVelocity relative_velocity(const LocalProblem& problem, const std::vector<Impulse>& p,
+                                          Index c) {
+  RelativeVelocity u = problem.q[c];
+  for (Index k = problem.row_begin[c]; k < problem.row_begin[c + 1]; ++k) {
+    const DelassusBlock& w = problem.block[k];
+    const Impulse& impulse = p[problem.column[k]];
+    u.normal += w.nn * impulse.normal + w.nt * impulse.tangential;
+    u.tangential += w.tn * impulse.normal + w.tt * impulse.tangential;
+  }
+  return u;
+}
+
+/// U = W P + q at every contact.
+void velocities_from_impulses(const LocalProblem& problem, LocalSolution& solution);
+
+}  // namespace talus

@@ -1,0 +1,14 @@
+#pragma once
+/// Solvers of problems of which only W, q and mu are known: plain sequential code on block rows.
+
+#include "solver/local_problem.h"
+#include "solver/solve.h"
+
+namespace talus {
+
+/// As solve() for a problem with bodies, from the first guess in `solution.p`. Gauss-Seidel visits the
+/// contacts in their order; the accelerated solver gives its sweeps Nesterov's momentum. A sweep needs no
+/// step length, so neither depends on the spectrum of W. `settings.threads` is not used.
+SolverReport solve(const LocalProblem& problem, const SolverSettings& settings, LocalSolution& solution);
+
+}  // namespace talus

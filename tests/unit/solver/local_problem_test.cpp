@@ -1,0 +1,117 @@
+#include "solver/local_problem.h"
+
+#include <gtest/gtest.h>
+
+#include "core/random.h"
+#include "unit/solver/small_problems.h"
+
+namespace talus {
+namespace {
+
+/// Column d of W by its meaning: the velocities that a unit impulse gives, over those without it. The bodies
+/// are moved one by one, no product H M^-1 H^T is formed.
+std::vector<RelativeVelocity> column_of_W(const ContactProblem& problem, Index d, bool tangential) {
+  ContactSolution push = test::no_guess(problem);
+  (tangential ? push.pt : push.pn)[d] = 1.0;
+  velocities_from_impulses(problem, push);
+  std::vector<RelativeVelocity> column;
+  for (Index c = 0; c < problem.contact_count(); ++c) {
+    const RelativeVelocity with = relative_velocity(problem, push, c);
+    const RelativeVelocity without = free_relative_velocity(problem, c);
+    column.push_back({with.normal - without.normal, with.tangential - without.tangential});
+  }
+  return column;
+}
+
+DelassusBlock block_at(const LocalProblem& local, Index c, Index d) {
+  for (Index k = local.row_begin[c]; k < local.row_begin[c + 1]; ++k)
+    if (local.column[k] == d) return local.block[k];
+  return {};
+}
+
+/// Rows ascend, and each has its diagonal block where `diagonal` says.
+void expect_well_formed(const LocalProblem& local) {
+  ASSERT_EQ(local.row_begin.size(), local.mu.size() + 1);
+  for (Index c = 0; c < local.contact_count(); ++c) {
+    for (Index k = local.row_begin[c] + 1; k < local.row_begin[c + 1]; ++k)
+      EXPECT_LT(local.column[k - 1], local.column[k]);
+    EXPECT_GE(local.diagonal[c], local.row_begin[c]);
+    EXPECT_LT(local.diagonal[c], local.row_begin[c + 1]);
+    EXPECT_EQ(local.column[local.diagonal[c]], c);
+  }
+}
+
+TEST(LocalProblem, W_is_what_unit_impulses_do) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    const ContactProblem problem = test::random_problem(seed, 9, 24);
+    const LocalProblem local = local_problem(problem);
+    expect_well_formed(local);
+    for (Index d = 0; d < problem.contact_count(); ++d) {
+      const auto normal = column_of_W(problem, d, false);
+      const auto tangential = column_of_W(problem, d, true);
+      for (Index c = 0; c < problem.contact_count(); ++c) {
+        const DelassusBlock w = block_at(local, c, d);
+        EXPECT_NEAR(w.nn, normal[c].normal, 1e-13);
+        EXPECT_NEAR(w.tn, normal[c].tangential, 1e-13);
+        EXPECT_NEAR(w.nt, tangential[c].normal, 1e-13);
+        EXPECT_NEAR(w.tt, tangential[c].tangential, 1e-13);
+      }
+    }
+  }
+}
+
+TEST(LocalProblem, relative_velocities_are_those_of_the_bodies) {
+  const ContactProblem problem = test::random_problem(6, 12, 25);
+  ContactSolution solution = test::no_guess(problem);
+  Random random(6);
+  for (double& pn : solution.pn) pn = random.uniform(0.0, 1.0);
+  for (double& pt : solution.pt) pt = random.uniform(-1.0, 1.0);
+  velocities_from_impulses(problem, solution);
+  const LocalSolution of_bodies = local_solution(problem, solution);
+  LocalSolution of_W{of_bodies.p, {}};
+  velocities_from_impulses(local_problem(problem), of_W);
+  for (Index c = 0; c < problem.contact_count(); ++c) {
+    EXPECT_NEAR(of_W.u[c].normal, of_bodies.u[c].normal, 1e-13);
+    EXPECT_NEAR(of_W.u[c].tangential, of_bodies.u[c].tangential, 1e-13);
+  }
+}
+
+// A floor that does not move carries no push from one contact to the next.
+TEST(LocalProblem, contacts_of_a_fixed_body_do_not_feel_each_other) {
+  ContactProblem problem;
+  test::add_body(problem, 1.0, 0.1, 0.0, 0.0, 0.0);
+  test::add_body(problem, 1.0, 0.1, 0.0, 0.0, 0.0);
+  test::add_body(problem, 0.0, 0.0, 0.0, 0.0, 0.0);
+  test::add_contact(problem, 0, 2, 0.0, -1.0, 0.5);
+  test::add_contact(problem, 1, 2, 0.0, -1.0, 0.5);
+  EXPECT_EQ(local_problem(problem).block.size(), 2u);
+}
+
+TEST(LocalProblem, entries_of_any_order_become_block_rows) {
+  // Two contacts; the block (1, 0) is given in two parts, the diagonal of contact 1 not at all.
+  const LocalProblem local =
+      local_problem({{3, 0, 0.25}, {0, 0, 2.0}, {2, 1, 7.0}, {1, 1, 3.0}, {0, 1, 0.5}, {3, 0, 0.5}},
+                    {{1.0, 2.0}, {3.0, 4.0}}, {0.5, 0.25});
+  expect_well_formed(local);
+  ASSERT_EQ(local.block.size(), 3u);
+  EXPECT_EQ(block_at(local, 0, 0).nn, 2.0);
+  EXPECT_EQ(block_at(local, 0, 0).nt, 0.5);
+  EXPECT_EQ(block_at(local, 0, 0).tt, 3.0);
+  EXPECT_EQ(block_at(local, 1, 0).tn, 0.75);
+  EXPECT_EQ(block_at(local, 1, 0).nt, 7.0);
+  EXPECT_EQ(block_at(local, 1, 1).nn, 0.0);
+  // u = W p + q by hand for p = (1, 10) at the first contact, (100, 1000) at the second.
+  const std::vector<Impulse> p = {{1.0, 10.0}, {100.0, 1000.0}};
+  EXPECT_EQ(relative_velocity(local, p, 0).normal, 1.0 + 2.0 + 5.0);
+  EXPECT_EQ(relative_velocity(local, p, 0).tangential, 2.0 + 30.0);
+  EXPECT_EQ(relative_velocity(local, p, 1).normal, 3.0 + 70.0);
+  EXPECT_EQ(relative_velocity(local, p, 1).tangential, 4.0 + 0.75);
+}
+
+TEST(LocalProblem, of_no_contacts_is_empty) {
+  expect_well_formed(local_problem(ContactProblem{}));
+  expect_well_formed(local_problem({}, {}, {}));
+}
+
+}  // namespace
+}  // namespace talus
