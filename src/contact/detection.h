@@ -7,7 +7,8 @@
 namespace talus {
 
 /// Writes all pairs with a gap below `margin` (m) at the present positions, sorted by key, with normals and
-/// gaps; forces are set to zero. Conventions as in Contacts. Two coincident centres get the normal (0, 1).
+/// gaps; their forces are for recall_forces to set. Conventions as in Contacts. Two coincident centres get
+/// the normal (0, 1).
 void detect_contacts(NeighbourList& list, const Grains& grains, const Boundary& boundary, double margin,
                      Contacts& contacts);
 

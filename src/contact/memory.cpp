@@ -1,19 +1,48 @@
 #include "contact/memory.h"
 
+#include <algorithm>
+
 namespace talus {
+namespace {
+
+/// The pair of contact c of one comes before that of contact d of the other.
+bool before(const Contacts& one, Index c, const Contacts& other, Index d) {
+  return one.a[c] < other.a[d] || (one.a[c] == other.a[d] && one.b[c] < other.b[d]);
+}
+
+/// How many contacts in a row, from c and from d on, are those of the same pairs.
+Index persisting(const Contacts& contacts, Index c, const Contacts& previous, Index d) {
+  const Index longest = std::min(contacts.count() - c, previous.count() - d);
+  Index run = 0;
+  while (run < longest && contacts.a[c + run] == previous.a[d + run] &&
+         contacts.b[c + run] == previous.b[d + run])
+    ++run;
+  return run;
+}
+
+void copy_forces(const Contacts& previous, Index d, Index run, Contacts& contacts, Index c) {
+  std::copy_n(previous.fn.begin() + d, run, contacts.fn.begin() + c);
+  std::copy_n(previous.ft.begin() + d, run, contacts.ft.begin() + c);
+}
+
+}  // namespace
 
 void recall_forces(const Contacts& previous, Contacts& contacts) {
+  const Index count = contacts.count();
   const Index old_count = previous.count();
+  Index c = 0;
   Index old = 0;
-  for (Index c = 0; c < contacts.count(); ++c) {
-    const Index a = contacts.a[c];
-    const Index b = contacts.b[c];
-    while (old < old_count && (previous.a[old] < a || (previous.a[old] == a && previous.b[old] < b))) ++old;
-    // The shift is left out of the key: a bed is always long enough for a pair to touch through one image
-    // only, and the shift changes when one of the two wraps around the edge.
-    const bool known = old < old_count && previous.a[old] == a && previous.b[old] == b;
-    contacts.fn[c] = known ? previous.fn[old] : 0.0;
-    contacts.ft[c] = known ? previous.ft[old] : 0.0;
+  while (c < count) {
+    // Nearly all contacts persist, so a merge goes in long runs.
+    const Index run = persisting(contacts, c, previous, old);
+    copy_forces(previous, old, run, contacts, c);
+    c += run;
+    old += run;
+    while (old < old_count && c < count && before(previous, old, contacts, c)) ++old;
+    while (c < count && (old == old_count || before(contacts, c, previous, old))) {
+      contacts.fn[c] = contacts.ft[c] = 0.0;
+      ++c;
+    }
   }
 }
 

@@ -55,80 +55,100 @@ Grid make_grid(const Grains& grains, const Boundary& boundary, double cell) {
 /// Counting sort of the grains into cells; within a cell they stay in the order of their ids.
 void fill_cells(NeighbourList& list, const Grains& grains, const Grid& grid) {
   const auto cells = static_cast<std::size_t>(grid.columns) * grid.rows;
-  list.cell_start.assign(cells + 1, 0);
-  list.cell_of_grain.resize(grains.x.size());
-  list.cell_grain.resize(grains.x.size());
+  list.cell_start.resize(cells + 1);  // not assigned: that would allocate for each row of cells more
+  std::fill(list.cell_start.begin(), list.cell_start.end(), 0);
+  for (auto* field : {&list.cell_of_grain, &list.cell_grain}) field->resize(grains.x.size());
+  for (auto* field : {&list.cell_x, &list.cell_y, &list.cell_radius}) field->resize(grains.x.size());
   for (Index i = 0; i < grains.count(); ++i) {
     list.cell_of_grain[i] = row_of(grid, grains.y[i]) * grid.columns + column_of(grid, grains.x[i]);
     ++list.cell_start[list.cell_of_grain[i] + 1];
   }
   for (std::size_t cell = 0; cell < cells; ++cell) list.cell_start[cell + 1] += list.cell_start[cell];
-  for (Index i = 0; i < grains.count(); ++i) list.cell_grain[list.cell_start[list.cell_of_grain[i]]++] = i;
+  for (Index i = 0; i < grains.count(); ++i) {
+    const Index place = list.cell_start[list.cell_of_grain[i]]++;
+    list.cell_grain[place] = i;
+    list.cell_x[place] = grains.x[i];
+    list.cell_y[place] = grains.y[i];
+    list.cell_radius[place] = grains.radius[i];
+  }
   for (std::size_t cell = cells; cell > 0; --cell) list.cell_start[cell] = list.cell_start[cell - 1];
   list.cell_start[0] = 0;
 }
 
-void append(NeighbourList& list, Index a, Index b, std::int8_t shift) {
-  list.a.push_back(a);
-  list.b.push_back(b);
-  list.shift.push_back(shift);
-}
+// A neighbour as one number, b first, so that numbers sort as (b, shift) does.
+std::int64_t packed(Index b, int shift) { return 4 * static_cast<std::int64_t>(b) + shift + 1; }
+Index body_of(std::int64_t neighbour) { return static_cast<Index>(neighbour / 4); }
+std::int8_t shift_of(std::int64_t neighbour) { return static_cast<std::int8_t>(neighbour % 4 - 1); }
 
-/// Sorts the pairs of one grain, from `first` on, by (b, shift): a handful, so insertion sort.
-void sort_pairs(NeighbourList& list, std::size_t first) {
-  for (std::size_t k = first + 1; k < list.b.size(); ++k) {
-    const Index b = list.b[k];
-    const std::int8_t shift = list.shift[k];
-    std::size_t hole = k;
-    for (; hole > first && (list.b[hole - 1] > b || (list.b[hole - 1] == b && list.shift[hole - 1] > shift));
-         --hole) {
-      list.b[hole] = list.b[hole - 1];
-      list.shift[hole] = list.shift[hole - 1];
-    }
-    list.b[hole] = b;
-    list.shift[hole] = shift;
-  }
-}
+/// The neighbours of one grain as they are found.
+struct Search {
+  Index a = 0;
+  double range = 0.0;
+  std::int64_t* end = nullptr;
+};
 
-/// Pairs of grain a with the grains b > a of one cell, seen through a periodic shift.
-void pair_with_cell(NeighbourList& list, const Grains& grains, Index a, Index cell, std::int8_t shift,
-                    double offset, double range) {
-  for (Index k = list.cell_start[cell]; k < list.cell_start[cell + 1]; ++k) {
+/// Adds the grains b > a of adjacent cells of one row, seen through a periodic shift.
+void search_cells(const NeighbourList& list, const Grains& grains, Index first_cell, Index last_cell,
+                  int shift, double length, Search& search) {
+  const Index a = search.a;
+  const double x = grains.x[a];
+  const double y = grains.y[a];
+  const double reach = grains.radius[a];
+  const double offset = shift * length;
+  std::int64_t* end = search.end;
+  for (Index k = list.cell_start[first_cell]; k < list.cell_start[last_cell + 1]; ++k) {
     const Index b = list.cell_grain[k];
-    if (b <= a) continue;
-    const double dx = grains.x[b] + offset - grains.x[a];
-    const double dy = grains.y[b] - grains.y[a];
-    const double limit = grains.radius[a] + grains.radius[b] + range;
-    if (dx * dx + dy * dy < limit * limit) append(list, a, b, shift);
+    const double dx = list.cell_x[k] + offset - x;
+    const double dy = list.cell_y[k] - y;
+    const double limit = reach + list.cell_radius[k] + search.range;
+    // Written in any case and kept or not: a branch here would be a coin toss.
+    *end = packed(b, shift);
+    end += static_cast<int>(b > a) & static_cast<int>(dx * dx + dy * dy < limit * limit);
   }
+  search.end = end;
 }
 
-void pair_with_grains(NeighbourList& list, const Grains& grains, const Boundary& boundary, const Grid& grid,
-                      Index a, double range) {
-  const Index row = list.cell_of_grain[a] / grid.columns;
-  const Index column = list.cell_of_grain[a] % grid.columns;
+void search_grains(const NeighbourList& list, const Grains& grains, const Boundary& boundary,
+                   const Grid& grid, Search& search) {
+  const Index row = list.cell_of_grain[search.a] / grid.columns;
+  const Index column = list.cell_of_grain[search.a] % grid.columns;
+  const Index last = grid.columns - 1;
   for (Index r = std::max<Index>(row - 1, 0); r <= std::min<Index>(row + 1, grid.rows - 1); ++r) {
-    for (Index c = column - 1; c <= column + 1; ++c) {
-      int shift = 0;
-      Index wrapped = c;
-      if (c < 0 || c >= grid.columns) {
-        if (!grid.periodic) continue;
-        shift = c < 0 ? -1 : 1;
-        wrapped = c - shift * grid.columns;
-      }
-      pair_with_cell(list, grains, a, r * grid.columns + wrapped, static_cast<std::int8_t>(shift),
-                     shift * boundary.length, range);
-    }
+    const Index start = r * grid.columns;
+    search_cells(list, grains, start + std::max<Index>(column - 1, 0), start + std::min(column + 1, last), 0,
+                 boundary.length, search);
+    if (!grid.periodic) continue;
+    if (column == 0) search_cells(list, grains, start + last, start + last, -1, boundary.length, search);
+    if (column == last) search_cells(list, grains, start, start, 1, boundary.length, search);
   }
 }
 
-void pair_with_planes(NeighbourList& list, const Grains& grains, const Boundary& boundary, Index a,
-                      double range) {
+void search_planes(const Grains& grains, const Boundary& boundary, Search& search) {
+  const Index a = search.a;
   for (std::size_t k = 0; k < boundary.planes.size(); ++k) {
     const Plane& plane = boundary.planes[k];
     const double distance = plane.normal.x * grains.x[a] + plane.normal.y * grains.y[a] - plane.offset;
-    if (distance - grains.radius[a] < range) append(list, a, grains.count() + static_cast<Index>(k), 0);
+    if (distance - grains.radius[a] < search.range)
+      *search.end++ = packed(grains.count() + static_cast<Index>(k), 0);
   }
+}
+
+/// Sorts the neighbours of one grain: a handful, so insertion sort.
+void sort_neighbours(std::int64_t* first, std::int64_t* end) {
+  for (std::int64_t* next = first; next != end; ++next) {
+    const std::int64_t neighbour = *next;
+    std::int64_t* hole = next;
+    for (; hole != first && hole[-1] > neighbour; --hole) *hole = hole[-1];
+    *hole = neighbour;
+  }
+}
+
+void append(NeighbourList& list, const Grains& grains, Index a, std::int64_t neighbour) {
+  const Index b = body_of(neighbour);
+  list.a.push_back(a);
+  list.b.push_back(b);
+  list.shift.push_back(shift_of(neighbour));
+  list.contact_distance.push_back(grains.radius[a] + (b < grains.count() ? grains.radius[b] : 0.0));
 }
 
 }  // namespace
@@ -139,21 +159,26 @@ void update_neighbour_list(NeighbourList& list, const Grains& grains, const Boun
   list.a.clear();
   list.b.clear();
   list.shift.clear();
+  list.contact_distance.clear();
   list.x = grains.x;
   list.y = grains.y;
   if (grains.count() == 0) return;
   const double largest = *std::max_element(grains.radius.begin(), grains.radius.end());
-  list.skin = 0.1 * largest;
+  // Rebuilds halve with each doubling of the skin, candidates grow by 5 %: here both cost the same.
+  list.skin = 0.2 * largest;
   // While the bed moves fast the reach changes from step to step: some room above it saves rebuilds.
   list.reach = 1.25 * reach;
   const double range = list.reach + list.skin;
   const Grid grid = make_grid(grains, boundary, 2.0 * largest + range);
   fill_cells(list, grains, grid);
+  // A grain sees each other one through three images at most; one place more for what is not kept.
+  list.near.resize(3 * grains.x.size() + boundary.planes.size() + 1);
   for (Index a = 0; a < grains.free_count; ++a) {
-    const std::size_t first = list.a.size();
-    pair_with_grains(list, grains, boundary, grid, a, range);
-    pair_with_planes(list, grains, boundary, a, range);
-    sort_pairs(list, first);
+    Search search{.a = a, .range = range, .end = list.near.data()};
+    search_grains(list, grains, boundary, grid, search);
+    search_planes(grains, boundary, search);
+    sort_neighbours(list.near.data(), search.end);
+    for (const std::int64_t* n = list.near.data(); n != search.end; ++n) append(list, grains, a, *n);
   }
   ++list.rebuilds;
 }

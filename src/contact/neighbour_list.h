@@ -15,13 +15,16 @@ namespace talus {
 struct NeighbourList {
   std::vector<Index> a, b;
   std::vector<std::int8_t> shift;
-  double reach = -1.0;       ///< m
-  double skin = 0.0;         ///< m
-  std::vector<double> x, y;  ///< where the grains were, m
+  std::vector<double> contact_distance;  ///< r_a + r_b, m; r_a of a plane
+  double reach = -1.0;                   ///< m
+  double skin = 0.0;                     ///< m
+  std::vector<double> x, y;              ///< where the grains were, m
   std::int64_t rebuilds = 0;
 
-  // Cells of the grid, kept so that a rebuild allocates nothing.
+  // The grains in the order of the cells of a grid, kept so that a rebuild allocates nothing.
   std::vector<Index> cell_start, cell_grain, cell_of_grain;
+  std::vector<double> cell_x, cell_y, cell_radius;
+  std::vector<std::int64_t> near;  ///< the neighbours of one grain
 };
 
 /// Makes the list anew where it does not cover pairs up to a gap of `reach` at the present positions. A list

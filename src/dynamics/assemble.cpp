@@ -5,26 +5,40 @@
 namespace talus {
 namespace {
 
+/// Copies without an exact fit: an assignment would allocate for each contact more than ever before.
+template <typename Value>
+void copy(const std::vector<Value>& from, std::vector<Value>& to) {
+  to.resize(from.size());
+  std::copy(from.begin(), from.end(), to.begin());
+}
+
+template <typename Value>
+void fill(std::vector<Value>& values, std::size_t count, Value value) {
+  values.resize(count);
+  std::fill(values.begin(), values.end(), value);
+}
+
 void assemble_bodies(const World& world, double h, ContactProblem& problem) {
   const Grains& grains = world.grains;
   const auto count = static_cast<std::size_t>(grains.count());
-  const std::size_t bodies = count + world.boundary.planes.size();
-  for (auto* field : {&problem.vx, &problem.vy, &problem.omega, &problem.inverse_mass,
-                      &problem.inverse_inertia, &problem.lever})
-    field->resize(bodies);
   const Vec2 gravity = gravity_vector(world);
+  const Vec2 fall{h * gravity.x, h * gravity.y};
+  problem.vx.resize(count);
+  problem.vy.resize(count);
   for (std::size_t i = 0; i < count; ++i) {
     const bool moves = grains.inverse_mass[i] > 0.0;
-    problem.vx[i] = moves ? grains.vx[i] + h * gravity.x : 0.0;
-    problem.vy[i] = moves ? grains.vy[i] + h * gravity.y : 0.0;
-    problem.omega[i] = grains.omega[i];
-    problem.inverse_mass[i] = grains.inverse_mass[i];
-    problem.inverse_inertia[i] = grains.inverse_inertia[i];
-    problem.lever[i] = grains.radius[i];
+    const double vx = grains.vx[i] + fall.x;
+    const double vy = grains.vy[i] + fall.y;
+    problem.vx[i] = moves ? vx : 0.0;
+    problem.vy[i] = moves ? vy : 0.0;
   }
-  for (std::size_t i = count; i < bodies; ++i)
-    problem.vx[i] = problem.vy[i] = problem.omega[i] = problem.inverse_mass[i] = problem.inverse_inertia[i] =
-        problem.lever[i] = 0.0;
+  problem.omega = grains.omega;
+  problem.inverse_mass = grains.inverse_mass;
+  problem.inverse_inertia = grains.inverse_inertia;
+  problem.lever = grains.radius;
+  for (auto* field : {&problem.vx, &problem.vy, &problem.omega, &problem.inverse_mass,
+                      &problem.inverse_inertia, &problem.lever})
+    field->resize(count + world.boundary.planes.size(), 0.0);  // planes never move
 }
 
 /// Relative velocity at contact c before the step.
@@ -44,17 +58,38 @@ double free_normal_velocity(const ContactProblem& problem, Index c) {
   return (problem.vx[b] - problem.vx[a]) * problem.nx[c] + (problem.vy[b] - problem.vy[a]) * problem.ny[c];
 }
 
-void assemble_contact(const World& world, const Contacts& contacts, const ContactLawParameters& law, double h,
-                      Index c, ContactProblem& problem) {
-  const double gap = contacts.gap[c];
-  problem.cn[c] = gap > 0.0 ? gap / h : law.overlap_correction * gap / h;
-  problem.ct[c] = 0.0;
-  if (law.restitution == 0.0 && law.tangential_restitution == 0.0) return;
-  const bool closes = gap + h * free_normal_velocity(problem, c) <= 0.0;
-  if (!closes) return;
-  const RelativeVelocity before = velocity_before(world.grains, contacts, c);
-  if (before.normal < 0.0) problem.cn[c] = std::min(problem.cn[c], law.restitution * before.normal);
-  problem.ct[c] = law.tangential_restitution * before.tangential;
+/// The gap+/h rule, and the share of an overlap that is taken back.
+void assemble_gaps(const Contacts& contacts, double overlap_correction, double h, ContactProblem& problem) {
+  const auto count = static_cast<std::size_t>(contacts.count());
+  problem.cn.resize(count);
+  for (std::size_t c = 0; c < count; ++c) {
+    const double gap = contacts.gap[c];
+    const double share = overlap_correction * gap;
+    problem.cn[c] = (gap > 0.0 ? gap : share) / h;
+  }
+}
+
+void assemble_restitution(const World& world, const Contacts& contacts, const ContactLawParameters& law,
+                          double h, ContactProblem& problem) {
+  for (Index c = 0; c < contacts.count(); ++c) {
+    const bool closes = contacts.gap[c] + h * free_normal_velocity(problem, c) <= 0.0;
+    if (!closes) continue;
+    const RelativeVelocity before = velocity_before(world.grains, contacts, c);
+    if (before.normal < 0.0) problem.cn[c] = std::min(problem.cn[c], law.restitution * before.normal);
+    problem.ct[c] = law.tangential_restitution * before.tangential;
+  }
+}
+
+void assemble_friction(const World& world, const Contacts& contacts, const ContactLawParameters& law,
+                       ContactProblem& problem) {
+  const auto count = static_cast<std::size_t>(contacts.count());
+  fill(problem.mu, count, law.friction);
+  if (world.boundary.planes.empty()) return;
+  for (std::size_t c = 0; c < count; ++c) {
+    const Index plane = contacts.b[c] - world.grains.count();
+    if (plane >= 0 && world.boundary.planes[static_cast<std::size_t>(plane)].wall)
+      problem.mu[c] = law.wall_friction;
+  }
 }
 
 }  // namespace
@@ -62,20 +97,15 @@ void assemble_contact(const World& world, const Contacts& contacts, const Contac
 void assemble(const World& world, const Contacts& contacts, const ContactLawParameters& law, double h,
               ContactProblem& problem) {
   assemble_bodies(world, h, problem);
-  const auto count = static_cast<std::size_t>(contacts.count());
-  problem.a = contacts.a;
-  problem.b = contacts.b;
-  problem.nx = contacts.nx;
-  problem.ny = contacts.ny;
-  problem.cn.resize(count);
-  problem.ct.resize(count);
-  problem.mu.resize(count);
-  for (Index c = 0; c < contacts.count(); ++c) {
-    const Index plane = contacts.b[c] - world.grains.count();
-    const bool wall = plane >= 0 && world.boundary.planes[static_cast<std::size_t>(plane)].wall;
-    problem.mu[c] = wall ? law.wall_friction : law.friction;
-    assemble_contact(world, contacts, law, h, c, problem);
-  }
+  copy(contacts.a, problem.a);
+  copy(contacts.b, problem.b);
+  copy(contacts.nx, problem.nx);
+  copy(contacts.ny, problem.ny);
+  assemble_gaps(contacts, law.overlap_correction, h, problem);
+  fill(problem.ct, contacts.gap.size(), 0.0);
+  if (law.restitution != 0.0 || law.tangential_restitution != 0.0)
+    assemble_restitution(world, contacts, law, h, problem);
+  assemble_friction(world, contacts, law, problem);
 }
 
 }  // namespace talus

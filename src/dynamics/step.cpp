@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 
 #include "contact/detection.h"
 #include "contact/memory.h"
@@ -29,22 +30,31 @@ class StageClock {
   Clock::time_point last_;
 };
 
-/// Half a step along the present velocities; x stays in [0, length) of a periodic bed.
-void move(Grains& grains, const Boundary& boundary, double duration) {
+void advance(std::vector<double>& position, const std::vector<double>& velocity, double duration,
+             Index count) {
+  for (Index i = 0; i < count; ++i) position[i] += duration * velocity[i];
+}
+
+/// Brings x back to [0, length).
+void wrap(Grains& grains, double length) {
   for (Index i = 0; i < grains.free_count; ++i) {
-    grains.x[i] += duration * grains.vx[i];
-    grains.y[i] += duration * grains.vy[i];
-    grains.angle[i] += duration * grains.omega[i];
-    if (!boundary.periodic) continue;
     while (grains.x[i] < 0.0) {
-      grains.x[i] += boundary.length;
+      grains.x[i] += length;
       --grains.image[i];
     }
-    while (grains.x[i] >= boundary.length) {
-      grains.x[i] -= boundary.length;
+    while (grains.x[i] >= length) {
+      grains.x[i] -= length;
       ++grains.image[i];
     }
   }
+}
+
+/// Moves the free grains along their present velocities; x stays in [0, length) of a periodic bed.
+void move(Grains& grains, const Boundary& boundary, double duration) {
+  advance(grains.x, grains.vx, duration, grains.free_count);
+  advance(grains.y, grains.vy, duration, grains.free_count);
+  advance(grains.angle, grains.omega, duration, grains.free_count);
+  if (boundary.periodic) wrap(grains, boundary.length);
 }
 
 void copy_positions(const Grains& from, Grains& to) {
@@ -54,17 +64,25 @@ void copy_positions(const Grains& from, Grains& to) {
   to.image = from.image;
 }
 
+/// Largest of count values, not less than 0, in four strands: one would wait for each comparison.
+template <typename Value>
+double largest(Index count, Value value) {
+  std::array<double, 4> strand{};
+  Index i = 0;
+  for (; i + 4 <= count; i += 4)
+    for (Index k = 0; k < 4; ++k) strand[k] = std::max(strand[k], value(i + k));
+  for (; i < count; ++i) strand[0] = std::max(strand[0], value(i));
+  return *std::max_element(strand.begin(), strand.end());
+}
+
 double largest_velocity(const Grains& grains) {
-  double square = 0.0;
-  for (Index i = 0; i < grains.free_count; ++i)
-    square = std::max(square, grains.vx[i] * grains.vx[i] + grains.vy[i] * grains.vy[i]);
-  return std::sqrt(square);
+  return std::sqrt(largest(grains.free_count, [&grains](Index i) {
+    return grains.vx[i] * grains.vx[i] + grains.vy[i] * grains.vy[i];
+  }));
 }
 
 double largest_overlap(const Contacts& contacts) {
-  double overlap = 0.0;
-  for (double gap : contacts.gap) overlap = std::max(overlap, -gap);
-  return overlap;
+  return largest(contacts.count(), [&contacts](Index c) { return -contacts.gap[c]; });
 }
 
 /// The first guess: forces of the last step times h.
@@ -86,18 +104,19 @@ void store_forces(const ContactSolution& solution, double h, Contacts& contacts)
 }
 
 void store_velocities(const ContactSolution& solution, Grains& grains) {
-  for (Index i = 0; i < grains.free_count; ++i) {
-    grains.vx[i] = solution.vx[i];
-    grains.vy[i] = solution.vy[i];
-    grains.omega[i] = solution.omega[i];
-  }
+  std::copy_n(solution.vx.begin(), grains.free_count, grains.vx.begin());
+  std::copy_n(solution.vy.begin(), grains.free_count, grains.vy.begin());
+  std::copy_n(solution.omega.begin(), grains.free_count, grains.omega.begin());
+}
+
+bool finite(const std::vector<double>& values) {
+  std::int64_t count = 0;  // as wide as a double, so that the comparisons vectorise
+  for (double value : values) count += std::fabs(value) <= std::numeric_limits<double>::max() ? 1 : 0;
+  return count == static_cast<std::int64_t>(values.size());
 }
 
 bool finite(const ContactSolution& solution) {
-  double sum = 0.0;  // one infinite or undefined term makes the sum so
-  for (const auto* field : {&solution.vx, &solution.vy, &solution.omega})
-    for (double value : *field) sum += value * 0.0;
-  return sum == 0.0;
+  return finite(solution.vx) && finite(solution.vy) && finite(solution.omega);
 }
 
 void form_problem(World& world, const StepSettings& settings, StepWorkspace& workspace, StageClock& clock) {

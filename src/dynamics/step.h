@@ -43,8 +43,8 @@ struct StepWorkspace {
   SolverWorkspace solver;
 };
 
-/// The first part of a step: moves the grains to the midpoint, and leaves in the workspace their contacts, the
-/// problem of the step, and the first guess of its solution from the force memory.
+/// The first part of a step: moves the grains to the midpoint, and leaves in the workspace their contacts,
+/// the problem of the step, and the first guess of its solution from the force memory.
 void form_problem(World& world, const StepSettings& settings, StepWorkspace& workspace);
 
 /// Advances the world by h: move to the midpoint, detect contacts, assemble, recall forces, solve, store

@@ -109,19 +109,5 @@ TEST(Detection, coincident_centres_are_pushed_apart_upwards) {
   EXPECT_EQ(contacts.gap[0], -2.0);
 }
 
-TEST(Detection, new_contacts_carry_nothing_even_in_used_arrays) {
-  World world;
-  add_disk(world.grains, {0.0, 0.0}, 1.0, density, false);
-  add_disk(world.grains, {2.0, 0.0}, 1.0, density, false);
-  Contacts contacts;
-  contacts.resize(5);
-  contacts.fn.assign(5, 7.0);
-  contacts.ft.assign(5, 7.0);
-  NeighbourList list;
-  detect_contacts(list, world.grains, world.boundary, 0.1, contacts);
-  EXPECT_EQ(contacts.fn, std::vector<double>{0.0});
-  EXPECT_EQ(contacts.ft, std::vector<double>{0.0});
-}
-
 }  // namespace
 }  // namespace talus

@@ -45,6 +45,17 @@ TEST(Memory, of_nothing_is_nothing) {
   EXPECT_EQ(none.count(), 0);
 }
 
+// In a bed of a few grains' length a pair meets through two images: each has its own force.
+TEST(Memory, images_of_one_pair_are_matched_in_their_order) {
+  const Contacts previous = contacts_of({{0, 1}, {0, 1}, {0, 2}});
+  Contacts both = contacts_of({{0, 1}, {0, 1}, {1, 2}});
+  recall_forces(previous, both);
+  EXPECT_EQ(both.fn, (std::vector<double>{1, 2, 0}));
+  Contacts one = contacts_of({{0, 1}, {0, 2}});
+  recall_forces(previous, one);
+  EXPECT_EQ(one.fn, (std::vector<double>{1, 3}));
+}
+
 TEST(Memory, of_random_sets_is_a_lookup_by_pair) {
   Random random(5);
   for (int round = 0; round < 20; ++round) {

@@ -1,0 +1,87 @@
+/// A program of its own: it counts what every operator new of the process is asked for.
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+#include "core/trigonometry.h"
+#include "support/scenes.h"
+
+namespace {
+
+std::atomic<long> allocations = 0;
+
+void* counted(std::size_t size) {
+  ++allocations;
+  if (void* memory = std::malloc(size > 0 ? size : 1)) return memory;
+  throw std::bad_alloc();
+}
+
+void* counted(std::size_t size, std::align_val_t alignment) {
+  ++allocations;
+  const auto unit = static_cast<std::size_t>(alignment);
+  if (void* memory = std::aligned_alloc(unit, (size + unit - 1) / unit * unit)) return memory;
+  throw std::bad_alloc();
+}
+
+}  // namespace
+
+void* operator new(std::size_t size) { return counted(size); }
+void* operator new[](std::size_t size) { return counted(size); }
+void* operator new(std::size_t size, std::align_val_t alignment) { return counted(size, alignment); }
+void* operator new[](std::size_t size, std::align_val_t alignment) { return counted(size, alignment); }
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete[](void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
+void operator delete[](void* memory, std::align_val_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
+void operator delete[](void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
+
+namespace talus {
+namespace {
+
+/// Takes steps of a slow tilt, every fifth with a new neighbour list, and returns their allocations.
+long allocations_of_steps(World& world, const StepSettings& settings, StepWorkspace& workspace, int steps) {
+  const long before = allocations;
+  for (int k = 0; k < steps; ++k) {
+    if (k % 5 == 0) workspace.neighbours.reach = -1.0;
+    world.tilt += radians(1e-3);
+    step(world, settings, workspace);
+  }
+  return allocations - before;
+}
+
+class Allocation : public testing::TestWithParam<SolverKind> {};
+
+INSTANTIATE_TEST_SUITE_P(Solvers, Allocation, testing::ValuesIn(test::both_solvers),
+                         [](const auto& parameter) { return test::name_of(parameter.param); });
+
+// Large enough that two threads have work: a solver may leave threads idle on small problems. The first steps
+// see more contacts than the others, so that all arrays have room for what comes.
+TEST_P(Allocation, a_steady_step_allocates_nothing) {
+  StepSettings settings = test::bed_step(1e-3);
+  const World settled = test::fallen_bed(test::bed_plan(true, 1600, 100, 5), settings, 400);
+  settings.solver.kind = GetParam();
+  settings.solver.max_iterations = 50;
+  StepSettings wider = settings;
+  wider.margin *= 3.0;
+  for (int threads : {1, 2}) {
+    SCOPED_TRACE(threads);
+    settings.solver.threads = wider.solver.threads = threads;
+    World world = settled;
+    StepWorkspace workspace;
+    EXPECT_GT(allocations_of_steps(world, wider, workspace, 6), 0) << "nothing is counted";
+    allocations_of_steps(world, settings, workspace, 6);  // with more cells than the wider steps
+    ASSERT_GT(world.contacts.count(), 2500);
+    const std::int64_t rebuilds = workspace.neighbours.rebuilds;
+    EXPECT_EQ(allocations_of_steps(world, settings, workspace, 50), 0);
+    EXPECT_GE(workspace.neighbours.rebuilds, rebuilds + 10);
+  }
+}
+
+}  // namespace
+}  // namespace talus
