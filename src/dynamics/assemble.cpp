@@ -58,13 +58,16 @@ double free_normal_velocity(const ContactProblem& problem, Index c) {
   return (problem.vx[b] - problem.vx[a]) * problem.nx[c] + (problem.vy[b] - problem.vy[a]) * problem.ny[c];
 }
 
-/// The gap+/h rule, and the share of an overlap that is taken back.
-void assemble_gaps(const Contacts& contacts, double overlap_correction, double h, ContactProblem& problem) {
+/// The gap+/h rule, and the share of an overlap that is taken back. To take back every overlap, however
+/// small, would ask closed loops of contacts for velocities that no motion of rigid bodies has: forces would
+/// flicker, and a solve take twice the passes.
+void assemble_gaps(const Contacts& contacts, const ContactLawParameters& law, double h,
+                   ContactProblem& problem) {
   const auto count = static_cast<std::size_t>(contacts.count());
   problem.cn.resize(count);
   for (std::size_t c = 0; c < count; ++c) {
     const double gap = contacts.gap[c];
-    const double share = overlap_correction * gap;
+    const double share = law.overlap_correction * std::min(0.0, gap + law.allowed_overlap);
     problem.cn[c] = (gap > 0.0 ? gap : share) / h;
   }
 }
@@ -101,7 +104,7 @@ void assemble(const World& world, const Contacts& contacts, const ContactLawPara
   copy(contacts.b, problem.b);
   copy(contacts.nx, problem.nx);
   copy(contacts.ny, problem.ny);
-  assemble_gaps(contacts, law.overlap_correction, h, problem);
+  assemble_gaps(contacts, law, h, problem);
   fill(problem.ct, contacts.gap.size(), 0.0);
   if (law.restitution != 0.0 || law.tangential_restitution != 0.0)
     assemble_restitution(world, contacts, law, h, problem);

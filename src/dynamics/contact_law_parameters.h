@@ -8,8 +8,10 @@ struct ContactLawParameters {
   double wall_friction = 0.5;           ///< mu with the side walls
   double restitution = 0.0;             ///< e_n: U_n+ = -e_n U_n- (Newton)
   double tangential_restitution = 0.0;  ///< e_t: U_t+ = -e_t U_t- of a contact that sticks
-  double overlap_correction = 0.05;  ///< share of an overlap taken back in each step; an overlap is an error
-                                     ///< of the solver's, of the order of its tolerance
+  double allowed_overlap = 0.0;         ///< m: overlaps up to this stay as they are
+  double overlap_correction = 0.05;     ///< share of what an overlap is above the allowed, taken back in each
+                                        ///< step; an overlap is an error of the solver's, of the order of its
+                                        ///< tolerance
 };
 
 }  // namespace talus

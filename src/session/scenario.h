@@ -64,8 +64,9 @@ struct Scenario {
     SolverMethod method = SolverMethod::accelerated;  ///< "accelerated" or "gauss-seidel"
     double tolerance = 3e-7;                          ///< natural-map residual eta asked of each step
     double moving_tolerance = 1e-4;                   ///< the same while the bed moves
-    int max_iterations = 200;                         ///< passes over all contacts
-    double overlap_correction = 0.05;                 ///< share of an overlap taken back in each step
+    int max_iterations = 1000;                        ///< passes over all contacts
+    double allowed_overlap = 1e-4;                    ///< D: overlaps up to this stay as they are
+    double overlap_correction = 0.05;                 ///< share of the rest taken back in each step
 
     bool operator==(const SolverSettings&) const = default;
   } solver;

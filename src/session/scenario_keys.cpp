@@ -174,7 +174,11 @@ void add_computing_keys(Keys& keys) {
       "passes over all contacts after which a step is left as it is",
       [](auto& s) -> auto& { return s.solver.max_iterations; }));
   keys.push_back(number(
-      "solver", "overlap_correction", "", from_to(0.0, 1.0), "share of an overlap taken back in each step",
+      "solver", "allowed_overlap", "D", from_to(0.0, 0.01), "overlaps up to this stay as they are",
+      [](auto& s) -> auto& { return s.solver.allowed_overlap; }));
+  keys.push_back(number(
+      "solver", "overlap_correction", "", from_to(0.0, 1.0),
+      "share of what an overlap is above the allowed, taken back in each step",
       [](auto& s) -> auto& { return s.solver.overlap_correction; }));
 
   keys.push_back(number(

@@ -42,6 +42,7 @@ ContactLawParameters contact_law(const Scenario& scenario) {
   law.wall_friction = scenario.contact.wall_friction;
   law.restitution = scenario.contact.restitution;
   law.tangential_restitution = scenario.contact.tangential_restitution;
+  law.allowed_overlap = scenario.solver.allowed_overlap * scenario.grains.mean_diameter;
   law.overlap_correction = scenario.solver.overlap_correction;
   return law;
 }

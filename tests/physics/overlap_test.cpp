@@ -13,11 +13,12 @@ namespace {
 // The residual bounds what a step lets through: |P'_n - P_n| <= eta ||P||, so U_n >= - W_nn eta ||P||, and a
 // gap shrinks by no more than h times that, as the distance of two disks is convex. With the share alpha of
 // an overlap taken back in each step, d <- (1 - alpha) d + h W_nn eta ||P|| never passes h W_nn eta ||P|| /
-// alpha.
+// alpha above the allowed overlap.
 double overlap_bound(const World& world, const StepSettings& settings, double eta, double impulse) {
   const Grains& g = world.grains;
   const double lightest = *std::max_element(g.inverse_mass.begin(), g.inverse_mass.end());
-  return settings.h * 2.0 * lightest * eta * impulse / settings.law.overlap_correction;
+  return settings.law.allowed_overlap +
+         settings.h * 2.0 * lightest * eta * impulse / settings.law.overlap_correction;
 }
 
 /// ||P|| of the last step, N s.
@@ -34,8 +35,9 @@ struct LongRun {
 };
 
 /// A heap of 14 grains between walls, at rest, then rocked to and fro by 3 degrees for 100 000 steps.
-LongRun rock_a_heap(double tolerance) {
+LongRun rock_a_heap(double tolerance, double allowed_overlap) {
   StepSettings settings = test::bed_step(tolerance);
+  settings.law.allowed_overlap = allowed_overlap;
   World world = test::settled_bed(test::bed_plan(false, 14, 6, 2), settings);
   StepWorkspace workspace;
   LongRun run;
@@ -57,17 +59,26 @@ void record(const char* name, double overlap) {
 }
 
 TEST(Overlap, stays_below_what_the_residual_allows_over_100_000_steps) {
-  const LongRun run = rock_a_heap(1e-6);
+  const LongRun run = rock_a_heap(1e-6, 0.0);
   record("largest_overlap_over_D", run.largest_overlap);
   record("bound_over_D", run.bound);
   EXPECT_LT(run.largest_overlap, run.bound);
   EXPECT_LT(run.largest_overlap, 1e-5 * BedPlan{}.mean_diameter);
 }
 
+TEST(Overlap, stays_near_what_is_allowed_over_100_000_steps) {
+  const double allowed = 1e-6 * BedPlan{}.mean_diameter;
+  const LongRun run = rock_a_heap(1e-6, allowed);
+  record("largest_overlap_over_D", run.largest_overlap);
+  record("bound_over_D", run.bound);
+  EXPECT_GT(run.largest_overlap, 0.0);
+  EXPECT_LT(run.largest_overlap, run.bound);
+}
+
 // Ten digits below the diameter, with room for the few steps whose residual ends above the tolerance asked
 // for.
 TEST(Overlap, stays_at_round_off_where_the_solver_goes_there) {
-  const LongRun run = rock_a_heap(1e-12);
+  const LongRun run = rock_a_heap(1e-12, 0.0);
   record("largest_overlap_over_D", run.largest_overlap);
   record("bound_over_D", run.bound);
   EXPECT_LT(run.largest_overlap, run.bound);

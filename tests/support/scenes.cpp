@@ -32,6 +32,7 @@ StepSettings bed_step(double tolerance, double friction) {
   settings.h = time_step;
   settings.margin = 0.02 * BedPlan{}.mean_diameter;
   settings.law.friction = settings.law.wall_friction = friction;
+  settings.law.allowed_overlap = 1e-4 * BedPlan{}.mean_diameter;
   settings.solver.tolerance = tolerance;
   return settings;
 }

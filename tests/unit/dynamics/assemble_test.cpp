@@ -66,6 +66,15 @@ TEST(Assemble, a_share_of_an_overlap_is_taken_back) {
   EXPECT_EQ(scene.normal_constant(), 0.0);
 }
 
+TEST(Assemble, an_allowed_overlap_stays_and_a_share_of_the_rest_is_taken_back) {
+  Scene scene(-2e-4);
+  scene.law.allowed_overlap = 3e-4;
+  EXPECT_EQ(scene.normal_constant(), 0.0);
+  scene.law.allowed_overlap = 1.2e-4;
+  scene.law.overlap_correction = 0.25;
+  EXPECT_NEAR(scene.normal_constant(), -0.02, 1e-13);
+}
+
 // Restitution asks for U_n >= -e U_n-, so c_n = e U_n-: at 1 m/s and e = 0.5 that is -0.5.
 TEST(Assemble, restitution_enters_where_the_contact_closes_within_the_step) {
   Scene closes(2e-4, -1.0);

@@ -73,11 +73,13 @@ Scenario all_fields_changed() {
   rate = 0.7;
   step = 0.0007;
   end_angle = std::nextafter(60.0, 0.0);
-  auto& [solver_method, tolerance, moving_tolerance, max_iterations, overlap_correction] = solver;
+  auto& [solver_method, tolerance, moving_tolerance, max_iterations, allowed_overlap, overlap_correction] =
+      solver;
   solver_method = SolverMethod::gauss_seidel;
   tolerance = 1e-12;
   moving_tolerance = 1e-2;
   max_iterations = 10'000'000;
+  allowed_overlap = 1e-3;
   overlap_correction = 1e-7;
   auto& [frame_every, observable_every, checkpoint_every] = output;
   frame_every = 0.1;
