@@ -11,5 +11,8 @@ void add_check_command(CLI::App& app);
 void add_info_command(CLI::App& app);
 void add_render_command(CLI::App& app);
 void add_animate_command(CLI::App& app);
+void add_dump_command(CLI::App& app);
+void add_solve_command(CLI::App& app);
+void add_study_command(CLI::App& app);
 
 }  // namespace talus

@@ -23,14 +23,18 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", talus::version_text());
   app.require_subcommand(1);
   app.footer(
-      "Exit codes: 0 done, 64 usage, 65 bad scenario or run, 66 missing input, 69 no context or tool,\n"
-      "70 internal, 71 out of memory, 73 cannot create output, 74 I/O error, 75 stopped and resumable.");
+      "Exit codes: 0 done, 64 usage, 65 bad scenario, run or problem, 66 missing input,\n"
+      "69 no context or tool, 70 internal, 71 out of memory, 73 cannot create output, 74 I/O error,\n"
+      "75 stopped and resumable.");
   try {
     talus::add_run_command(app);
     talus::add_check_command(app);
     talus::add_info_command(app);
     talus::add_render_command(app);
     talus::add_animate_command(app);
+    talus::add_dump_command(app);
+    talus::add_solve_command(app);
+    talus::add_study_command(app);
     app.parse(argc, argv);
     return static_cast<int>(ExitCode::done);
   } catch (const CLI::Success& success) {  // --help, --version

@@ -14,6 +14,8 @@ namespace {
 /// Where a slope is expected to fail when its scenario does not say where to end, deg.
 constexpr double expected_repose = 20.0;
 
+}  // namespace
+
 std::string duration_text(double seconds) {
   char text[32];
   const long whole = std::lround(seconds);
@@ -25,8 +27,6 @@ std::string duration_text(double seconds) {
     std::snprintf(text, sizeof text, "%ld s", whole);
   return text;
 }
-
-}  // namespace
 
 ProgressLine::ProgressLine(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0) {}
 

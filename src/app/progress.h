@@ -1,9 +1,14 @@
 #pragma once
 /// Progress of a run: one line that is rewritten on a terminal, plain lines now and then in a log.
 
+#include <string>
+
 #include "session/run.h"
 
 namespace talus {
+
+/// "8 s", "2 min 05 s", "3 h 10 min".
+std::string duration_text(double seconds);
 
 class ProgressLine {
  public:

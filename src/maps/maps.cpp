@@ -95,15 +95,6 @@ double gamma_shade(double gamma, double gamma_c) {
   return std::clamp((gamma - white_below) / (2.0 * gamma_c - white_below), 0.0, 1.0);
 }
 
-OverloadCount count_overloaded(const Frame& frame, const RunStatics& statics, double gamma_c) {
-  OverloadCount count;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(statics.free_count); ++i) {
-    if (!std::isnan(frame.gamma[i])) ++count.loaded;
-    if (is_overloaded(frame.gamma[i], gamma_c)) ++count.overloaded;
-  }
-  return count;
-}
-
 void extend(MapExtent& extent, const Frame& frame, const RunStatics& statics) {
   for (std::size_t i = 0; i < frame.y.size(); ++i) {
     extent.y_min = std::min(extent.y_min, frame.y[i] - statics.radius[i]);

@@ -24,16 +24,6 @@ inline constexpr double white_below = 0.05;
 /// between. `gamma_c` > white_below / 2.
 double gamma_shade(double gamma, double gamma_c);
 
-/// Overloaded among the free grains of a frame.
-struct OverloadCount {
-  Index overloaded = 0;
-  Index loaded = 0;  ///< grains that carry something
-
-  /// p_o; NaN where no grain carries anything.
-  double fraction() const { return static_cast<double>(overloaded) / static_cast<double>(loaded); }
-};
-OverloadCount count_overloaded(const Frame& frame, const RunStatics& statics, double gamma_c);
-
 /// What the maps of one run show of the bed, so that all of them have the same size.
 struct MapExtent {
   double y_min = 0.0;  ///< m

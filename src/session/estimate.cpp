@@ -8,11 +8,11 @@ namespace {
 
 // Measured on one core (x86-64, AVX2) with beds of L = 50 D, H = 20 D and L = 200 D, H = 40 D, tilted to
 // failure; see docs/scenario.md.
-constexpr double seconds_per_contact_and_pass = 4e-9;
+constexpr double seconds_per_contact_and_pass = 3.4e-9;
 constexpr double seconds_per_contact_and_sweep = 15e-9;  // Gauss-Seidel
 constexpr double contacts_per_grain = 1.9;               // near contacts included
-constexpr double passes_of_deposition = 160.0;
-constexpr double passes_of_tilt = 90.0;
+constexpr double passes_of_deposition = 150.0;
+constexpr double passes_of_tilt = 105.0;
 constexpr double falls_until_rest = 5.0;     // times sqrt(H / g)
 constexpr double gauss_seidel_passes = 5.0;  // times those of the accelerated solver
 
@@ -28,11 +28,10 @@ constexpr double bytes_per_step = 12.0;
 
 constexpr double gravity = 9.81;  // m/s^2
 
-/// How many more passes a deeper bed, a smaller residual or the slower solver takes.
+/// How many more passes than at the default tolerance a smaller residual or the slower solver takes.
 double difficulty(const Scenario& scenario) {
-  const double depth = std::sqrt(scenario.bed.depth / 20.0);
-  const double digits = -std::log10(scenario.solver.tolerance) / 6.0;
-  return depth * digits * (scenario.solver.method == SolverMethod::accelerated ? 1.0 : gauss_seidel_passes);
+  const double digits = std::log10(scenario.solver.tolerance) / std::log10(Scenario{}.solver.tolerance);
+  return digits * (scenario.solver.method == SolverMethod::accelerated ? 1.0 : gauss_seidel_passes);
 }
 
 double estimated_seconds(const Scenario& scenario, const Estimate& sizes) {

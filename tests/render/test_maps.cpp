@@ -7,6 +7,7 @@
 #include "core/trigonometry.h"
 #include "maps/maps.h"
 #include "render/synthetic_view.h"
+#include "stress/overload.h"
 
 namespace talus {
 namespace {

@@ -1,0 +1,95 @@
+/// `talus dump`: the contact problem of a step as a file for solvers.
+
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <memory>
+
+#include "app/commands.h"
+#include "app/map_options.h"
+#include "core/errors.h"
+#include "core/trigonometry.h"
+#include "maps/frame_choice.h"
+#include "session/problem_file.h"
+
+namespace talus {
+namespace {
+
+struct DumpArguments {
+  std::string run;
+  std::string output;
+  std::size_t frame = 0;
+  std::string at;  ///< deg, or "repose"; empty: `frame` counts
+  bool overwrite = false;
+};
+
+double theta_c_of(const RunFile& run) {
+  for (const auto& [name, value] : run.checkpoint().results)
+    if (name == "theta_c") return value;
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+std::size_t choose_frame(const DumpArguments& arguments, const RunFile& run) {
+  const std::size_t count = run.frame_count();
+  if (count == 0)
+    throw Error(ExitCode::bad_data,
+                arguments.run + " has no frames yet: the first is that of the bed at rest");
+  if (!arguments.at.empty()) {
+    const double theta_c = theta_c_of(run);
+    if (arguments.at == "repose" && !std::isfinite(theta_c))
+      throw Error(ExitCode::bad_data,
+                  arguments.run +
+                      ": the slope has not failed, so --at repose has no meaning; give an "
+                      "angle, or --frame K");
+    return frames_at(run.frame_tilts(), {arguments.at}, theta_c).front();
+  }
+  if (arguments.frame >= count)
+    throw Error(ExitCode::bad_data, arguments.run + " has " + std::to_string(count) + " frames, 0 to " +
+                                        std::to_string(count - 1) + "; there is no frame " +
+                                        std::to_string(arguments.frame));
+  return arguments.frame;
+}
+
+std::string step_text(const StepProblem& step, std::int64_t number) {
+  char text[96];
+  std::snprintf(text, sizeof text, "step %lld at %.3f deg", static_cast<long long>(number),
+                degrees(step.scales.tilt));
+  return text;
+}
+
+void dump(const DumpArguments& arguments) {
+  refuse_existing(arguments.output, arguments.overwrite);
+  const RunFile run = RunFile::open(arguments.run);
+  const std::size_t k = choose_frame(arguments, run);
+  const std::int64_t number = run.frame(k).step + 1;
+  const StepProblem step = problem_after_frame(run, k);
+  const std::string from = step_text(step, number);
+  write_problem(arguments.output, step,
+                "Talus, " + from + " of a run with seed " + std::to_string(run.header().seed));
+  std::printf("%s: %s, after frame %zu: %d contacts of %d bodies%s\n", arguments.output.c_str(), from.c_str(),
+              k, step.problem.contact_count(), step.problem.body_count(),
+              number == run.checkpoint().world.step + 1 ? ", to the last bit" : ", from single precision");
+}
+
+}  // namespace
+
+void add_dump_command(CLI::App& app) {
+  auto arguments = std::make_shared<DumpArguments>();
+  CLI::App* command =
+      app.add_subcommand("dump", "Write the contact problem of a step for solvers (FCLIB local problem)");
+  command->add_option("RUN", arguments->run, "Run file, or the name of a run that is not complete")
+      ->required();
+  CLI::Option_group* frame = command->add_option_group("frame", "The step that follows this frame");
+  frame->add_option("--frame", arguments->frame, "Frame K, counted from 0");
+  frame->add_option("--at", arguments->at,
+                    "Nearest frame to an angle in degrees; repose: the last before failure");
+  frame->require_option(1);
+  command
+      ->add_option("-o,--output", arguments->output,
+                   "Problem file to write (HDF5; see docs/problem_files.md)")
+      ->required();
+  command->add_flag("--overwrite", arguments->overwrite, "Replace a file that exists");
+  command->callback([arguments] { dump(*arguments); });
+}
+
+}  // namespace talus

@@ -1,0 +1,187 @@
+/// `talus solve`: solves a contact problem from a file, of a run or of another program.
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <memory>
+
+#include "app/commands.h"
+#include "app/json.h"
+#include "app/map_options.h"
+#include "session/problem_file.h"
+#include "solver/local_solvers.h"
+#include "solver/siconos_error.h"
+
+namespace talus {
+namespace {
+
+struct SolveArguments {
+  std::string problem;
+  std::string output;
+  SolverSettings settings;
+  bool cold = false;
+  bool overwrite = false;
+  bool json = false;
+};
+
+struct SolveResult {
+  Index contacts = 0;
+  Index bodies = 0;  ///< 0 where they are not known
+  SolverReport report;
+  double siconos_error = 0.0;
+  double carried_weight = std::numeric_limits<double>::quiet_NaN();
+  double seconds = 0.0;
+  LocalSolution solution;
+
+  double nanoseconds_per_contact() const {
+    return 1e9 * seconds / (static_cast<double>(contacts) * report.iterations);
+  }
+};
+
+const char* name_of(SolverKind kind) {
+  return kind == SolverKind::gauss_seidel ? "gauss-seidel" : "accelerated";
+}
+
+/// Wall seconds that `work` takes.
+template <typename Work>
+double seconds_of(const Work& work) {
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+void solve_bodies(const StepProblem& step, const SolveArguments& arguments, SolveResult& result) {
+  ContactSolution solution = step.guess;
+  if (arguments.cold) {
+    solution.pn.assign(solution.pn.size(), 0.0);
+    solution.pt.assign(solution.pt.size(), 0.0);
+  }
+  SolverWorkspace workspace;
+  result.seconds =
+      seconds_of([&] { result.report = solve(step.problem, arguments.settings, workspace, solution); });
+  result.bodies = step.problem.body_count();
+  result.siconos_error = siconos_error(step.problem, solution);
+  result.carried_weight = carried_weight(step, solution);
+  result.solution = local_solution(step.problem, solution);
+}
+
+void solve_local(const StoredProblem& stored, const SolveArguments& arguments, SolveResult& result) {
+  result.solution.p = arguments.cold ? std::vector<Impulse>(stored.guess.size()) : stored.guess;
+  result.seconds =
+      seconds_of([&] { result.report = solve(stored.local, arguments.settings, result.solution); });
+  result.siconos_error = siconos_error(stored.local, result.solution.p);
+}
+
+SolveResult solve(const StoredProblem& stored, const SolveArguments& arguments) {
+  SolveResult result;
+  result.contacts = stored.local.contact_count();
+  if (stored.step)
+    solve_bodies(*stored.step, arguments, result);
+  else
+    solve_local(stored, arguments, result);
+  return result;
+}
+
+void print_json(const SolveArguments& arguments, const SolveResult& result) {
+  using json::number, json::quoted;
+  const std::string text = json::object({
+      {"problem", quoted(arguments.problem)},
+      {"solver", quoted(name_of(arguments.settings.kind))},
+      {"form", quoted(result.bodies > 0 ? "bodies" : "local")},
+      {"start", quoted(arguments.cold ? "zero" : "guess")},
+      {"contacts", number(result.contacts)},
+      {"tolerance", number(arguments.settings.tolerance)},
+      {"converged", json::truth(result.report.converged)},
+      {"iterations", number(result.report.iterations)},
+      {"eta", number(result.report.residual.eta)},
+      {"siconos_error", number(result.siconos_error)},
+      {"largest_residual", number(result.report.residual.largest)},
+      {"carried_weight", number(result.carried_weight)},
+      {"seconds", number(result.seconds)},
+      {"ns_per_contact_iteration", number(result.nanoseconds_per_contact())},
+  });
+  std::printf("%s\n", text.c_str());
+}
+
+void print_number(const char* name, const char* format, double value) {
+  std::printf("%-25s", name);
+  if (std::isfinite(value))
+    std::printf(format, value);
+  else
+    std::printf("none");
+  std::printf("\n");
+}
+
+void print_text(const SolveArguments& arguments, const SolveResult& result) {
+  const SolverReport& report = result.report;
+  std::printf("%-25s%s, on %s, from %s\n", "solver", name_of(arguments.settings.kind),
+              result.bodies > 0 ? "bodies" : "W, q and mu alone", arguments.cold ? "zero" : "the guess");
+  std::printf("%-25s%d\n", "contacts", result.contacts);
+  std::printf("%-25s%d\n", "iterations", report.iterations);
+  std::printf("%-25s%.3e (%s, asked for %.1e)\n", "residual eta", report.residual.eta,
+              report.converged ? "converged" : "NOT CONVERGED", arguments.settings.tolerance);
+  print_number("largest of one contact", "%.3e", report.residual.largest);
+  print_number("Siconos's error", "%.3e", result.siconos_error);
+  print_number("weight carried", "%.6f", result.carried_weight);
+  print_number("seconds", "%.6f", result.seconds);
+  print_number("ns / contact / iteration", "%.2f", result.nanoseconds_per_contact());
+}
+
+void run(const SolveArguments& arguments) {
+  if (!arguments.output.empty()) refuse_existing(arguments.output, arguments.overwrite);
+  const StoredProblem stored = read_problem(arguments.problem);
+  const SolveResult result = solve(stored, arguments);
+  if (arguments.json)
+    print_json(arguments, result);
+  else
+    print_text(arguments, result);
+  if (!arguments.output.empty()) write_solution(arguments.problem, arguments.output, result.solution);
+}
+
+void add_settings(CLI::App& command, SolverSettings& settings) {
+  settings.max_iterations = 100000;
+  const std::map<std::string, SolverKind> kinds = {{"accelerated", SolverKind::accelerated},
+                                                   {"gauss-seidel", SolverKind::gauss_seidel}};
+  command
+      .add_option_function<std::string>(
+          "--solver", [&settings, kinds](const std::string& name) { settings.kind = kinds.at(name); },
+          "accelerated, or the reference gauss-seidel")
+      ->default_str("accelerated")
+      ->check(CLI::IsMember({"accelerated", "gauss-seidel"}));
+  command.add_option("--tol", settings.tolerance, "Natural-map residual eta to reach")
+      ->capture_default_str()
+      ->check(CLI::Range(1e-15, 1.0));
+  command.add_option("--max-iterations", settings.max_iterations, "Passes over all contacts, at most")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 1000000000));
+  command
+      .add_option(
+          "--threads", settings.threads,
+          "Threads of the accelerated solver, where bodies are known; the result does not depend on it")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 256));
+}
+
+}  // namespace
+
+void add_solve_command(CLI::App& app) {
+  auto arguments = std::make_shared<SolveArguments>();
+  CLI::App* command =
+      app.add_subcommand("solve", "Solve a contact problem from a file and report on the solution");
+  command
+      ->add_option("PROBLEM", arguments->problem,
+                   "Problem file: of talus dump, or an FCLIB local problem in 2D")
+      ->required();
+  add_settings(*command, arguments->settings);
+  command->add_flag("--cold", arguments->cold, "Start from zero instead of the guess in the file");
+  command->add_option("-o,--output", arguments->output, "Copy of the problem to write, with its /solution");
+  command->add_flag("--overwrite", arguments->overwrite, "Replace a file that exists");
+  command->add_flag("--json", arguments->json, "As JSON; seconds are those of the solver alone");
+  command->footer(
+      "A solver that does not converge is a result: it is reported with its residual, and the exit code is "
+      "0.");
+  command->callback([arguments] { run(*arguments); });
+}
+
+}  // namespace talus

@@ -1,0 +1,224 @@
+#include <cmath>
+#include <limits>
+
+#include "core/errors.h"
+#include "core/hash.h"
+#include "io/durable_file.h"
+#include "io/fclib_file.h"
+#include "io/fclib_schema.h"
+#include "io/hdf5_handle.h"
+
+namespace talus {
+namespace {
+
+using hdf5::Handle;
+
+/// A problem file of any program, held in memory.
+class FclibFile {
+ public:
+  explicit FclibFile(const std::string& path) : path_(path) {
+    hdf5::set_library_policy();
+    std::vector<std::byte> bytes = read_file(path);
+    const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+    if (bytes.empty()) throw Error(ExitCode::bad_data, path + ": is empty");
+    if (H5Pset_fapl_core(access.get(), 1 << 20, false) < 0 ||
+        H5Pset_file_image(access.get(), bytes.data(), bytes.size()) < 0)
+      throw Error(ExitCode::out_of_memory, path + ": no memory to open it");
+    const std::string name = hdf5::memory_name(path + " " + hash_text(hash_bytes(bytes)));
+    file_ = Handle(H5Fopen(name.c_str(), H5F_ACC_RDONLY, access.get()), H5Fclose);
+    if (file_.get() < 0) throw Error(ExitCode::bad_data, path + ": is not an HDF5 file");
+  }
+
+  /// Whether a group or data set is there.
+  bool has(const std::string& path) const {
+    for (std::size_t slash = path.find('/', 1);; slash = path.find('/', slash + 1)) {
+      if (H5Lexists(file_.get(), path.substr(0, slash).c_str(), H5P_DEFAULT) <= 0) return false;
+      if (slash == std::string::npos) return true;
+    }
+  }
+
+  /// All values of a data set of numbers, whatever its shape.
+  template <typename T>
+  std::vector<T> read(const std::string& path) const {
+    const Handle set = open(path, std::is_same_v<T, double>);
+    std::vector<T> values(value_count(set, path));
+    if (!values.empty() &&
+        H5Dread(set.get(), hdf5::memory_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
+      refuse(path, "cannot be read");
+    if constexpr (std::is_same_v<T, double>) check_finite(path, values);
+    return values;
+  }
+
+  /// The same, of a size that is known; `why` says whose size it is.
+  template <typename T>
+  std::vector<T> read(const std::string& path, std::size_t size, const std::string& why) const {
+    std::vector<T> values = read<T>(path);
+    if (values.size() != size)
+      refuse(path, "has " + std::to_string(values.size()) + " values, expected " + std::to_string(size) +
+                       ", " + why);
+    return values;
+  }
+
+  Index read_integer(const std::string& path) const { return read<Index>(path, 1, "a single one")[0]; }
+
+  [[noreturn]] void refuse(const std::string& path, const std::string& problem) const {
+    throw Error(ExitCode::bad_data, path_ + ": data set " + path + " " + problem);
+  }
+
+ private:
+  Handle open(const std::string& path, bool of_reals) const {
+    if (!has(path)) refuse(path, "is missing");
+    Handle set(H5Dopen2(file_.get(), path.c_str(), H5P_DEFAULT), H5Dclose);
+    if (set.get() < 0) refuse(path, "cannot be opened: it is no data set");
+    const Handle type(H5Dget_type(set.get()), H5Tclose);
+    const H5T_class_t kind = H5Tget_class(type.get());
+    if (kind != H5T_INTEGER && !(of_reals && kind == H5T_FLOAT))
+      refuse(path, of_reals ? "does not hold numbers" : "does not hold integers");
+    return set;
+  }
+
+  std::size_t value_count(const Handle& set, const std::string& path) const {
+    constexpr hssize_t most = hssize_t{1} << 29;  // 4 GiB of doubles
+    const Handle space(H5Dget_space(set.get()), H5Sclose);
+    const hssize_t count = H5Sget_simple_extent_npoints(space.get());
+    if (count < 0 || count > most) refuse(path, "has a size that cannot be true");
+    return static_cast<std::size_t>(count);
+  }
+
+  void check_finite(const std::string& path, const std::vector<double>& values) const {
+    for (std::size_t k = 0; k < values.size(); ++k)
+      if (!std::isfinite(values[k]))
+        refuse(path, "holds a value that is not finite, at index " + std::to_string(k));
+  }
+
+  std::string path_;
+  Handle file_;
+};
+
+void check_kind(const FclibFile& file, const std::string& path) {
+  if (!file.has("/fclib_local"))
+    throw Error(ExitCode::bad_data,
+                path +
+                    ": has no group /fclib_local, so it is no local problem of FCLIB; talus dump "
+                    "writes one from a run");
+  const Index dimension = file.read_integer("/fclib_local/spacedim");
+  if (dimension != 2)
+    file.refuse("/fclib_local/spacedim",
+                "is " + std::to_string(dimension) + ", expected 2: Talus solves problems in the plane");
+  if (file.has("/fclib_local/V") || file.has("/fclib_local/R"))
+    throw Error(ExitCode::bad_data,
+                path +
+                    ": has equality constraints (groups /fclib_local/V and R), which Talus "
+                    "does not solve");
+}
+
+void check_index(const FclibFile& file, const std::string& path, const std::vector<Index>& values,
+                 std::size_t end) {
+  for (std::size_t k = 0; k < values.size(); ++k)
+    if (values[k] < 0 || static_cast<std::size_t>(values[k]) >= end)
+      file.refuse(path, "holds " + std::to_string(values[k]) + " at index " + std::to_string(k) +
+                            ", expected 0 to " + std::to_string(end - 1));
+}
+
+/// Lines of compressed rows or columns: the line of each entry.
+std::vector<Index> line_of_entries(const FclibFile& file, std::size_t lines, std::size_t entries) {
+  const std::string path = "/fclib_local/W/p";
+  const auto begin = file.read<Index>(path, lines + 1, "the rows of W and one");
+  if (begin[0] != 0 || static_cast<std::size_t>(begin[lines]) != entries)
+    file.refuse(path, "goes from " + std::to_string(begin[0]) + " to " + std::to_string(begin[lines]) +
+                          ", expected 0 to " + std::to_string(entries) + ", the entries of W");
+  std::vector<Index> line;
+  line.reserve(entries);
+  for (std::size_t k = 0; k < lines; ++k) {
+    if (begin[k + 1] < begin[k] || static_cast<std::size_t>(begin[k + 1]) > entries)
+      file.refuse(path, "does not ascend at index " + std::to_string(k + 1));
+    line.insert(line.end(), static_cast<std::size_t>(begin[k + 1] - begin[k]), static_cast<Index>(k));
+  }
+  return line;
+}
+
+void read_matrix(const FclibFile& file, FclibProblem& problem) {
+  const std::string group = "/fclib_local/W/";
+  const std::size_t rows = problem.q.size();
+  for (const char* side : {"m", "n"})
+    if (const Index found = file.read_integer(group + side); static_cast<std::size_t>(found) != rows)
+      file.refuse(group + side, "is " + std::to_string(found) + ", expected " + std::to_string(rows) +
+                                    ", two for each contact of /fclib_local/vectors/mu");
+  const Index form = file.read_integer(group + "nz");
+  if (form < -2) file.refuse(group + "nz", "is " + std::to_string(form) + ", expected -2, -1, or 0 and more");
+  problem.value = file.read<double>(group + "x");
+  const std::size_t entries = problem.value.size();
+  auto inner = file.read<Index>(group + "i", entries, "one for each value of /fclib_local/W/x");
+  check_index(file, group + "i", inner, rows);
+  std::vector<Index> outer;
+  if (form >= 0) {
+    outer = file.read<Index>(group + "p", entries, "one for each value of /fclib_local/W/x");
+    check_index(file, group + "p", outer, rows);
+  } else {
+    outer = line_of_entries(file, rows, entries);
+  }
+  if (form == -2) std::swap(inner, outer);
+  problem.row = std::move(inner);
+  problem.column = std::move(outer);
+}
+
+/// W must not answer a push with a pull.
+void check_diagonal(const FclibFile& file, const FclibProblem& problem) {
+  for (std::size_t k = 0; k < problem.value.size(); ++k)
+    if (problem.row[k] == problem.column[k] && problem.value[k] < 0.0)
+      file.refuse("/fclib_local/W/x", "has the negative value " + std::to_string(problem.value[k]) +
+                                          " on the diagonal of W, in row " + std::to_string(problem.row[k]));
+}
+
+void read_vectors(const FclibFile& file, FclibProblem& problem) {
+  const std::string mu = "/fclib_local/vectors/mu";
+  problem.mu = file.read<double>(mu);
+  if (problem.mu.size() > std::numeric_limits<Index>::max() / 2) file.refuse(mu, "has too many contacts");
+  for (std::size_t c = 0; c < problem.mu.size(); ++c)
+    if (problem.mu[c] < 0.0)
+      file.refuse(
+          mu, "holds the negative value " + std::to_string(problem.mu[c]) + " at index " + std::to_string(c));
+  problem.q = file.read<double>("/fclib_local/vectors/q", 2 * problem.mu.size(),
+                                "two for each contact of /fclib_local/vectors/mu");
+  if (file.has("/guesses/1/r"))
+    problem.guess_r = file.read<double>("/guesses/1/r", problem.q.size(),
+                                        "two for each contact of /fclib_local/vectors/mu");
+}
+
+std::size_t expected_size(const DataSetField& field, const FclibProblem& problem, std::size_t bodies) {
+  if (field.shape == "1") return 1;
+  return field.shape == "B" ? bodies : problem.mu.size();
+}
+
+void read_additions(const FclibFile& file, FclibProblem& problem) {
+  if (!file.has("/talus")) return;
+  const std::size_t bodies = file.read<double>("/talus/bodies/vx").size();
+  for (const DataSetField& field : fclib_schema()) {
+    if (!field.path.starts_with("/talus/")) continue;
+    const std::size_t size = expected_size(field, problem, bodies);
+    const std::string why = field.shape == "1"   ? "a single one"
+                            : field.shape == "B" ? "one for each body of /talus/bodies/vx"
+                                                 : "one for each contact of /fclib_local/vectors/mu";
+    if (field.type == ElementType::int32) {
+      problem.integers[field.path] = file.read<Index>(field.path, size, why);
+      check_index(file, field.path, problem.integers[field.path], bodies);
+    } else {
+      problem.reals[field.path] = file.read<double>(field.path, size, why);
+    }
+  }
+}
+
+}  // namespace
+
+FclibProblem read_fclib(const std::string& path) {
+  const FclibFile file(path);
+  check_kind(file, path);
+  FclibProblem problem;
+  read_vectors(file, problem);
+  read_matrix(file, problem);
+  check_diagonal(file, problem);
+  read_additions(file, problem);
+  return problem;
+}
+
+}  // namespace talus

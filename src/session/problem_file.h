@@ -1,0 +1,28 @@
+#pragma once
+/// Contact problems to and from problem files (docs/problem_files.md).
+
+#include <optional>
+#include <string>
+
+#include "session/step_problem.h"
+#include "solver/local_problem.h"
+
+namespace talus {
+
+/// What a problem file holds: W, q and mu, and where Talus wrote it, the step they belong to.
+struct StoredProblem {
+  LocalProblem local;
+  std::vector<Impulse> guess;       ///< zero where the file has none
+  std::optional<StepProblem> step;  ///< as it was written, bit for bit; velocities of its guess included
+};
+
+/// `title` says where the problem comes from.
+void write_problem(const std::string& path, const StepProblem& step, const std::string& title);
+
+/// Throws as read_fclib does.
+StoredProblem read_problem(const std::string& path);
+
+/// A copy of the problem file `from` with the solution in it.
+void write_solution(const std::string& from, const std::string& to, const LocalSolution& solution);
+
+}  // namespace talus

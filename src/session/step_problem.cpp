@@ -1,0 +1,112 @@
+#include "session/step_problem.h"
+
+#include <cmath>
+
+#include "core/errors.h"
+#include "core/trigonometry.h"
+#include "dynamics/assemble.h"
+#include "session/session.h"
+
+namespace talus {
+namespace {
+
+Contacts memory_of(const FrameContacts& from) {
+  Contacts contacts;
+  contacts.a = from.a;
+  contacts.b = from.b;
+  contacts.shift = from.shift;
+  contacts.nx = from.nx;
+  contacts.ny = from.ny;
+  contacts.gap.assign(from.a.size(), 0.0);
+  contacts.fn = from.fn;
+  contacts.ft = from.ft;
+  return contacts;
+}
+
+StepSettings step_settings(const Scenario& scenario) {
+  StepSettings settings;
+  settings.h = time_step(scenario);
+  settings.margin = 0.02 * scenario.grains.mean_diameter;
+  settings.law = contact_law(scenario);
+  return settings;
+}
+
+/// Gap below which two bodies of a frame may touch: what rounding to single precision does to the distance of
+/// two points in the box.
+double gap_resolution(const World& world) {
+  double farthest = world.boundary.length;
+  for (const double y : world.grains.y) farthest = std::max(farthest, std::fabs(y));
+  return farthest * 0x1p-23;
+}
+
+void close_remembered_contacts(double resolution, Contacts& contacts) {
+  for (Index c = 0; c < contacts.count(); ++c)
+    if (contacts.fn[c] > 0.0 && std::fabs(contacts.gap[c]) <= resolution) contacts.gap[c] = 0.0;
+}
+
+double weight(const World& world) {
+  double mass = 0.0;
+  for (Index i = 0; i < world.grains.free_count; ++i) mass += world.grains.mass[i];
+  return mass * world.gravity;
+}
+
+}  // namespace
+
+World world_at_frame(const RunFile& run, std::size_t k) {
+  World world = run.checkpoint().world;
+  Frame frame = run.frame(k);
+  if (frame.step == world.step) return world;
+  world.grains.x = std::move(frame.x);
+  world.grains.y = std::move(frame.y);
+  world.grains.vx = std::move(frame.vx);
+  world.grains.vy = std::move(frame.vy);
+  world.grains.omega = std::move(frame.omega);
+  world.grains.angle = std::move(frame.angle);
+  world.grains.image = std::move(frame.image);
+  world.contacts = memory_of(frame.contacts);
+  world.tilt = frame.tilt;
+  world.time = frame.time;
+  world.step = frame.step;
+  return world;
+}
+
+StepProblem problem_after_frame(const RunFile& run, std::size_t k) {
+  const Scenario scenario = parse_scenario(run.header().scenario_resolved, "/parameters/scenario_resolved");
+  World world = world_at_frame(run, k);
+  const bool rounded = world.step != run.checkpoint().world.step;
+  // The angle of a step is a whole number of steps of the tilt, as in a run.
+  const double step_angle = radians(scenario.tilt.step);
+  world.tilt = static_cast<double>(std::llround(world.tilt / step_angle) + 1) * step_angle;
+
+  const StepSettings settings = step_settings(scenario);
+  StepWorkspace workspace;
+  form_problem(world, settings, workspace);
+  if (rounded) {
+    close_remembered_contacts(gap_resolution(world), workspace.contacts);
+    assemble(world, workspace.contacts, settings.law, settings.h, workspace.problem);
+  }
+  StepProblem step;
+  step.problem = std::move(workspace.problem);
+  step.guess = std::move(workspace.solution);
+  velocities_from_impulses(step.problem, step.guess);
+  step.scales = {settings.h, world.gravity, world.tilt, scenario.grains.mean_diameter, weight(world)};
+  return step;
+}
+
+double carried_weight(const StepProblem& step, const ContactSolution& solution) {
+  const ContactProblem& problem = step.problem;
+  const double up_x = -sine(step.scales.tilt);
+  const double up_y = cosine(step.scales.tilt);
+  double impulse = 0.0;
+  for (Index c = 0; c < problem.contact_count(); ++c) {
+    const bool a_moves = problem.inverse_mass[problem.a[c]] > 0.0;
+    const bool b_moves = problem.inverse_mass[problem.b[c]] > 0.0;
+    if (a_moves == b_moves) continue;
+    const double px = solution.pn[c] * problem.nx[c] - solution.pt[c] * problem.ny[c];
+    const double py = solution.pn[c] * problem.ny[c] + solution.pt[c] * problem.nx[c];
+    impulse += (b_moves ? 1.0 : -1.0) * (px * up_x + py * up_y);
+  }
+  return impulse / (step.scales.weight * step.scales.h);
+}
+
+}  // namespace talus

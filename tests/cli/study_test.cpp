@@ -1,0 +1,208 @@
+/// Studies of a tiny bed: their runs, their tables, stops and resumption.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <csignal>
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+#include "process.h"
+
+namespace talus::test {
+namespace {
+
+/// A bed of 32 grains that is deposited and tilted to its end in a fraction of a second.
+const char* const tiny_bed =
+    "[bed]\nlength = 10\ndepth = 4\n[tilt]\nend_angle = 1.5\n[output]\nframe_every = 0.5\n";
+
+std::vector<std::string> study_of(const std::string& folder) {
+  return {"study",   "bed.toml",
+          "--vary",  "tilt.rate:tilt.step=2:0.002",
+          "--vary",  "solver.tolerance=1e-5",
+          "--seeds", "1-2",
+          "-o",      folder};
+}
+const char* const runs[] = {"baseline/seed-1", "baseline/seed-2", "tilt.rate=2,tilt.step=0.002/seed-1",
+                            "solver.tolerance=1e-05/seed-2"};
+
+std::string text_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+std::string hash_of(const std::string& run, const TemporaryFolder& folder) {
+  return json_value(run_talus({"info", run, "--json"}, folder.path()).out, "state_hash");
+}
+
+TEST(Study, runs_have_the_bits_of_talus_run) {
+  const TemporaryFolder folder;
+  write_file(folder, "bed.toml", tiny_bed);
+  const Outcome study = run_talus(study_of("study"), folder.path());
+  ASSERT_EQ(study.exit_code, 0) << study.err;
+  ASSERT_EQ(run_talus({"run", "bed.toml", "--seed", "2", "-o", "base.h5"}, folder.path()).exit_code, 0);
+  ASSERT_EQ(
+      run_talus({"run", "bed.toml", "--set", "tilt.rate=2", "--set", "tilt.step=0.002", "-o", "fast.h5"},
+                folder.path())
+          .exit_code,
+      0);
+  EXPECT_EQ(hash_of("base.h5", folder), hash_of("study/baseline/seed-2.h5", folder));
+  EXPECT_EQ(hash_of("fast.h5", folder), hash_of("study/tilt.rate=2,tilt.step=0.002/seed-1.h5", folder));
+  EXPECT_NE(hash_of("base.h5", folder), hash_of("study/baseline/seed-1.h5", folder));
+}
+
+TEST(Study, leaves_tables_and_prints_them) {
+  const TemporaryFolder folder;
+  write_file(folder, "bed.toml", tiny_bed);
+  const Outcome study = run_talus(study_of("study"), folder.path());
+  ASSERT_EQ(study.exit_code, 0) << study.err;
+  const std::string tables = text_of(folder.path("study/study.md"));
+  EXPECT_EQ(study.out, tables + "\n");
+  for (const char* part : {"6 of 6 runs complete", "| baseline ", "| solver.tolerance=1e-05 ", "at 1.5 deg",
+                           "within error", "comparisons differ"})
+    EXPECT_NE(tables.find(part), std::string::npos) << part << "\n" << tables;
+  const std::string rows = text_of(folder.path("study/study.csv"));
+  EXPECT_EQ(std::ranges::count(rows, '\n'), 7) << rows;
+  EXPECT_NE(rows.find(hash_of("study/baseline/seed-1.h5", folder)), std::string::npos);
+}
+
+TEST(Study, that_is_complete_is_only_read) {
+  const TemporaryFolder folder;
+  write_file(folder, "bed.toml", tiny_bed);
+  ASSERT_EQ(run_talus(study_of("study"), folder.path()).exit_code, 0);
+  const auto written = std::filesystem::last_write_time(folder.path("study/baseline/seed-1.h5"));
+  std::vector<std::string> again = study_of("study");
+  again.insert(again.end(), {"--json", "--at", "1"});
+  const Outcome study = run_talus(again, folder.path());
+  ASSERT_EQ(study.exit_code, 0) << study.err;
+  EXPECT_EQ(study.err, "");
+  EXPECT_EQ(json_value(study.out, "reference_deg"), "1");
+  EXPECT_EQ(json_value(study.out, "verdict"), "unknown") << "theta_c of slopes that stand";
+  EXPECT_EQ(std::filesystem::last_write_time(folder.path("study/baseline/seed-1.h5")), written);
+}
+
+class InterruptedStudy : public testing::TestWithParam<int> {};
+
+TEST_P(InterruptedStudy, goes_on_to_the_same_bits) {
+  const TemporaryFolder folder;
+  write_file(folder, "bed.toml", tiny_bed);
+  ASSERT_EQ(run_talus(study_of("whole"), folder.path()).exit_code, 0);
+  int stops = 0;
+  int code = -1;
+  for (int attempt = 0; attempt < 100 && code != 0; ++attempt) {
+    const pid_t process = start_talus(study_of("parts"), folder.path());
+    std::this_thread::sleep_for(std::chrono::milliseconds(50 + 50 * attempt));
+    kill(process, GetParam());
+    code = wait_for(process);
+    // A signal may come before the study waits for it. A run of a killed study may not be gone yet.
+    EXPECT_TRUE(code == 0 || code == -1 || (code == 75 && GetParam() != SIGKILL) ||
+                (code == 73 && GetParam() == SIGKILL))
+        << code;
+    if (code != 0) ++stops;
+  }
+  EXPECT_EQ(code, 0);
+  EXPECT_GT(stops, 0) << "the study was never interrupted: nothing was tested";
+  for (const char* run : runs)
+    EXPECT_EQ(hash_of(std::string("parts/") + run + ".h5", folder),
+              hash_of(std::string("whole/") + run + ".h5", folder))
+        << run;
+}
+
+INSTANTIATE_TEST_SUITE_P(Signals, InterruptedStudy, testing::Values(SIGINT, SIGTERM, SIGKILL));
+
+/// Starts a study of one run that would go on for a minute, and returns once that has committed something.
+pid_t start_long_study(const TemporaryFolder& folder) {
+  write_file(folder, "long.toml", "[bed]\nlength = 50\ndepth = 20\n[output]\ncheckpoint_every = 0\n");
+  const pid_t process =
+      start_talus({"study", "long.toml", "--seeds", "1", "-o", "long", "--jobs", "1"}, folder.path());
+  const std::string manifest = folder.path("long/baseline/seed-1.h5.run/manifest");
+  for (int wait = 0; wait < 1000 && !std::filesystem::exists(manifest); ++wait)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  return process;
+}
+
+int steps_of_long_run(const TemporaryFolder& folder) {
+  return std::stoi(
+      std::string("0") +
+      json_value(run_talus({"info", "long/baseline/seed-1.h5", "--json"}, folder.path()).out, "steps"));
+}
+
+TEST(Study, that_is_stopped_stops_its_runs_and_goes_on_where_they_were) {
+  const TemporaryFolder folder;
+  const pid_t first = start_long_study(folder);
+  std::this_thread::sleep_for(std::chrono::seconds(1));
+  const auto asked = std::chrono::steady_clock::now();
+  kill(first, SIGTERM);
+  EXPECT_EQ(wait_for(first), 75);
+  ASSERT_LT(std::chrono::steady_clock::now() - asked, std::chrono::seconds(10));
+  const int steps = steps_of_long_run(folder);
+  EXPECT_GT(steps, 1);
+  const pid_t second = start_long_study(folder);
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  kill(second, SIGTERM);
+  EXPECT_EQ(wait_for(second), 75);
+  EXPECT_GE(steps_of_long_run(folder), steps);
+}
+
+TEST(Study, that_is_killed_leaves_no_run_behind) {
+  const TemporaryFolder folder;
+  const pid_t study = start_long_study(folder);
+  std::ifstream lock(folder.path("long/baseline/seed-1.h5.run/lock"));
+  std::string word, writer;
+  lock >> word >> writer;  // "process 123 on host ..."
+  const std::string its_arguments = std::string("/proc/").append(writer).append("/cmdline");
+  ASSERT_FALSE(text_of(its_arguments).empty()) << "process '" << writer << "'";
+  kill(study, SIGKILL);
+  wait_for(study);
+  for (int wait = 0; wait < 1000 && !text_of(its_arguments).empty(); ++wait)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  EXPECT_EQ(text_of(its_arguments), "");
+}
+
+TEST(Study, with_a_bad_key_leaves_with_65_before_anything_runs) {
+  const TemporaryFolder folder;
+  write_file(folder, "bed.toml", tiny_bed);
+  for (const char* axis : {"tilt.stp=0.002", "tilt.step=0.002,-1"}) {
+    const Outcome study = run_talus({"study", "bed.toml", "--vary", axis, "-o", "study"}, folder.path());
+    EXPECT_EQ(study.exit_code, 65) << axis;
+    EXPECT_NE(study.err.find("--set tilt.st"), std::string::npos) << study.err;
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder.path("study")));
+}
+
+TEST(Study, of_a_bad_form_leaves_with_64) {
+  const TemporaryFolder folder;
+  write_file(folder, "bed.toml", tiny_bed);
+  EXPECT_EQ(run_talus({"study", "bed.toml"}, folder.path()).exit_code, 64) << "no folder";
+  EXPECT_EQ(run_talus({"study", "bed.toml", "--vary", "tilt.step", "-o", "s"}, folder.path()).exit_code, 64);
+  EXPECT_EQ(run_talus({"study", "bed.toml", "--seeds", "4-1", "-o", "s"}, folder.path()).exit_code, 64);
+}
+
+TEST(Study, does_not_mix_scenarios_in_a_folder) {
+  const TemporaryFolder folder;
+  write_file(folder, "bed.toml", tiny_bed);
+  ASSERT_EQ(run_talus({"study", "bed.toml", "--seeds", "1", "-o", "study"}, folder.path()).exit_code, 0);
+  const Outcome other = run_talus(
+      {"study", "bed.toml", "--seeds", "1", "-o", "study", "--set", "contact.friction=0.3"}, folder.path());
+  EXPECT_EQ(other.exit_code, 65);
+  EXPECT_NE(other.err.find("study/baseline/seed-1.h5"), std::string::npos) << other.err;
+}
+
+TEST(Study, compares_what_is_complete_where_a_run_fails) {
+  const TemporaryFolder folder;
+  write_file(folder, "bed.toml", tiny_bed);
+  const Outcome study =
+      run_talus({"study", "bed.toml", "--vary", "deposition.max_time=0.05", "--seeds", "1", "-o", "study"},
+                folder.path());
+  EXPECT_EQ(study.exit_code, 65);
+  EXPECT_NE(study.err.find("deposition.max_time=0.05/seed-1.log"), std::string::npos) << study.err;
+  EXPECT_NE(text_of(folder.path("study/deposition.max_time=0.05/seed-1.log")).find("did not come to rest"),
+            std::string::npos);
+  EXPECT_NE(study.out.find("1 of 2 runs complete"), std::string::npos) << study.out;
+}
+
+}  // namespace
+}  // namespace talus::test
