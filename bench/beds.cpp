@@ -1,0 +1,94 @@
+#include "beds.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "core/errors.h"
+#include "core/trigonometry.h"
+#include "io/run_file.h"
+#include "session/session.h"
+#include "tiling.h"
+
+namespace talus::bench {
+namespace {
+
+constexpr Index tile_grains = 4000;
+
+/// No value where the bed is not deposited but tiled.
+std::optional<Scenario> scenario_of(Index grains) {
+  Scenario scenario;
+  switch (grains) {
+    case 500:
+      scenario.bed.length = 25.0;
+      break;
+    case 2000:
+      scenario.bed.length = 50.0;
+      break;
+    case tile_grains:
+      scenario.bed.length = 100.0;
+      break;
+    case 8000:
+      scenario.bed.length = 200.0;
+      break;
+    default:
+      return std::nullopt;
+  }
+  scenario.bed.depth = grains / scenario.bed.length;
+  scenario.tilt.end_angle = 10.0;
+  scenario.output.frame_every = 10.0;
+  return scenario;
+}
+
+std::string path_of(Index grains, Slope slope) {
+  return std::string(TALUS_BENCH_BEDS) + "/bed-" + std::to_string(grains) +
+         (slope == Slope::flat ? "-flat.h5" : "-ten-degrees.h5");
+}
+
+void save(const Session& session, const std::string& path) {
+  RunHeader header;
+  header.statics = run_statics(session.scenario(), session.world());
+  header.scenario_given = header.scenario_resolved = resolved_toml(session.scenario());
+  header.seed = session.scenario().seed;
+  RunStore store = RunStore::create(path, header, true);
+  store.commit(session.segment(), session.checkpoint(0.0));
+  store.pack();
+}
+
+void advance_to(Phase end, Session session, const std::string& path) {
+  while (session.phase() != end) session.advance();
+  save(session, path);
+}
+
+/// Deposits and tilts where that has not been done before.
+Checkpoint deposited(Index grains, const Scenario& scenario, Slope slope) {
+  const std::string path = path_of(grains, slope);
+  if (!std::filesystem::exists(path)) {
+    std::filesystem::create_directories(TALUS_BENCH_BEDS);
+    if (slope == Slope::flat)
+      advance_to(Phase::tilt, Session(scenario), path);
+    else
+      advance_to(Phase::done, Session(scenario, deposited(grains, scenario, Slope::flat)), path);
+  }
+  return RunFile::open(path).checkpoint();
+}
+
+World bed_as_left(Index grains, Slope slope) {
+  if (const std::optional<Scenario> scenario = scenario_of(grains))
+    return deposited(grains, *scenario, slope).world;
+  if (grains <= 0 || grains % tile_grains != 0)
+    throw Error(ExitCode::usage, "no bed of " + std::to_string(grains) +
+                                     " grains: expected 500, 2000 or a multiple of " +
+                                     std::to_string(tile_grains));
+  return tiled(bed_as_left(tile_grains, slope), grains / tile_grains);
+}
+
+}  // namespace
+
+World bed(Index grains, Slope slope) {
+  World world = bed_as_left(grains, slope);
+  if (slope == Slope::ten_degrees) world.tilt += radians(Scenario{}.tilt.step);
+  return world;
+}
+
+}  // namespace talus::bench

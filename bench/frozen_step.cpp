@@ -1,0 +1,67 @@
+#include "frozen_step.h"
+
+#include <cmath>
+
+#include "session/session.h"
+
+namespace talus::bench {
+namespace {
+
+void scale(std::vector<double>& values, double factor) {
+  for (double& value : values) value *= factor;
+}
+
+double mean_mass(const ContactProblem& problem) {
+  double sum = 0.0;
+  int count = 0;
+  for (const double inverse : problem.inverse_mass)
+    if (inverse > 0.0) {
+      sum += 1.0 / inverse;
+      ++count;
+    }
+  return sum / count;
+}
+
+}  // namespace
+
+StepSettings run_settings(double h, Candidates candidates) {
+  const Scenario scenario;
+  StepSettings settings;
+  settings.h = h;
+  settings.margin = (candidates == Candidates::close ? 2e-4 : 2e-2) * scenario.grains.mean_diameter;
+  settings.law = contact_law(scenario);
+  return settings;
+}
+
+FrozenStep next_step(World world, double h, Candidates candidates) {
+  StepWorkspace workspace;
+  form_problem(world, run_settings(h, candidates), workspace);
+  return {std::move(workspace.problem), std::move(workspace.solution), world.gravity * h};
+}
+
+FrozenStep dimensionless_next_step(const World& world, double dt, Candidates candidates) {
+  const double length = Scenario{}.grains.mean_diameter;
+  const double time = std::sqrt(length / world.gravity);
+  FrozenStep step = next_step(world, dt * time, candidates);
+  const double mass = mean_mass(step.problem);
+  const double velocity = length / time;
+  for (auto field : {&ContactProblem::vx, &ContactProblem::vy, &ContactProblem::cn, &ContactProblem::ct})
+    scale(step.problem.*field, 1.0 / velocity);
+  scale(step.problem.omega, time);
+  scale(step.problem.inverse_mass, mass);
+  scale(step.problem.inverse_inertia, mass * length * length);
+  scale(step.problem.lever, 1.0 / length);
+  scale(step.guess.pn, 1.0 / (mass * velocity));
+  scale(step.guess.pt, 1.0 / (mass * velocity));
+  step.gravity_step = dt;
+  return step;
+}
+
+ContactSolution cold_guess(const ContactProblem& problem) {
+  ContactSolution guess;
+  guess.pn.assign(static_cast<std::size_t>(problem.contact_count()), 0.0);
+  guess.pt = guess.pn;
+  return guess;
+}
+
+}  // namespace talus::bench

@@ -1,0 +1,21 @@
+#pragma once
+/// What the main function of each benchmark program does with errors.
+
+#include <cstdio>
+
+#include "core/errors.h"
+
+namespace talus::bench {
+
+/// Runs run(argc, argv) and returns what it returns, or the exit code of its error.
+template <typename Run>
+int run_program(const char* name, const Run& run, int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const Error& error) {
+    std::fprintf(stderr, "%s: error: %s\n", name, error.what());
+    return static_cast<int>(error.code());
+  }
+}
+
+}  // namespace talus::bench

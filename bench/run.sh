@@ -1,0 +1,122 @@
+#!/usr/bin/env bash
+# Builds the benchmarks and writes every result to bench/results/: bench/run.sh [PART...]
+# Parts: solver, scale, siconos, siconos_si, siconos_dense, paper; all of them with no argument.
+set -euo pipefail
+
+cd -- "$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")/.."
+readonly build=build/bench results=bench/results
+readonly scale_sizes=(4000 8000 20000 40000 100000 400000)
+readonly dense_solvers=(nsgs cpg lemke enumeration)
+readonly dense_seconds=300 # that a dense solver may take
+export OPENBLAS_NUM_THREADS=1 # Siconos is measured on one core
+
+build() {
+  cmake --preset bench >/dev/null
+  cmake --build --preset bench
+}
+
+# heading TITLE COMMAND: what was measured, with what, where, when.
+heading() {
+  local compiler revision
+  compiler=$(sed -n 's/^CMAKE_CXX_COMPILER:.*=//p' "$build/CMakeCache.txt")
+  revision=$(git -c safe.directory="$PWD" describe --always --dirty)
+  cat <<TEXT
+# $1
+
+- command: \`$2\`
+- Talus: $revision, $("$compiler" --version | head -1), $(sed -n 's/^CMAKE_CXX_FLAGS_RELEASE:[A-Z]*=//p' "$build/CMakeCache.txt")
+- processor: $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -1), $(nproc) cores
+- load of the machine when it began: $(cut -d ' ' -f 1 /proc/loadavg); date: $(date -u +%F)
+
+TEXT
+}
+
+# Only a complete result replaces the last one.
+keep() { mv -- "$results/$1.part" "$results/$1"; }
+
+solver() {
+  local command="$build/solver_bench --benchmark_repetitions=5 --benchmark_report_aggregates_only=true"
+  {
+    heading "The solvers and the stages of a step, paper's bed" "$command"
+    echo '```'
+    $command 2>/dev/null
+    echo '```'
+  } >"$results/solver.md.part"
+  keep solver.md
+}
+
+scale() {
+  local header=--header grains
+  {
+    heading "Cost and memory against size" "$build/scale_bench GRAINS"
+    for grains in "${scale_sizes[@]}"; do
+      "$build/scale_bench" "$grains" $header
+      header=
+    done
+  } >"$results/scale.md.part"
+  keep scale.md
+}
+
+siconos_version() {
+  echo "Siconos: $(dpkg-query -W -f '${Package} ${Version}' libsiconos-numerics-dev)"
+  echo
+}
+
+# siconos_table NAME TITLE ARGUMENTS...
+siconos_table() {
+  local name=$1 title=$2
+  shift 2
+  {
+    heading "$title" "$build/siconos_bench $*"
+    siconos_version
+    "$build/siconos_bench" "$@"
+  } >"$results/$name.md.part"
+  keep "$name.md"
+}
+
+siconos() { siconos_table siconos "Talus and Siconos to the same error, D = m = g = 1, dt = 5e-3" --seconds 120; }
+
+siconos_si() {
+  siconos_table siconos_si "Talus and Siconos to the same error, SI units, h = 1 ms" --si --grains 8000 --seconds 120
+}
+
+siconos_dense() {
+  local solver status
+  {
+    heading "Siconos's other 2D solvers, and its Gauss-Seidel on a dense matrix: 500 grains, cold, to 1e-4" \
+      "$build/siconos_dense_bench SOLVER"
+    siconos_version
+    echo "| solver | grains | contacts | info (0: says it converged) | seconds | iterations | Siconos's error |"
+    echo "|---|--:|--:|--:|--:|--:|--:|"
+    for solver in "${dense_solvers[@]}"; do
+      status=0
+      timeout "$dense_seconds" "$build/siconos_dense_bench" "$solver" 2>/dev/null || status=$?
+      case $status in
+        0) ;;
+        124) echo "| $solver | 500 | | no answer | > $dense_seconds | | |" ;;
+        *) echo "| $solver | 500 | | ended with code $status | | | |" ;;
+      esac
+    done
+  } >"$results/siconos_dense.md.part"
+  keep siconos_dense.md
+}
+
+paper() {
+  {
+    heading "The paper's run" "bench/run_paper.py $build/talus"
+    /usr/bin/env python3 bench/run_paper.py "$build/talus"
+  } >"$results/paper.md.part"
+  keep paper.md
+}
+
+parts=("$@")
+((${#parts[@]} > 0)) || parts=(solver scale siconos siconos_si siconos_dense paper)
+build
+mkdir -p "$results"
+for part in "${parts[@]}"; do
+  case $part in
+    solver | scale | siconos | siconos_si | siconos_dense | paper) "$part" ;;
+    *) printf 'bench/run.sh: error: no part "%s"; they are listed at the top of this file\n' "$part" >&2 && exit 64 ;;
+  esac
+  printf '%s: done after %d s\n' "$part" "$SECONDS"
+done

@@ -1,0 +1,108 @@
+/// Cost of a pass and peak memory of a step for a bed of a given size; one row of a Markdown table. One
+/// process for each size, so that memory is that of this size alone.
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+#include <string>
+
+#include "beds.h"
+#include "core/errors.h"
+#include "frozen_step.h"
+#include "program.h"
+#include "session/session.h"
+#include "solver/residual.h"
+
+namespace talus::bench {
+namespace {
+
+/// Wall seconds of one pass, from a solve of `passes` passes.
+double seconds_per_pass(const FrozenStep& step, int threads, int passes, SolverWorkspace& workspace) {
+  SolverSettings settings;
+  settings.tolerance = 0.0;
+  settings.max_iterations = passes;
+  settings.threads = threads;
+  ContactSolution solution = cold_guess(step.problem);
+  const auto start = std::chrono::steady_clock::now();
+  solve(step.problem, settings, workspace, solution);
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / passes;
+}
+
+/// Medians for one and two threads, measured in turn.
+std::array<double, 2> pass_seconds(const FrozenStep& step) {
+  constexpr int repetitions = 7;
+  // About half a second each, at a few ns per contact.
+  const int passes = std::clamp(150'000'000 / step.problem.contact_count(), 100, 2000);
+  std::array<SolverWorkspace, 2> workspaces;
+  std::array<std::array<double, repetitions>, 2> seconds{};
+  for (int k = 0; k < repetitions; ++k)
+    for (std::size_t t = 0; t < 2; ++t)
+      seconds[t][k] = seconds_per_pass(step, static_cast<int>(t) + 1, passes, workspaces[t]);
+  for (auto& of_threads : seconds) std::ranges::sort(of_threads);
+  return {seconds[0][repetitions / 2], seconds[1][repetitions / 2]};
+}
+
+/// The named size of this process in bytes (proc(5)).
+double process_bytes(const std::string& name) {
+  std::ifstream status("/proc/self/status");
+  for (std::string word; status >> word;)
+    if (word == name + ":") {
+      double kilobytes = 0.0;
+      status >> kilobytes;
+      return 1024.0 * kilobytes;
+    }
+  throw Error(ExitCode::unavailable, "/proc/self/status has no " + name);
+}
+
+/// Peak resident memory while steps are taken, the world included, beyond that of the bare program, bytes.
+double peak_of_steps(World world, double bare_program) {
+  std::ofstream("/proc/self/clear_refs") << 5;  // the peak is counted from here on
+  StepSettings settings = run_settings(time_step(Scenario{}));
+  settings.solver.max_iterations = 10;
+  StepWorkspace workspace;
+  for (int k = 0; k < 3; ++k) step(world, settings, workspace);
+  return process_bytes("VmHWM") - bare_program;
+}
+
+/// Residual of the remembered forces: that of the tile, where copies of it stand in equilibrium as it does.
+double eta_of_guess(FrozenStep step) {
+  velocities_from_impulses(step.problem, step.guess);
+  return natural_map_residual(step.problem, step.guess).eta;
+}
+
+void print_row(Index grains) {
+  const double bare_program = process_bytes("VmRSS");
+  const double peak = peak_of_steps(bed(grains, Slope::flat), bare_program);
+  const FrozenStep step = next_step(bed(grains, Slope::flat), time_step(Scenario{}));
+  const double contacts = step.problem.contact_count();
+  const std::array<double, 2> seconds = pass_seconds(step);
+  std::printf("| %d | %.0f | %.2f | %.2f | %.2f | %.2f | %.0f | %.3e |\n", grains, contacts,
+              1e9 * seconds[0] / contacts, 1e9 * seconds[1] / contacts, 1e9 * seconds[0] / grains,
+              1e9 * seconds[1] / grains, peak / grains, eta_of_guess(step));
+}
+
+int run(int argc, char** argv) {
+  Index grains = 0;
+  bool header = false;
+  CLI::App app("Cost per grain and pass, and memory per grain");
+  app.add_option("grains", grains, "500, 2000 or a multiple of 4000")->required();
+  app.add_flag("--header", header, "Print the header of the table first");
+  CLI11_PARSE(app, argc, argv)
+  if (header)
+    std::printf(
+        "| grains | contacts | ns per contact and pass, 1 thread | 2 threads "
+        "| ns per grain and pass, 1 thread | 2 threads | peak bytes per grain | eta of remembered forces |\n"
+        "|--:|--:|--:|--:|--:|--:|--:|--:|\n");
+  print_row(grains);
+  return 0;
+}
+
+}  // namespace
+}  // namespace talus::bench
+
+int main(int argc, char** argv) {
+  return talus::bench::run_program("scale_bench", talus::bench::run, argc, argv);
+}

@@ -1,0 +1,275 @@
+/// Talus and Siconos on the same contact problems, from the same guess to the same error, which is Siconos's
+/// own; one core, one process, in turn. Seconds are processor time. Prints one row of a Markdown table for
+/// each problem.
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "beds.h"
+#include "frozen_step.h"
+#include "processor_time.h"
+#include "program.h"
+#include "session/scenario.h"
+#include "siconos_peer.h"
+#include "solver/local_problem.h"
+#include "solver/residual.h"
+#include "solver/solve.h"
+
+namespace talus::bench {
+namespace {
+
+struct Limits {
+  double seconds = 60.0;  ///< of a Siconos solve
+  int sweeps = 20000;
+  int repetitions = 5;
+};
+
+struct Case {
+  Slope slope;
+  bool warm;
+  double tolerance;
+};
+constexpr Case cases[] = {
+    {Slope::flat, false, 1e-3},
+    {Slope::flat, false, 1e-4},
+    {Slope::ten_degrees, true, 1e-4},
+    {Slope::ten_degrees, true, 1e-6},
+};
+
+double median(std::vector<double> values) {
+  std::ranges::sort(values);
+  const std::size_t half = values.size() / 2;
+  return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
+}
+
+ContactSolution with_impulses(const ContactProblem& problem, const std::vector<Impulse>& p) {
+  ContactSolution solution;
+  for (const Impulse& impulse : p) {
+    solution.pn.push_back(impulse.normal);
+    solution.pt.push_back(impulse.tangential);
+  }
+  velocities_from_impulses(problem, solution);
+  return solution;
+}
+
+std::vector<Impulse> impulses(const ContactSolution& solution) {
+  std::vector<Impulse> p;
+  for (std::size_t c = 0; c < solution.pn.size(); ++c) p.push_back({solution.pn[c], solution.pt[c]});
+  return p;
+}
+
+/// One problem, as both solvers see it.
+struct Match {
+  FrozenStep step;
+  LocalProblem local;
+  SiconosProblem siconos;
+  SolverWorkspace workspace;
+
+  explicit Match(FrozenStep frozen)
+      : step(std::move(frozen)), local(local_problem(step.problem)), siconos(local, Storage::sparse_blocks) {}
+};
+
+struct TalusRun {
+  SolverReport report;
+  ContactSolution solution;
+  double seconds = 0.0;
+};
+
+TalusRun run_talus(Match& match, double eta) {
+  SolverSettings settings;
+  settings.tolerance = eta;
+  settings.max_iterations = 200000;
+  TalusRun run{{}, match.step.guess};
+  const double start = processor_seconds();
+  run.report = solve(match.step.problem, settings, match.workspace, run.solution);
+  run.seconds = processor_seconds() - start;
+  return run;
+}
+
+/// The loosest eta, of a fine geometric series, at which the answer of Talus has the error asked for; 0 where
+/// none has. The two measures are alike but not proportional, so it is searched for, outside the time.
+double eta_for_error(Match& match, double error) {
+  constexpr double loosest = 0.1;
+  constexpr double factor = 0.8;
+  for (double eta = loosest; eta > 1e-14; eta *= factor) {
+    const TalusRun run = run_talus(match, eta);
+    if (match.siconos.error(impulses(run.solution)) <= error) return eta;
+    if (!run.report.converged) return 0.0;
+  }
+  return 0.0;
+}
+
+struct SiconosRun {
+  SiconosReport report;
+  std::vector<Impulse> p;
+};
+
+SiconosRun run_siconos(Match& match, double error, int max_sweeps) {
+  SiconosRun run{{}, impulses(match.step.guess)};
+  run.report = match.siconos.solve(SiconosSolver::nsgs, error, max_sweeps, run.p);
+  return run;
+}
+
+/// Sweeps that Siconos can do within the limits.
+int affordable_sweeps(Match& match, const Limits& limits) {
+  constexpr int few = 10;
+  const double seconds_of_few = run_siconos(match, 0.0, few).report.seconds;
+  return static_cast<int>(std::min<double>(limits.sweeps, limits.seconds / seconds_of_few * few));
+}
+
+/// sqrt of the mean of |v1 - v2|^2 over bodies that move; rotation counts with its rim velocity.
+double rms_difference(const ContactProblem& problem, const ContactSolution& one, const ContactSolution& two) {
+  double sum = 0.0;
+  int count = 0;
+  for (Index i = 0; i < problem.body_count(); ++i) {
+    if (problem.inverse_mass[i] == 0.0) continue;
+    const double x = one.vx[i] - two.vx[i];
+    const double y = one.vy[i] - two.vy[i];
+    const double rim = problem.lever[i] * (one.omega[i] - two.omega[i]);
+    sum += x * x + y * y + rim * rim;
+    ++count;
+  }
+  return std::sqrt(sum / count);
+}
+
+double norm(const std::vector<double>& n, const std::vector<double>& t) {
+  double sum = 0.0;
+  for (std::size_t c = 0; c < n.size(); ++c) sum += n[c] * n[c] + t[c] * t[c];
+  return std::sqrt(sum);
+}
+
+double relative_impulse_difference(const ContactSolution& one, const ContactSolution& two) {
+  std::vector<double> n = one.pn;
+  std::vector<double> t = one.pt;
+  for (std::size_t c = 0; c < n.size(); ++c) {
+    n[c] -= two.pn[c];
+    t[c] -= two.pt[c];
+  }
+  return norm(n, t) / norm(two.pn, two.pt);
+}
+
+/// || U1 - U2 || over the norm that Siconos's error is relative to.
+double relative_velocity_difference(const Match& match, const ContactSolution& one,
+                                    const ContactSolution& two) {
+  const std::vector<RelativeVelocity> u1 = local_solution(match.step.problem, one).u;
+  const LocalSolution other = local_solution(match.step.problem, two);
+  double difference = 0.0;
+  double impulse = 0.0;
+  double velocity = 0.0;
+  double free_velocity = 0.0;
+  const auto add_square = [](double& sum, double n, double t) { sum += n * n + t * t; };
+  for (std::size_t c = 0; c < u1.size(); ++c) {
+    const RelativeVelocity& u2 = other.u[c];
+    add_square(difference, u1[c].normal - u2.normal, u1[c].tangential - u2.tangential);
+    add_square(impulse, other.p[c].normal, other.p[c].tangential);
+    add_square(velocity, u2.normal, u2.tangential);
+    add_square(free_velocity, match.local.q[c].normal, match.local.q[c].tangential);
+  }
+  return std::sqrt(difference / std::max({impulse, velocity, free_velocity}));
+}
+
+struct Timing {
+  SiconosRun siconos;
+  TalusRun talus;
+  std::vector<double> siconos_seconds, talus_seconds;  ///< of each solve
+};
+
+/// In turn, so that a change in the pace of the machine meets both. A solve of more than ten seconds is not
+/// repeated: it does the same work each time.
+Timing time_both(Match& match, double error, double eta, const Limits& limits) {
+  constexpr double too_long_to_repeat = 10.0;
+  const int max_sweeps = affordable_sweeps(match, limits);
+  Timing timing;
+  for (int k = 0; k < limits.repetitions; ++k) {
+    if (k == 0 || timing.siconos_seconds.front() < too_long_to_repeat) {
+      timing.siconos = run_siconos(match, error, max_sweeps);
+      timing.siconos_seconds.push_back(timing.siconos.report.seconds);
+    }
+    if (k == 0 || timing.talus_seconds.front() < too_long_to_repeat) {
+      timing.talus = run_talus(match, eta);
+      timing.talus_seconds.push_back(timing.talus.seconds);
+    }
+  }
+  return timing;
+}
+
+void print_solve(double seconds, std::size_t repetitions, int iterations, bool fails) {
+  std::printf("%s%.4g (%zu) | %d | ", fails ? "fails: " : "", seconds, repetitions, iterations);
+}
+
+/// Where Siconos fails, the ratio is a lower bound; where Talus does, there is none.
+void print_ratio(double ratio, bool siconos_fails, bool talus_fails) {
+  if (talus_fails)
+    std::printf("- |");
+  else
+    std::printf("%s%.*f |", siconos_fails ? "> " : "", ratio < 10.0 ? 1 : 0, ratio);
+}
+
+void print_row(Match& match, Index grains, const Case& of, const Timing& timing) {
+  const ContactProblem& problem = match.step.problem;
+  const ContactSolution theirs = with_impulses(problem, timing.siconos.p);
+  const ContactSolution& ours = timing.talus.solution;
+  const double their_error = match.siconos.error(timing.siconos.p);
+  const double our_error = match.siconos.error(impulses(ours));
+  const bool siconos_fails = their_error > of.tolerance;
+  const bool talus_fails = our_error > of.tolerance;
+  const double their_seconds = median(timing.siconos_seconds);
+  const double our_seconds = median(timing.talus_seconds);
+  std::printf("| %d | %d | %s | %.0e | ", grains, problem.contact_count(),
+              of.warm ? "10 deg, warm" : "flat, cold", of.tolerance);
+  print_solve(their_seconds, timing.siconos_seconds.size(), timing.siconos.report.iterations, siconos_fails);
+  print_solve(our_seconds, timing.talus_seconds.size(), timing.talus.report.iterations, talus_fails);
+  print_ratio(their_seconds / our_seconds, siconos_fails, talus_fails);
+  std::printf(" %.2e | %.2e | %.2e | %.2e |", their_error, our_error,
+              natural_map_residual(problem, theirs).eta, timing.talus.report.residual.eta);
+  std::printf(" %.1e | %.1e | %.1e |\n", relative_velocity_difference(match, ours, theirs),
+              rms_difference(problem, ours, theirs) / match.step.gravity_step,
+              relative_impulse_difference(ours, theirs));
+  std::fflush(stdout);
+}
+
+void print_header() {
+  std::printf(
+      "| grains | contacts | problem | error | Siconos, s (solves) | sweeps | Talus, s (solves) | passes | "
+      "ratio | "
+      "error of Siconos | error of Talus | eta of Siconos | eta of Talus | U differs | v differs, g h | P "
+      "differ |\n|--:|--:|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n");
+}
+
+void run_case(Index grains, const Case& of, bool si, const Limits& limits) {
+  const World world = bed(grains, of.slope);
+  FrozenStep step = si ? next_step(world, time_step(Scenario{}), Candidates::close)
+                       : dimensionless_next_step(world, 5e-3, Candidates::close);
+  if (!of.warm) step.guess = cold_guess(step.problem);
+  Match match(std::move(step));
+  const double eta = eta_for_error(match, of.tolerance);
+  print_row(match, grains, of, time_both(match, of.tolerance, eta, limits));
+}
+
+int run(int argc, char** argv) {
+  Limits limits;
+  std::vector<Index> sizes{500, 2000, 4000, 8000, 20000, 40000, 100000};
+  bool si = false;
+  CLI::App app("Talus against Siconos's 2D nonsmooth Gauss-Seidel on sparse blocks");
+  app.add_option("--grains", sizes, "Sizes of the beds")->capture_default_str();
+  app.add_flag("--si", si,
+               "SI units and the step of the paper's run, instead of D = m = g = 1 and dt = 5e-3");
+  app.add_option("--seconds", limits.seconds, "Longest Siconos solve")->capture_default_str();
+  app.add_option("--sweeps", limits.sweeps, "Most sweeps of a Siconos solve")->capture_default_str();
+  app.add_option("--repetitions", limits.repetitions, "Solves that the medians are of")
+      ->capture_default_str();
+  CLI11_PARSE(app, argc, argv)
+  print_header();
+  for (const Index grains : sizes)
+    for (const Case& of : cases) run_case(grains, of, si, limits);
+  return 0;
+}
+
+}  // namespace
+}  // namespace talus::bench
+
+int main(int argc, char** argv) {
+  return talus::bench::run_program("siconos_bench", talus::bench::run, argc, argv);
+}

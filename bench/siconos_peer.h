@@ -1,0 +1,47 @@
+#pragma once
+/// Siconos's solvers for frictional contact in two dimensions, behind plain data.
+
+#include <memory>
+
+#include "solver/local_problem.h"
+
+namespace talus::bench {
+
+/// Numbers by which Siconos knows its solvers.
+enum class SiconosSolver : int {
+  nsgs = 400,   ///< nonsmooth Gauss-Seidel, the only one that keeps the matrix sparse
+  cpg = 402,    ///< conjugate projected gradient
+  lemke = 404,  ///< Lemke's pivoting on a linear complementarity problem
+  enumeration = 405,
+};
+
+struct SiconosReport {
+  int info = 0;          ///< 0 where Siconos says that it converged
+  int iterations = 0;    ///< sweeps
+  double error = 0.0;    ///< what Siconos itself reports
+  double seconds = 0.0;  ///< processor time of the calling thread
+};
+
+/// How Siconos stores W.
+enum class Storage { sparse_blocks, dense };
+
+/// A problem as Siconos holds it. `local` must outlive it: its blocks are used where they are.
+class SiconosProblem {
+ public:
+  SiconosProblem(const LocalProblem& local, Storage storage);
+  ~SiconosProblem();
+  SiconosProblem(const SiconosProblem&) = delete;
+  SiconosProblem& operator=(const SiconosProblem&) = delete;
+
+  /// Solves from the first guess in `p`; only the call of the solver is timed.
+  SiconosReport solve(SiconosSolver solver, double tolerance, int max_iterations, std::vector<Impulse>& p);
+
+  /// fc2d_compute_error: relative to the largest of || P ||, || U || and || q ||.
+  double error(std::vector<Impulse> p);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace talus::bench

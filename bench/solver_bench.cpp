@@ -1,0 +1,113 @@
+/// The solvers on the contact problem of the paper's bed, and the stages of its steps.
+
+#include <benchmark/benchmark.h>
+
+#include "beds.h"
+#include "core/trigonometry.h"
+#include "frozen_step.h"
+#include "session/session.h"
+#include "solver/gauss_seidel.h"
+
+namespace talus::bench {
+namespace {
+
+constexpr Index paper_grains = 8000;
+
+FrozenStep flat_step() { return next_step(bed(paper_grains, Slope::flat), time_step(Scenario{})); }
+FrozenStep tilting_step() { return next_step(bed(paper_grains, Slope::ten_degrees), time_step(Scenario{})); }
+
+/// Wall time per contact and pass, printed with its prefix: 3n is 3 ns.
+benchmark::Counter time_per_contact_and_pass(const ContactProblem& problem, int passes) {
+  return {static_cast<double>(problem.contact_count()) * passes,
+          benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert};
+}
+
+/// A fixed number of passes from no impulses, on range(0) threads.
+void accelerated_passes(benchmark::State& state) {
+  const FrozenStep step = flat_step();
+  SolverSettings settings;
+  settings.tolerance = 0.0;
+  settings.max_iterations = 500;
+  settings.threads = static_cast<int>(state.range(0));
+  SolverWorkspace workspace;
+  ContactSolution solution = cold_guess(step.problem);
+  for (auto _ : state) {
+    solution = cold_guess(step.problem);
+    solve(step.problem, settings, workspace, solution);
+  }
+  state.counters["contact_pass"] = time_per_contact_and_pass(step.problem, settings.max_iterations);
+}
+BENCHMARK(accelerated_passes)
+    ->ArgName("threads")
+    ->Arg(1)
+    ->Arg(2)
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
+
+void gauss_seidel_sweeps(benchmark::State& state) {
+  const FrozenStep step = flat_step();
+  ContactSolution solution = cold_guess(step.problem);
+  velocities_from_impulses(step.problem, solution);
+  for (auto _ : state) gauss_seidel_sweep(step.problem, solution);
+  state.counters["contact_pass"] = time_per_contact_and_pass(step.problem, 1);
+}
+BENCHMARK(gauss_seidel_sweeps)->Unit(benchmark::kMillisecond);
+
+void solve_to(benchmark::State& state, const FrozenStep& step, double tolerance) {
+  SolverSettings settings;
+  settings.tolerance = tolerance;
+  settings.max_iterations = 100000;
+  settings.threads = static_cast<int>(state.range(0));
+  SolverWorkspace workspace;
+  ContactSolution solution;
+  SolverReport report;
+  for (auto _ : state) {
+    solution = step.guess;
+    report = solve(step.problem, settings, workspace, solution);
+  }
+  if (!report.converged) state.SkipWithError("did not converge");
+  state.counters["passes"] = report.iterations;
+  state.counters["contact_pass"] = time_per_contact_and_pass(step.problem, report.iterations);
+}
+
+void cold_to_1e4(benchmark::State& state) {
+  FrozenStep step = flat_step();
+  step.guess = cold_guess(step.problem);
+  solve_to(state, step, 1e-4);
+}
+BENCHMARK(cold_to_1e4)->ArgName("threads")->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kMillisecond);
+
+void warm_to_1e6(benchmark::State& state) { solve_to(state, tilting_step(), 1e-6); }
+BENCHMARK(warm_to_1e6)->ArgName("threads")->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kMillisecond);
+
+/// Steps of the bed at 10 deg as a run at rest takes them; mean wall time of each stage in ms.
+void steps_at_ten_degrees(benchmark::State& state) {
+  World world = bed(paper_grains, Slope::ten_degrees);
+  StepSettings settings = run_settings(time_step(Scenario{}));
+  settings.solver.tolerance = Scenario{}.solver.tolerance;
+  settings.solver.threads = static_cast<int>(state.range(0));
+  StepWorkspace workspace;
+  std::array<double, stage_count> seconds{};
+  double passes = 0.0;
+  for (auto _ : state) {
+    const StepReport report = step(world, settings, workspace);
+    world.tilt += radians(Scenario{}.tilt.step);
+    passes += report.solver.iterations;
+    for (std::size_t k = 0; k < stage_count; ++k) seconds[k] += report.seconds[k];
+  }
+  const auto steps = static_cast<double>(state.iterations());
+  for (std::size_t k = 0; k < stage_count; ++k)
+    state.counters[std::string(stage_names[k]) + "_ms"] = 1e3 * seconds[k] / steps;
+  state.counters["passes"] = passes / steps;
+  state.counters["contacts"] = world.contacts.count();
+}
+BENCHMARK(steps_at_ten_degrees)
+    ->ArgName("threads")
+    ->Arg(1)
+    ->Arg(2)
+    ->Iterations(200)
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace talus::bench
