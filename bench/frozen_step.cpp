@@ -25,11 +25,9 @@ double mean_mass(const ContactProblem& problem) {
 }  // namespace
 
 StepSettings run_settings(double h, Candidates candidates) {
-  const Scenario scenario;
-  StepSettings settings;
+  StepSettings settings = step_settings(Scenario{});
   settings.h = h;
-  settings.margin = (candidates == Candidates::close ? 2e-4 : 2e-2) * scenario.grains.mean_diameter;
-  settings.law = contact_law(scenario);
+  if (candidates == Candidates::close) settings.margin = 2e-4 * Scenario{}.grains.mean_diameter;
   return settings;
 }
 

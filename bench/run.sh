@@ -104,7 +104,7 @@ siconos_dense() {
 paper() {
   {
     heading "The paper's run" "bench/run_paper.py $build/talus"
-    /usr/bin/env python3 bench/run_paper.py "$build/talus"
+    /usr/bin/python3 bench/run_paper.py "$build/talus"
   } >"$results/paper.md.part"
   keep paper.md
 }

@@ -84,7 +84,6 @@ BENCHMARK(warm_to_1e6)->ArgName("threads")->Arg(1)->Arg(2)->UseRealTime()->Unit(
 void steps_at_ten_degrees(benchmark::State& state) {
   World world = bed(paper_grains, Slope::ten_degrees);
   StepSettings settings = run_settings(time_step(Scenario{}));
-  settings.solver.tolerance = Scenario{}.solver.tolerance;
   settings.solver.threads = static_cast<int>(state.range(0));
   StepWorkspace workspace;
   std::array<double, stage_count> seconds{};

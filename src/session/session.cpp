@@ -47,6 +47,20 @@ ContactLawParameters contact_law(const Scenario& scenario) {
   return law;
 }
 
+StepSettings step_settings(const Scenario& scenario) {
+  // Beside what the velocities may close, which the step adds: room for what they become in the step.
+  constexpr double margin_over_d = 0.002;
+  StepSettings settings;
+  settings.h = time_step(scenario);
+  settings.margin = margin_over_d * scenario.grains.mean_diameter;
+  settings.law = contact_law(scenario);
+  settings.solver.kind = scenario.solver.method == SolverMethod::accelerated ? SolverKind::accelerated
+                                                                             : SolverKind::gauss_seidel;
+  settings.solver.tolerance = scenario.solver.tolerance;
+  settings.solver.max_iterations = scenario.solver.max_iterations;
+  return settings;
+}
+
 RunStatics run_statics(const Scenario& scenario, const World& world) {
   RunStatics statics;
   statics.free_count = world.grains.free_count;
@@ -64,19 +78,13 @@ RunStatics run_statics(const Scenario& scenario, const World& world) {
 Session::Session(const Scenario& scenario) : scenario_(scenario), world_(loose_bed(scenario)) {}
 
 StepSettings Session::settings() const {
-  StepSettings settings;
-  settings.h = time_step(scenario_);
-  settings.margin = 0.02 * scenario_.grains.mean_diameter;
-  settings.law = contact_law(scenario_);
+  StepSettings settings = step_settings(scenario_);
   if (phase_ == Phase::deposition)
     settings.law.friction = settings.law.wall_friction = scenario_.deposition.friction;
-  settings.solver.kind = scenario_.solver.method == SolverMethod::accelerated ? SolverKind::accelerated
-                                                                              : SolverKind::gauss_seidel;
   const double velocity = rms_velocity(world_.grains) / (world_.gravity * settings.h);
   settings.solver.tolerance = std::clamp(velocity * scenario_.solver.moving_tolerance,
                                          scenario_.solver.tolerance, scenario_.solver.moving_tolerance);
   settings.solver.threads = threads_;
-  settings.solver.max_iterations = scenario_.solver.max_iterations;
   return settings;
 }
 

@@ -91,6 +91,9 @@ class Session {
 /// The contact law of a scenario, after deposition.
 ContactLawParameters contact_law(const Scenario& scenario);
 
+/// A step of the tilt of a bed at rest, on one thread.
+StepSettings step_settings(const Scenario& scenario);
+
 /// What does not change during the run.
 RunStatics run_statics(const Scenario& scenario, const World& world);
 

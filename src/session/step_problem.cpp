@@ -23,14 +23,6 @@ Contacts memory_of(const FrameContacts& from) {
   return contacts;
 }
 
-StepSettings step_settings(const Scenario& scenario) {
-  StepSettings settings;
-  settings.h = time_step(scenario);
-  settings.margin = 0.02 * scenario.grains.mean_diameter;
-  settings.law = contact_law(scenario);
-  return settings;
-}
-
 /// Gap below which two bodies of a frame may touch: what rounding to single precision does to the distance of
 /// two points in the box.
 double gap_resolution(const World& world) {

@@ -116,12 +116,8 @@ TEST(StepProblem, of_the_last_frame_is_that_of_the_next_step) {
   const Scenario scenario = parse_scenario(tiny_bed, "tiny.toml");
   World world = run.checkpoint().world;
   world.tilt = step.scales.tilt;
-  StepSettings settings;
-  settings.h = time_step(scenario);
-  settings.margin = 0.02 * scenario.grains.mean_diameter;
-  settings.law = contact_law(scenario);
   StepWorkspace workspace;
-  form_problem(world, settings, workspace);
+  form_problem(world, step_settings(scenario), workspace);
   EXPECT_EQ(step.problem.a, workspace.problem.a);
   expect_same_bits(step.problem.vx, workspace.problem.vx);
   expect_same_bits(step.problem.cn, workspace.problem.cn);
