@@ -83,11 +83,23 @@ World bed_as_left(Index grains, Slope slope) {
   return tiled(bed_as_left(tile_grains, slope), grains / tile_grains);
 }
 
+/// A bed may be in the midst of a rearrangement when it reaches its angle.
+void hold_until_rest(World& world) {
+  constexpr int quiet_steps = 50;
+  StepSettings settings = step_settings(Scenario{});
+  StepWorkspace workspace;
+  const double rest = Scenario{}.deposition.rest_velocity * world.gravity * settings.h;
+  for (int quiet = 0; quiet < quiet_steps;)
+    quiet = step(world, settings, workspace).rms_velocity < rest ? quiet + 1 : 0;
+}
+
 }  // namespace
 
 World bed(Index grains, Slope slope) {
   World world = bed_as_left(grains, slope);
-  if (slope == Slope::ten_degrees) world.tilt += radians(Scenario{}.tilt.step);
+  if (slope == Slope::flat) return world;
+  hold_until_rest(world);
+  world.tilt += radians(Scenario{}.tilt.step);
   return world;
 }
 
