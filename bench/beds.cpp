@@ -84,9 +84,10 @@ World bed_as_left(Index grains, Slope slope) {
 }
 
 /// A bed may be in the midst of a rearrangement when it reaches its angle.
-void hold_until_rest(World& world) {
+void hold_until_rest(World& world, double h) {
   constexpr int quiet_steps = 50;
   StepSettings settings = step_settings(Scenario{});
+  settings.h = h;
   StepWorkspace workspace;
   const double rest = Scenario{}.deposition.rest_velocity * world.gravity * settings.h;
   for (int quiet = 0; quiet < quiet_steps;)
@@ -95,10 +96,10 @@ void hold_until_rest(World& world) {
 
 }  // namespace
 
-World bed(Index grains, Slope slope) {
+World bed(Index grains, Slope slope, double h) {
   World world = bed_as_left(grains, slope);
   if (slope == Slope::flat) return world;
-  hold_until_rest(world);
+  hold_until_rest(world, h);
   world.tilt += radians(Scenario{}.tilt.step);
   return world;
 }

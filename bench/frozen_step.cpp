@@ -37,9 +37,11 @@ FrozenStep next_step(World world, double h, Candidates candidates) {
   return {std::move(workspace.problem), std::move(workspace.solution), world.gravity * h};
 }
 
+double seconds_of(double dt) { return dt * std::sqrt(Scenario{}.grains.mean_diameter / World{}.gravity); }
+
 FrozenStep dimensionless_next_step(const World& world, double dt, Candidates candidates) {
   const double length = Scenario{}.grains.mean_diameter;
-  const double time = std::sqrt(length / world.gravity);
+  const double time = seconds_of(1.0);
   FrozenStep step = next_step(world, dt * time, candidates);
   const double mass = mean_mass(step.problem);
   const double velocity = length / time;

@@ -27,6 +27,9 @@ StepSettings run_settings(double h, Candidates candidates = Candidates::of_a_run
 /// In SI units.
 FrozenStep next_step(World world, double h, Candidates candidates = Candidates::of_a_run);
 
+/// dt sqrt(D / g), s.
+double seconds_of(double dt);
+
 /// The step of length `dt` sqrt(D / g) with D, the mean mass m of the grains that move, and g as units.
 FrozenStep dimensionless_next_step(const World& world, double dt, Candidates candidates);
 

@@ -75,8 +75,8 @@ double eta_of_guess(FrozenStep step) {
 
 void print_row(Index grains) {
   const double bare_program = process_bytes("VmRSS");
-  const double peak = peak_of_steps(bed(grains, Slope::flat), bare_program);
-  const FrozenStep step = next_step(bed(grains, Slope::flat), time_step(Scenario{}));
+  const double peak = peak_of_steps(bed(grains, Slope::flat, time_step(Scenario{})), bare_program);
+  const FrozenStep step = next_step(bed(grains, Slope::flat, time_step(Scenario{})), time_step(Scenario{}));
   const double contacts = step.problem.contact_count();
   const std::array<double, 2> seconds = pass_seconds(step);
   std::printf("| %d | %.0f | %.2f | %.2f | %.2f | %.2f | %.0f | %.3e |\n", grains, contacts,

@@ -239,9 +239,11 @@ void print_header() {
 }
 
 void run_case(Index grains, const Case& of, bool si, const Limits& limits) {
-  const World world = bed(grains, of.slope);
-  FrozenStep step = si ? next_step(world, time_step(Scenario{}), Candidates::close)
-                       : dimensionless_next_step(world, 5e-3, Candidates::close);
+  constexpr double dt = 5e-3;
+  const double h = si ? time_step(Scenario{}) : seconds_of(dt);
+  const World world = bed(grains, of.slope, h);
+  FrozenStep step =
+      si ? next_step(world, h, Candidates::close) : dimensionless_next_step(world, dt, Candidates::close);
   if (!of.warm) step.guess = cold_guess(step.problem);
   Match match(std::move(step));
   const double eta = eta_for_error(match, of.tolerance);

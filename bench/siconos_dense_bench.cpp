@@ -35,7 +35,8 @@ int run(int argc, char** argv) {
   app.add_option("--tolerance", tolerance, "Siconos's error asked for")->capture_default_str();
   CLI11_PARSE(app, argc, argv)
 
-  const FrozenStep step = dimensionless_next_step(bed(grains, Slope::flat), 5e-3, Candidates::close);
+  const FrozenStep step =
+      dimensionless_next_step(bed(grains, Slope::flat, seconds_of(5e-3)), 5e-3, Candidates::close);
   const LocalProblem local = local_problem(step.problem);
   LocalSolution answer;
   answer.p.resize(local.mu.size());

@@ -12,9 +12,10 @@ namespace talus::bench {
 namespace {
 
 constexpr Index paper_grains = 8000;
+const double run_step = time_step(Scenario{});
 
-FrozenStep flat_step() { return next_step(bed(paper_grains, Slope::flat), time_step(Scenario{})); }
-FrozenStep tilting_step() { return next_step(bed(paper_grains, Slope::ten_degrees), time_step(Scenario{})); }
+FrozenStep flat_step() { return next_step(bed(paper_grains, Slope::flat, run_step), run_step); }
+FrozenStep tilting_step() { return next_step(bed(paper_grains, Slope::ten_degrees, run_step), run_step); }
 
 /// Wall time per contact and pass, printed with its prefix: 3n is 3 ns.
 benchmark::Counter time_per_contact_and_pass(const ContactProblem& problem, int passes) {
@@ -82,8 +83,8 @@ BENCHMARK(warm_to_1e6)->ArgName("threads")->Arg(1)->Arg(2)->UseRealTime()->Unit(
 
 /// Steps of the bed at 10 deg as a run at rest takes them; mean wall time of each stage in ms.
 void steps_at_ten_degrees(benchmark::State& state) {
-  World world = bed(paper_grains, Slope::ten_degrees);
-  StepSettings settings = run_settings(time_step(Scenario{}));
+  World world = bed(paper_grains, Slope::ten_degrees, run_step);
+  StepSettings settings = run_settings(run_step);
   settings.solver.threads = static_cast<int>(state.range(0));
   StepWorkspace workspace;
   std::array<double, stage_count> seconds{};
