@@ -73,16 +73,6 @@ Checkpoint deposited(Index grains, const Scenario& scenario, Slope slope) {
   return RunFile::open(path).checkpoint();
 }
 
-World bed_as_left(Index grains, Slope slope) {
-  if (const std::optional<Scenario> scenario = scenario_of(grains))
-    return deposited(grains, *scenario, slope).world;
-  if (grains <= 0 || grains % tile_grains != 0)
-    throw Error(ExitCode::usage, "no bed of " + std::to_string(grains) +
-                                     " grains: expected 500, 2000 or a multiple of " +
-                                     std::to_string(tile_grains));
-  return tiled(bed_as_left(tile_grains, slope), grains / tile_grains);
-}
-
 /// A bed may be in the midst of a rearrangement when it reaches its angle.
 void hold_until_rest(World& world, double h) {
   constexpr int quiet_steps = 50;
@@ -94,13 +84,24 @@ void hold_until_rest(World& world, double h) {
     quiet = step(world, settings, workspace).rms_velocity < rest ? quiet + 1 : 0;
 }
 
+World bed_at_rest(Index grains, Slope slope, double h) {
+  if (const std::optional<Scenario> scenario = scenario_of(grains)) {
+    World world = deposited(grains, *scenario, slope).world;
+    if (slope == Slope::ten_degrees) hold_until_rest(world, h);
+    return world;
+  }
+  if (grains <= 0 || grains % tile_grains != 0)
+    throw Error(ExitCode::usage, "no bed of " + std::to_string(grains) +
+                                     " grains: expected 500, 2000 or a multiple of " +
+                                     std::to_string(tile_grains));
+  return tiled(bed_at_rest(tile_grains, slope, h), grains / tile_grains);
+}
+
 }  // namespace
 
 World bed(Index grains, Slope slope, double h) {
-  World world = bed_as_left(grains, slope);
-  if (slope == Slope::flat) return world;
-  hold_until_rest(world, h);
-  world.tilt += radians(Scenario{}.tilt.step);
+  World world = bed_at_rest(grains, slope, h);
+  if (slope == Slope::ten_degrees) world.tilt += radians(Scenario{}.tilt.step);
   return world;
 }
 
