@@ -73,15 +73,18 @@ Checkpoint deposited(Index grains, const Scenario& scenario, Slope slope) {
   return RunFile::open(path).checkpoint();
 }
 
-/// A bed may be in the midst of a rearrangement when it reaches its angle.
+/// A bed may be in the midst of a rearrangement when it reaches its angle: it rests with the step of a run,
+/// and takes some steps of length h more.
 void hold_until_rest(World& world, double h) {
   constexpr int quiet_steps = 50;
+  constexpr int steps_of_h = 300;
   StepSettings settings = step_settings(Scenario{});
-  settings.h = h;
   StepWorkspace workspace;
   const double rest = Scenario{}.deposition.rest_velocity * world.gravity * settings.h;
   for (int quiet = 0; quiet < quiet_steps;)
     quiet = step(world, settings, workspace).rms_velocity < rest ? quiet + 1 : 0;
+  settings.h = h;
+  for (int k = 0; k < steps_of_h; ++k) step(world, settings, workspace);
 }
 
 World bed_at_rest(Index grains, Slope slope, double h) {

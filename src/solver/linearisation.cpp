@@ -187,9 +187,8 @@ void prepare(const ContactProblem& problem, const ContactSolution& guess, Linear
 void load_contacts(const ContactProblem& problem, Index first_block, Index last_block, Linearisation& w) {
   const std::size_t last = block_begin(problem, last_block);
   for (std::size_t c = block_begin(problem, first_block); c < last; ++c) load_contact(problem, c, w);
-  for (auto g = static_cast<std::size_t>(first_block * groups_per_block);
-       g < std::min(w.contacts.size(), static_cast<std::size_t>(last_block * groups_per_block)); ++g)
-    w.increment[g] = w.ahead[g] = {};
+  const Index groups = std::min(static_cast<Index>(w.contacts.size()), last_block * groups_per_block);
+  for (Index g = first_block * groups_per_block; g < groups; ++g) w.increment[g] = w.ahead[g] = {};
 }
 
 void absorb_increments(const ContactProblem& problem, Index first_block, Index last_block, Linearisation& w) {
