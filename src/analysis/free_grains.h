@@ -1,0 +1,25 @@
+#pragma once
+/// What the analysis of a frame needs of it again and again. Free grains have the ids 0 ... free_count - 1.
+
+#include <vector>
+
+#include "core/snapshot.h"
+
+namespace talus {
+
+/// Values of the free grains, of an array over all grains.
+inline std::vector<double> of_free_grains(const std::vector<double>& values, const RunStatics& statics) {
+  return {values.begin(), values.begin() + statics.free_count};
+}
+
+/// Period along x, m; 0 where the bed is not periodic.
+inline double period_of(const RunStatics& statics) { return statics.periodic ? statics.length : 0.0; }
+
+inline void add_to(Tensor2& sum, const Tensor2& term) {
+  sum.xx += term.xx;
+  sum.xy += term.xy;
+  sum.yx += term.yx;
+  sum.yy += term.yy;
+}
+
+}  // namespace talus

@@ -1,0 +1,60 @@
+#include "analysis/packing.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/free_grains.h"
+#include "stress/bed.h"
+#include "stress/internal_moment.h"
+
+namespace talus {
+namespace {
+
+Tensor2 over(const Tensor2& moment, double volume) {
+  return {moment.xx / volume, moment.xy / volume, moment.yx / volume, moment.yy / volume};
+}
+
+}  // namespace
+
+double frame_volume(const Frame& frame, const RunStatics& statics) {
+  constexpr double samples_per_diameter = 10.0;
+  Grains grains;
+  grains.free_count = statics.free_count;
+  grains.x = frame.x;
+  grains.y = frame.y;
+  grains.radius = statics.radius;
+  Boundary boundary;
+  boundary.periodic = statics.periodic;
+  boundary.length = statics.length;
+  return bed_volume(grains, boundary, statics.mean_diameter / samples_per_diameter);
+}
+
+PackingStress packing_stress(const Frame& frame, const RunStatics& statics, double volume) {
+  PackingStress stress;
+  stress.sigma = over(sum_of_moments(frame.internal_moment, 0, statics.free_count), volume);
+  stress.state = stress_state(stress.sigma);
+  stress.normal = stress.sigma.yy;
+  stress.shear = -stress.sigma.yx;
+  stress.shear_over_normal = stress.shear / stress.normal;
+  return stress;
+}
+
+std::vector<Tensor2> section_stresses(const Frame& frame, const RunStatics& statics, double volume,
+                                      int count) {
+  std::vector<Tensor2> sections(static_cast<std::size_t>(count));
+  for (Index i = 0; i < statics.free_count; ++i) {
+    // Rounding may put a centre at the very end.
+    const auto section = static_cast<int>(std::floor(frame.x[i] / statics.length * count));
+    add_to(sections[static_cast<std::size_t>(std::clamp(section, 0, count - 1))], frame.internal_moment[i]);
+  }
+  for (Tensor2& section : sections) section = over(section, volume / count);
+  return sections;
+}
+
+Histogram stress_ratio_distribution(const Frame& frame, const RunStatics& statics, int bins) {
+  Histogram histogram(0.0, 1.0, bins);
+  for (double gamma : of_free_grains(frame.gamma, statics)) histogram.add(gamma);
+  return histogram;
+}
+
+}  // namespace talus

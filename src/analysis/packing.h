@@ -1,0 +1,38 @@
+#pragma once
+/// Stress of the packing as a whole, of sections along it, and of its grains.
+
+#include <vector>
+
+#include "analysis/histogram.h"
+#include "core/snapshot.h"
+#include "stress/stress_state.h"
+
+namespace talus {
+
+/// sigma = sum of the internal moments of the free grains / V (paper, Eqs. 1 and 6), Pa; compression is
+/// positive, y points away from the floor.
+struct PackingStress {
+  Tensor2 sigma;
+  StressState state;               ///< Gamma is state.ratio
+  double normal = 0.0;             ///< sigma_N = sigma_yy
+  double shear = 0.0;              ///< sigma_T = -sigma_yx, positive where gravity pulls towards +x
+  double shear_over_normal = 0.0;  ///< sigma_T / sigma_N; NaN where nothing is carried
+};
+
+/// Area V below the free surface and above the tops of the floor grains, m^2: bed_volume of stress/bed.h,
+/// sampled every 0.1 mean diameters.
+double frame_volume(const Frame& frame, const RunStatics& statics);
+
+/// `volume` in m^2.
+PackingStress packing_stress(const Frame& frame, const RunStatics& statics, double volume);
+
+/// Stress of equal sections along the bed, Pa, the first from x = 0: the sum of the moments of the grains
+/// whose centre is in the section, over its area. The area is its width, length / count, times the mean depth
+/// of the bed, volume / length. Paper, Fig. 6.
+std::vector<Tensor2> section_stresses(const Frame& frame, const RunStatics& statics, double volume,
+                                      int count);
+
+/// Stress ratios gamma of the free grains that carry something, in equal bins over [0, 1]. Paper, Fig. 8.
+Histogram stress_ratio_distribution(const Frame& frame, const RunStatics& statics, int bins);
+
+}  // namespace talus

@@ -1,0 +1,136 @@
+#include "analysis/contact_network.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "stress/internal_moment.h"
+#include "stress/stress_state.h"
+#include "unit/analysis/packings.h"
+
+namespace talus {
+namespace {
+
+using test::Packing;
+
+/// A triangle on the floor, with a chain of two grains that hangs at it and a grain without contacts.
+Packing triangle_with_chain() {
+  Packing packing = test::empty_packing(10.0, false);
+  const Index left = test::add_grain(packing, 2.0, 0.5);
+  const Index right = test::add_grain(packing, 3.0, 0.5);
+  const Index top = test::add_grain(packing, 2.5, 0.5 + std::sqrt(0.75));
+  const Index link = test::add_grain(packing, 3.5, 0.5 + std::sqrt(0.75));
+  const Index end = test::add_grain(packing, 4.5, 0.5 + std::sqrt(0.75));
+  test::add_grain(packing, 8.0, 0.5);
+  const Index floor = test::add_floor_grain(packing, 2.0, -0.5);
+  test::add_contact(packing, left, right, 1.0);
+  test::add_contact(packing, left, top, 1.0);
+  test::add_contact(packing, right, top, 1.0);
+  test::add_contact(packing, top, link, 1.0);
+  test::add_contact(packing, link, end, 1.0);
+  test::add_contact(packing, left, floor, 1.0);
+  return packing;
+}
+
+TEST(Coordination, counts_ends_at_free_grains) {
+  const Packing packing = triangle_with_chain();
+  const Coordination z = coordination(packing.frame, packing.statics);
+  EXPECT_EQ(z.carrying, 11.0 / 5.0);
+  EXPECT_EQ(z.all, 11.0 / 6.0);
+}
+
+// The end of the chain has one contact; without it the link has one. The triangle keeps 3 * 2 + 1 ends.
+TEST(Coordination, without_rattlers_takes_them_away_again_and_again) {
+  const Packing packing = triangle_with_chain();
+  const Coordination z = coordination(packing.frame, packing.statics);
+  EXPECT_EQ(z.without_rattlers, 7.0 / 3.0);
+  EXPECT_EQ(z.rattler_fraction, 3.0 / 6.0);
+}
+
+TEST(NormalForces, over_their_mean) {
+  Packing packing = triangle_with_chain();
+  packing.frame.contacts.fn = {1.0, 1.0, 2.0, 2.0, 2.0, 4.0};  // mean 2
+  const Histogram histogram = normal_forces(packing.frame, Histogram({0.0, 0.75, 1.5, 2.5}));
+  EXPECT_EQ(histogram.weight, (std::vector<double>{2.0, 3.0, 1.0}));
+}
+
+TEST(MobilisedFriction, is_one_where_contacts_slide) {
+  Packing packing = triangle_with_chain();
+  packing.frame.contacts.ft = {0.0, 0.125, -0.125, 0.5, -0.5 * (1.0 + 1e-9), 0.3};
+  const Histogram histogram = mobilised_friction(packing.frame, packing.statics, 4);
+  EXPECT_EQ(histogram.weight, (std::vector<double>{1.0, 2.0, 1.0, 2.0}));
+  EXPECT_EQ(histogram.outside, 0.0);
+}
+
+/// A cross of grains around one: strong contacts along y, weak ones along x.
+Packing cross(double strong, double weak) {
+  Packing packing = test::empty_packing(10.0, false);
+  test::add_grain(packing, 5.0, 5.0);
+  test::add_grain(packing, 6.0, 5.0);
+  test::add_grain(packing, 4.0, 5.0);
+  test::add_grain(packing, 5.0, 6.0);
+  test::add_grain(packing, 5.0, 4.0);
+  for (Index i : {1, 2}) test::add_contact(packing, 0, i, weak);
+  for (Index i : {3, 4}) test::add_contact(packing, 0, i, strong);
+  return packing;
+}
+
+// Moments: strong 2 fn along y, weak 2 fn along x. Q of the whole 2 (3 - 1): strong 3/2 of it, weak -1/2.
+TEST(Networks, share_the_stress) {
+  const Packing packing = cross(3.0, 1.0);
+  const Networks result = networks(packing.frame, packing.statics);
+  EXPECT_EQ(result.mean_normal_force, 2.0);
+  EXPECT_EQ(result.strong_share, 0.5);
+  EXPECT_EQ(result.strong_share_of_mean, 0.75);
+  EXPECT_EQ(result.strong_share_of_deviator, 1.5);
+  EXPECT_EQ(result.strong_ratio, 1.0);
+  EXPECT_EQ(result.weak_ratio, 1.0);
+}
+
+TEST(Networks, have_together_the_moments_of_the_grains) {
+  Packing packing = triangle_with_chain();
+  packing.frame.contacts.fn = {1.0, 1.5, 2.5, 2.0, 2.0, 4.0};
+  packing.frame.contacts.ft = {0.1, -0.2, 0.3, 0.0, 0.5, -0.5};
+  test::moments_from_contacts(packing);
+  const Tensor2 whole = sum_of_moments(packing.frame.internal_moment, 0, packing.statics.free_count);
+  // With all contacts strong but one, its share is known from the whole.
+  const Networks result = networks(packing.frame, packing.statics);
+  double strong_trace = 0.0;
+  for (Index c : {2, 5}) strong_trace += packing.frame.contacts.fn[c] * (c == 5 ? 0.5 : 1.0);
+  EXPECT_NEAR(result.strong_share_of_mean, strong_trace / (whole.xx + whole.yy), 1e-12);
+}
+
+// In the frame of a contact its moment is (fn, ft; 0, 0) times the branch: P = fn, Q = sqrt(fn^2 + ft^2).
+TEST(Networks, count_friction) {
+  Packing packing = triangle_with_chain();
+  packing.frame.contacts.fn = {1.0, 1.0, 9.0, 1.0, 1.0, 1.0};  // the strong one is 120 deg to the bed
+  packing.frame.contacts.ft = {0.0, 0.0, 4.5, 0.0, 0.0, 0.0};
+  EXPECT_NEAR(networks(packing.frame, packing.statics).strong_ratio, std::sqrt(1.25), 1e-12);
+}
+
+TEST(CriticalContacts, are_joined_where_they_share_a_grain) {
+  Packing packing = triangle_with_chain();
+  for (Index c : {0, 4, 5}) packing.frame.contacts.status[c] = ContactStatus::sliding;
+  const CriticalContacts critical = critical_contacts(packing.frame, packing.statics);
+  EXPECT_EQ(critical.share, 0.5);
+  // left-right and left-floor hang together at the left grain; link-end is alone. Both are pairs at
+  // distance 1.
+  EXPECT_EQ(critical.largest_cluster, 2);
+  EXPECT_NEAR(critical.correlation_length, 1.0 / std::sqrt(2.0), 1e-12);
+  // Neighbours that share no contact do not join: the top grain touches both, with contacts that stick.
+  packing.frame.contacts.status[3] = ContactStatus::sliding;
+  EXPECT_EQ(critical_contacts(packing.frame, packing.statics).largest_cluster, 2);
+  packing.frame.contacts.status[1] = ContactStatus::sliding;
+  EXPECT_EQ(critical_contacts(packing.frame, packing.statics).largest_cluster, 5);
+}
+
+TEST(CriticalContacts, of_a_frame_where_nothing_slides) {
+  const Packing packing = triangle_with_chain();
+  const CriticalContacts critical = critical_contacts(packing.frame, packing.statics);
+  EXPECT_EQ(critical.share, 0.0);
+  EXPECT_EQ(critical.largest_cluster, 0);
+  EXPECT_TRUE(std::isnan(critical.correlation_length));
+}
+
+}  // namespace
+}  // namespace talus
