@@ -9,6 +9,7 @@ namespace talus {
 void add_run_command(CLI::App& app);
 void add_check_command(CLI::App& app);
 void add_info_command(CLI::App& app);
+void add_analyze_command(CLI::App& app);
 void add_render_command(CLI::App& app);
 void add_animate_command(CLI::App& app);
 void add_dump_command(CLI::App& app);

@@ -30,6 +30,7 @@ int main(int argc, char** argv) {
     talus::add_run_command(app);
     talus::add_check_command(app);
     talus::add_info_command(app);
+    talus::add_analyze_command(app);
     talus::add_render_command(app);
     talus::add_animate_command(app);
     talus::add_dump_command(app);

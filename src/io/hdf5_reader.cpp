@@ -137,6 +137,10 @@ std::string Reader::read_text(const std::string& path) {
   return text.substr(0, text.find('\0'));
 }
 
+bool Reader::has(const std::string& path) const {
+  return H5Lexists(file_.get(), path.c_str(), H5P_DEFAULT) > 0;
+}
+
 std::uint64_t Reader::row_count(const std::string& path) {
   const DataSet set = open(path);
   return set.dims.empty() ? 1 : set.dims[0];

@@ -39,6 +39,8 @@ class Reader {
   }
   std::string read_text(const std::string& path);
 
+  /// Whether there is a data set or a group of that path, in a group that there is.
+  bool has(const std::string& path) const;
   /// The first dimension; 1 for a scalar.
   std::uint64_t row_count(const std::string& path);
   /// Names of the data sets in a group, in the order in which they were written.

@@ -61,7 +61,7 @@ std::vector<hsize_t> chunk_of(const DataSetField& field, const std::vector<hsize
   if (dims.empty() || std::ranges::count(dims, 0u) > 0) return {};
   std::vector<hsize_t> chunk = dims;
   const char symbol = extents(field).front().symbol;
-  if (symbol == 'T' && dims.size() > 1)
+  if (symbol == 'T' && field.shape.find('N') != std::string::npos)
     chunk[0] = 1;
   else if (symbol == 'M')
     chunk[0] = (dims[0] + sizes.at('T') - 1) / sizes.at('T');  // about one frame
@@ -111,18 +111,24 @@ Writer::Writer(Sizes sizes, std::size_t user_block) : sizes_(std::move(sizes)), 
              H5Fclose);
 }
 
-std::vector<hsize_t> Writer::dims_of(const DataSetField& field) const {
-  std::vector<hsize_t> dims;
-  for (const Extent& extent : extents(field))
-    dims.push_back((extent.symbol != '\0' ? sizes_.at(extent.symbol) : 0) + extent.plus);
-  return dims;
+Writer::Writer(Sizes sizes, std::size_t user_block, const std::vector<std::byte>& image)
+    : sizes_(std::move(sizes)), user_block_(user_block) {
+  set_library_policy();
+  const Handle access = properties(H5P_FILE_ACCESS);
+  checked(H5Pset_fapl_core(access.get(), growth, false), "choose memory");
+  // HDF5 copies the image and never writes to the buffer it is given.
+  void* bytes = const_cast<std::byte*>(image.data());
+  checked(H5Pset_file_image(access.get(), bytes, image.size()), "take a file");
+  file_ = Handle(checked(H5Fopen(memory_name("extended").c_str(), H5F_ACC_RDWR, access.get()), "open a file"),
+                 H5Fclose);
 }
 
 void Writer::create(const std::string& path) {
   const DataSetField& field = field_of(path);
   create_group(parent_of(path));
   DataSet set;
-  set.dims = dims_of(field);
+  const std::vector<std::uint64_t> shape = dimensions(field, sizes_);
+  set.dims.assign(shape.begin(), shape.end());
   const std::vector<hsize_t> chunk = chunk_of(field, set.dims, sizes_);
   const Handle space = space_of(set.dims);
   const Handle creation = creation_properties(field.type, chunk);

@@ -19,6 +19,8 @@ class Writer {
   /// `sizes` gives the letters of the shapes. `user_block` bytes (0, or a power of two from 512) are kept
   /// free at the start of the image.
   explicit Writer(Sizes sizes, std::size_t user_block = 0);
+  /// Goes on with a file built before: `image` begins with `user_block` bytes of any content.
+  Writer(Sizes sizes, std::size_t user_block, const std::vector<std::byte>& image);
 
   /// Creates a data set with its unit, filled with NaN where it holds floats.
   void create(const std::string& path);
@@ -67,7 +69,6 @@ class Writer {
     Handle id;
     std::vector<hsize_t> dims;
   };
-  std::vector<hsize_t> dims_of(const DataSetField& field) const;
   void put_text(const std::string& path, const std::string& text, const std::string& unit);
   void write_block(const std::string& path, std::uint64_t first_row, std::size_t count, hid_t type,
                    const void* data);

@@ -4,6 +4,7 @@
 
 #include "core/errors.h"
 #include "core/observables.h"
+#include "io/analysis_schema.h"
 
 namespace talus {
 namespace {
@@ -163,10 +164,11 @@ const std::vector<DataSetField>& run_schema() {
 const DataSetField& field_of(const std::string& path) {
   const std::string family = path.substr(0, path.rfind('/')) + "/*";
   const DataSetField* found = nullptr;
-  for (const DataSetField& field : run_schema()) {
-    if (field.path == path) return field;
-    if (field.path == family) found = &field;
-  }
+  const auto look_at = [&](const DataSetField& field) {
+    if (field.path == path || (field.path == family && found == nullptr)) found = &field;
+  };
+  for (const DataSetField& field : run_schema()) look_at(field);
+  for (const AnalysisField& field : analysis_schema()) look_at(field.data_set);
   if (found == nullptr) throw Error(ExitCode::internal, "the schema of run files has no data set " + path);
   return *found;
 }
@@ -184,6 +186,13 @@ std::vector<Extent> extents(const DataSetField& field) {
     shape.push_back(extent);
   }
   return shape;
+}
+
+std::vector<std::uint64_t> dimensions(const DataSetField& field, const Sizes& sizes) {
+  std::vector<std::uint64_t> dims;
+  for (const Extent& extent : extents(field))
+    dims.push_back((extent.symbol != '\0' ? sizes.at(extent.symbol) : 0) + extent.plus);
+  return dims;
 }
 
 }  // namespace talus

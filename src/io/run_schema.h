@@ -26,7 +26,7 @@ struct DataSetField {
 
 const std::vector<DataSetField>& run_schema();
 
-/// The row of a data set. Throws Error(internal) where the table has none.
+/// The row of a data set, of a run or of its analysis. Throws Error(internal) where no table has it.
 const DataSetField& field_of(const std::string& path);
 
 /// One dimension of a shape: the size of its letter (0 without one) plus a number.
@@ -38,5 +38,8 @@ std::vector<Extent> extents(const DataSetField& field);
 
 /// Values of the letters of the shapes.
 using Sizes = std::map<char, std::uint64_t>;
+
+/// The shape of a data set in numbers; empty for a scalar.
+std::vector<std::uint64_t> dimensions(const DataSetField& field, const Sizes& sizes);
 
 }  // namespace talus

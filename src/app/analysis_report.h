@@ -1,0 +1,29 @@
+#pragma once
+/// The analysis of a run as text.
+
+#include <string>
+#include <vector>
+
+#include "core/snapshot.h"
+#include "io/analysis_record.h"
+
+namespace talus {
+
+/// What a report needs beside the analysis.
+struct AnalysedRun {
+  std::string path;
+  std::string state;  ///< "stored", "read from the file", "not stored: ..."
+  RunStatics statics;
+  std::vector<double> tilts;  ///< rad, of the frames
+  Analysis analysis;
+};
+
+/// Two tables: series at about ten angles, thresholds side by side, and theta_d by each estimator. Lengths in
+/// mean diameters, angles in degrees.
+std::string analysis_text(const AnalysedRun& run);
+
+/// All scalars and series of analysis_schema() under their names, in SI units, but not the values of single
+/// grains; arrays in the shape of the table.
+std::string analysis_json(const AnalysedRun& run);
+
+}  // namespace talus

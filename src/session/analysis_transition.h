@@ -1,0 +1,40 @@
+#pragma once
+/// theta_d, the angle at which the packing begins to change as a whole, by three estimators. Plain series;
+/// angles in rad, ascending; NaN where there is no transition.
+
+#include <span>
+
+#include "core/types.h"
+
+namespace talus {
+
+/// Where the largest coarse-graining length jumps (paper, Fig. 12b).
+struct LengthJump {
+  double tilt = 0.0;   ///< of the frame after the largest increase between two frames up to theta_c
+  double error = 0.0;  ///< spacing of the two
+  double size = 0.0;   ///< of the increase, in the unit of `lengths`
+};
+/// theta_c NaN: all frames count. No jump where the length never increases.
+LengthJump length_jump(std::span<const double> tilts, std::span<const double> lengths, double theta_c);
+
+/// Where overloaded grains begin to percolate (paper, section V B).
+struct PercolationOnset {
+  double tilt = 0.0;   ///< of the first frame up to theta_c from which on a cluster spans, 3 frames at least
+  double error = 0.0;  ///< spacing from the frame before; NaN for the first frame: theta_d is not above it
+};
+/// `spans`: frame by frame, 0 or not.
+PercolationOnset percolation_onset(std::span<const double> tilts, std::span<const Index> spans,
+                                   double theta_c);
+
+/// Where contraction turns into dilation (paper, Fig. 14).
+struct DilationOnset {
+  double tilt = 0.0;  ///< of the smallest strain up to theta_c, in a mean over `window`
+  double low = 0.0;   ///< the range around it in which the mean is not above its minimum by more than the
+  double high = 0.0;  ///< noise, which is the rms deviation of the strain from the mean
+};
+/// The mean is over window/2 on either side, less near the ends, where it stays symmetric. No onset where the
+/// strain has not fallen by more than the noise before it, or not risen by more after it.
+DilationOnset dilation_onset(std::span<const double> tilts, std::span<const double> strains, double theta_c,
+                             double window);
+
+}  // namespace talus

@@ -1,0 +1,166 @@
+/// The analysis of a run in its file: what is stored is what is read, and the run beside it stays as it is.
+
+#include "io/analysis_file.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <cstring>
+#include <sstream>
+
+#include "core/errors.h"
+#include "core/hash.h"
+#include "io/durable_file.h"
+#include "io/hdf5_writer.h"
+#include "io/packed_file.h"
+#include "io/run_file.h"
+#include "unit/io/example_analysis.h"
+
+namespace talus {
+namespace {
+
+template <typename T>
+bool same_bits(const std::vector<T>& one, const std::vector<T>& other) {
+  return one.size() == other.size() && std::memcmp(one.data(), other.data(), one.size() * sizeof(T)) == 0;
+}
+
+void expect_same(const Analysis& read, const Analysis& written) {
+  EXPECT_EQ(read.key, written.key);
+  EXPECT_EQ(read.parameters, written.parameters);
+  EXPECT_EQ(read.sizes, written.sizes);
+  ASSERT_EQ(read.data_sets.size(), written.data_sets.size());
+  for (const auto& [name, array] : written.data_sets) {
+    const AnalysisValues& other = find_data_set(read, name);
+    const auto is_same = [&other](const auto& expected) {
+      return same_bits(std::get<std::decay_t<decltype(expected)>>(other), expected);
+    };
+    EXPECT_TRUE(std::visit(is_same, array)) << name;
+  }
+}
+
+class AnalysisFile : public testing::Test {
+ protected:
+  AnalysisFile() : path_(folder_.path("run.h5")) {
+    example::store_with_commits(path_, example::analysis_commits).pack();
+    original_ = example::file_text(path_);
+  }
+
+  example::TemporaryFolder folder_;
+  std::string path_;
+  std::string original_;
+  std::string state_ = example::analysed_state();
+};
+
+TEST_F(AnalysisFile, gives_back_what_was_stored) {
+  EXPECT_FALSE(read_analysis(path_).has_value());
+  store_analysis(path_, example::analysis(2, 1), state_);
+  expect_same(read_analysis(path_).value(), example::analysis(2, 1));
+}
+
+TEST_F(AnalysisFile, leaves_out_what_needs_a_threshold_where_there_is_none) {
+  store_analysis(path_, example::analysis(0, 1), state_);
+  const Analysis read = read_analysis(path_).value();
+  expect_same(read, example::analysis(0, 1));
+  EXPECT_FALSE(read.data_sets.contains("overloaded/fraction"));
+  EXPECT_TRUE(read.data_sets.contains("packing/stress"));
+}
+
+TEST_F(AnalysisFile, keeps_the_run_to_the_last_bit) {
+  store_analysis(path_, example::analysis(2, 1), state_);
+  const RunFile run = RunFile::open(path_);
+  const std::vector<std::byte> bare = packed_bytes(run);
+  ASSERT_EQ(bare.size(), original_.size());
+  EXPECT_EQ(std::memcmp(bare.data(), original_.data(), bare.size()), 0);
+}
+
+TEST_F(AnalysisFile, replaces_an_analysis_without_a_trace) {
+  store_analysis(path_, example::analysis(2, 1), state_);
+  const std::string once = example::file_text(path_);
+  store_analysis(path_, example::analysis(0, 5), state_);
+  store_analysis(path_, example::analysis(2, 1), state_);
+  EXPECT_TRUE(example::file_text(path_) == once);
+}
+
+/// The bytes of a run file with nothing in /analysis but another version.
+std::vector<std::byte> with_another_version(const std::string& path) {
+  hdf5::Writer writer({}, seal_size, read_file(path));
+  writer.write_scalar("/analysis/version", analysis_version - 1);
+  std::vector<std::byte> file = writer.image();
+  seal(file);
+  return file;
+}
+
+TEST_F(AnalysisFile, of_another_version_is_none) {
+  write_durably(path_, with_another_version(path_), path_ + ".tmp");
+  EXPECT_FALSE(read_analysis(path_).has_value());
+  store_analysis(path_, example::analysis(2, 1), state_);
+  expect_same(read_analysis(path_).value(), example::analysis(2, 1));
+}
+
+TEST_F(AnalysisFile, of_another_run_is_left_alone) {
+  try {
+    store_analysis(path_, example::analysis(2, 1), hash_text(1));
+    ADD_FAILURE() << "stored in the file of another run";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::cannot_create);
+    EXPECT_NE(std::string(error.what()).find(path_), std::string::npos);
+  }
+  EXPECT_TRUE(example::file_text(path_) == original_);
+}
+
+TEST_F(AnalysisFile, that_is_damaged_is_refused) {
+  store_analysis(path_, example::analysis(2, 1), state_);
+  const std::string good = example::file_text(path_);
+  for (std::size_t k = 0; k < 40; ++k) {
+    std::string flipped = good;
+    flipped[k * (good.size() - 1) / 39] ^= static_cast<char>(1 << (k % 8));
+    example::write_text(path_, flipped);
+    EXPECT_THROW(RunFile::open(path_), Error) << k;
+    EXPECT_THROW(read_analysis(path_), Error) << k;
+    EXPECT_THROW(store_analysis(path_, example::analysis(2, 1), state_), Error) << k;
+  }
+}
+
+TEST_F(AnalysisFile, tells_other_readers_what_it_holds) {
+  const std::string python = "/usr/bin/python3 ";
+  if (std::system((python + "-c 'import h5py' 2>/dev/null").c_str()) != 0) GTEST_SKIP() << "no python3-h5py";
+  store_analysis(path_, example::analysis(2, 1), state_);
+  const std::string script = std::string(TALUS_SOURCE_DIR) + "/tests/unit/io/check_analysis_with_h5py.py ";
+  EXPECT_EQ(std::system((python + script + path_).c_str()), 0) << "see the message above";
+}
+
+TEST(AnalysisRecord, has_rows_in_the_shape_of_the_table) {
+  Analysis analysis = example::analysis(2, 1);
+  const std::size_t grains = example::grain_count;
+  EXPECT_EQ(row<float>(analysis, "lc/length", 1).data(),
+            values<float>(analysis, "lc/length").data() + 2 * grains);
+  EXPECT_EQ(row<float>(analysis, "lc/length", 1).size(), 2 * grains);
+  EXPECT_EQ(row<double>(analysis, "packing/stress", 2).size(), 4u);
+  EXPECT_EQ(row<double>(analysis, "packing/volume", 2).size(), 1u);
+  EXPECT_THROW(find_data_set(analysis, "packing/colour"), Error);
+}
+
+std::string row_text(const DataSetField& field) {
+  std::ostringstream text;
+  text << "| `" << field.path << "` | " << type_name(field.type) << " | "
+       << (field.shape.empty() ? "-" : field.shape) << " | " << field.unit << " | " << field.help << " |\n";
+  return text.str();
+}
+
+TEST(AnalysisSchema, is_documented_as_it_is) {
+  std::string expected, found;
+  for (const AnalysisField& field : analysis_schema()) expected += row_text(field.data_set);
+  std::istringstream page(example::file_text(std::string(TALUS_SOURCE_DIR) + "/docs/analysis.md"));
+  for (std::string line; std::getline(page, line);)
+    if (line.starts_with("| `/analysis/")) found += line + "\n";
+  EXPECT_EQ(found, expected) << "the table of docs/analysis.md must be:\n" << expected;
+}
+
+TEST(AnalysisSchema, every_path_stands_once) {
+  std::map<std::string, int> times;
+  for (const AnalysisField& field : analysis_schema())
+    EXPECT_EQ(++times[field.data_set.path], 1) << field.data_set.path;
+}
+
+}  // namespace
+}  // namespace talus

@@ -1,0 +1,80 @@
+/// The parameters of an analysis: what is accepted, what is refused and how, and their table in the docs.
+
+#include "session/analysis_parameters.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "core/errors.h"
+
+namespace talus {
+namespace {
+
+std::string refusal(const std::vector<std::string>& settings) {
+  try {
+    parse_analysis_settings(settings);
+  } catch (const LocatedError& error) {
+    EXPECT_EQ(error.code(), ExitCode::bad_data);
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(AnalysisParameters, are_taken_from_settings) {
+  const AnalysisParameters p =
+      parse_analysis_settings({"threshold_factors=0.5,1,3", "gamma_c=0.3", "lc_cut=30", "joining=neighbours",
+                               "sections=7", "bins=10"});
+  EXPECT_EQ(p.threshold_factors, (std::vector{0.5, 1.0, 3.0}));
+  EXPECT_EQ(p.gamma_c, 0.3);
+  EXPECT_EQ(p.lc_cut, 30.0);
+  EXPECT_EQ(p.joining, Joining::neighbours);
+  EXPECT_EQ(p.sections, 7);
+  EXPECT_EQ(p.bins, 10);
+  EXPECT_EQ(as_facts(p), (Facts{{"threshold_factors", "0.5,1,3"},
+                                {"gamma_c", "0.3"},
+                                {"lc_cut", "30"},
+                                {"joining", "neighbours"},
+                                {"sections", "7"},
+                                {"bins", "10"}}));
+}
+
+TEST(AnalysisParameters, admit_their_defaults_as_text) {
+  std::vector<std::string> settings;
+  for (const auto& [name, value] : as_facts(AnalysisParameters{})) settings.push_back(name + "=" + value);
+  EXPECT_EQ(as_facts(parse_analysis_settings(settings)), as_facts(AnalysisParameters{}));
+  EXPECT_FALSE(parse_analysis_settings({"gamma_c=0.3", "gamma_c=run"}).gamma_c.has_value());
+}
+
+TEST(AnalysisParameters, out_of_range_are_refused) {
+  for (const char* setting :
+       {"threshold_factors=", "threshold_factors=2,1", "threshold_factors=1,1", "threshold_factors=1,,2",
+        "threshold_factors=1,2,3,4,5", "threshold_factors=0", "gamma_c=0", "gamma_c=1.5", "gamma_c=nan",
+        "gamma_c=sin", "lc_cut=-3", "lc_cut=30D", "lc_cut=inf", "joining=contact", "sections=0",
+        "sections=2.5", "bins=1001", "bins="})
+    EXPECT_NE(refusal({setting}).find(std::string("--set ") + setting + ": error: key '"), std::string::npos)
+        << refusal({setting});
+}
+
+TEST(AnalysisParameters, are_refused_all_at_once_and_say_what_was_expected) {
+  EXPECT_EQ(
+      refusal({"lc_cut=-3", "colour=red", "bins"}),
+      "--set lc_cut=-3: error: key 'lc_cut' = -3: expected a number in (0, 10000], or depth, in D\n"
+      "--set colour=red: error: unknown key 'colour'; expected one of threshold_factors, gamma_c, lc_cut, "
+      "joining, sections, bins\n"
+      "--set bins: error: expected key=value, such as --set lc_cut=30");
+}
+
+TEST(AnalysisParameters, are_documented_as_they_are) {
+  std::string expected, found;
+  for (const AnalysisKey& key : analysis_keys())
+    expected += "| `" + key.name + "` | " + (key.unit.empty() ? "-" : key.unit) + " | `" +
+                key.get(AnalysisParameters{}) + "` | " + key.range + " | " + key.help + " |\n";
+  std::ifstream page(std::string(TALUS_SOURCE_DIR) + "/docs/analysis.md");
+  for (std::string line; std::getline(page, line);)
+    if (line.starts_with("| `") && !line.starts_with("| `/")) found += line + "\n";
+  EXPECT_EQ(found, expected) << "the table of docs/analysis.md must be:\n" << expected;
+}
+
+}  // namespace
+}  // namespace talus

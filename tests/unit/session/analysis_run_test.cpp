@@ -1,0 +1,213 @@
+/// The analysis of a whole run: four grains in a column, made by hand.
+
+#include "session/analysis_run.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "core/errors.h"
+#include "core/trigonometry.h"
+#include "support/temporary_folder.h"
+
+namespace talus {
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+constexpr double diameter = 0.25;  // m, a number without rounding
+constexpr Index free_grains = 4;
+
+/// The column on its floor grain. Each grain carries 1 J across the bed; the one called `soft` (none for -1)
+/// carries half as much along the bed, so that its gamma is 1/3, and the others have 1.
+Frame column(double tilt, Index soft) {
+  Frame frame;
+  frame.tilt = radians(tilt);
+  for (Index i = 0; i <= free_grains; ++i) {
+    const bool floor = i == free_grains;
+    frame.x.push_back(0.5);
+    frame.y.push_back(floor ? -0.5 * diameter : (i + 0.5) * diameter);
+    frame.internal_moment.push_back({i == soft ? 0.5 : 0.0, 0.0, 0.0, floor ? 0.0 : 1.0});
+    frame.gamma.push_back(floor ? none : i == soft ? 1.0 / 3.0 : 1.0);
+  }
+  frame.angle = frame.vx = frame.vy = frame.omega = std::vector(frame.x.size(), 0.0);
+  frame.image.assign(frame.x.size(), 0);
+  FrameContacts& c = frame.contacts;
+  for (Index i = 0; i < free_grains; ++i) {  // with the floor, then each with the one above it
+    c.a.push_back(i == 0 ? 0 : i - 1);
+    c.b.push_back(i == 0 ? free_grains : i);
+    c.shift.push_back(0);
+    c.nx.push_back(0.0);
+    c.ny.push_back(i == 0 ? -1.0 : 1.0);
+    c.px.push_back(0.5);
+    c.py.push_back(i * diameter);
+    c.fn.push_back(free_grains - i);
+    c.ft.push_back(0.0);
+    c.status.push_back(ContactStatus::sticking);
+  }
+  return frame;
+}
+
+/// Frames of 1 deg, one for each entry of `soft`, and rows of observables of 0.5 deg.
+void write_run(const std::string& path, const std::vector<Index>& soft, double theta_c,
+               bool complete = true) {
+  RunHeader header;
+  header.statics.free_count = free_grains;
+  header.statics.radius.assign(free_grains + 1, 0.5 * diameter);
+  header.statics.mass.assign(free_grains + 1, 1.0);
+  header.statics.periodic = true;
+  header.statics.length = 8.0 * diameter;
+  header.statics.depth = 4.0 * diameter;
+  header.statics.mean_diameter = diameter;
+  header.statics.gravity = 9.81;
+  header.statics.friction = 0.5;
+  Segment segment;
+  for (std::size_t k = 0; k < soft.size(); ++k)
+    segment.frames.push_back(column(static_cast<double>(k), soft[k]));
+  for (int i = 0; i <= 20; ++i) {
+    ObservableRow row{};
+    at(row, Observable::tilt) = radians(0.5 * i);
+    at(row, Observable::volume_strain) = std::fabs(i - 8.0);
+    at(row, Observable::solid_fraction) = 0.1 * i;
+    segment.observables.push_back(row);
+  }
+  Checkpoint checkpoint;
+  checkpoint.world.tilt = radians(static_cast<double>(soft.size()));
+  for (Index i = 0; i <= free_grains; ++i)
+    add_disk(checkpoint.world.grains, {0.5, i * diameter}, 0.5 * diameter, 1.0, i == free_grains);
+  checkpoint.results = {{"theta_c", radians(theta_c)}};
+  RunStore store = RunStore::create(path, header, true);
+  store.commit(segment, checkpoint);
+  if (complete) store.pack();
+}
+
+class AnalysisRun : public testing::Test {
+ protected:
+  Analysis analyse(const std::vector<Index>& soft, double theta_c,
+                   const std::vector<std::string>& settings = {}, int threads = 1) const {
+    write_run(path_, soft, theta_c);
+    return analyse_run(RunFile::open(path_), parse_analysis_settings(settings), threads, {});
+  }
+
+  test::TemporaryFolder folder_;
+  std::string path_ = folder_.path("run.h5");
+};
+
+double number(const Analysis& analysis, const char* name, std::size_t k, std::size_t f = 0) {
+  return row<double>(analysis, name, k)[f];
+}
+Index integer(const Analysis& analysis, const char* name, std::size_t k, std::size_t f = 0) {
+  return row<Index>(analysis, name, k)[f];
+}
+
+TEST_F(AnalysisRun, counts_overloaded_grains_at_each_threshold) {
+  const Analysis a = analyse({-1, 1}, 30.0, {"threshold_factors=0.5,1"});
+  EXPECT_NEAR(values<double>(a, "gamma_c")[0], 0.5, 1e-12);
+  EXPECT_EQ(number(a, "overloaded/fraction", 0, 0), 1.0);
+  EXPECT_EQ(number(a, "overloaded/fraction", 1, 0), 1.0) << "1/3 >= 0.25";
+  EXPECT_EQ(number(a, "overloaded/fraction", 1, 1), 0.75) << "1/3 < 0.5";
+}
+
+TEST_F(AnalysisRun, finds_clusters_and_labels_grains) {
+  const Analysis a = analyse({-1, 1}, 30.0);
+  EXPECT_EQ(integer(a, "clusters/spans_depth", 0), 1);
+  EXPECT_EQ(integer(a, "clusters/spans_depth", 1), 0);
+  EXPECT_EQ(integer(a, "clusters/spans_length", 0), 0);
+  EXPECT_EQ(integer(a, "clusters/largest", 0), 4);
+  EXPECT_EQ(integer(a, "clusters/count", 1), 2);
+  EXPECT_DOUBLE_EQ(number(a, "clusters/mean", 1), 1.5);
+  EXPECT_DOUBLE_EQ(number(a, "clusters/second_moment", 1), 5.0 / 3.0);
+  const auto labels = row<Index>(a, "clusters/label", 1).subspan(0, free_grains + 1);
+  EXPECT_EQ(std::vector<Index>(labels.begin(), labels.end()), (std::vector<Index>{1, -1, 0, 0, -1}));
+}
+
+TEST_F(AnalysisRun, coarse_grains_up_to_the_cut) {
+  // From grain 0: alone its moment is (0, 1), gamma 1; with grain 1 (0.5, 2), 3/5; with grain 2 (0.5, 3),
+  // 5/7.
+  const Analysis a = analyse({-1, 1}, 30.0, {"threshold_factors=0.5,1.3", "lc_cut=3"});
+  EXPECT_DOUBLE_EQ(values<double>(a, "lc/cut")[0], 3 * diameter);
+  EXPECT_DOUBLE_EQ(number(a, "lc/mean", 0, 1), 3 * diameter) << "gamma is 1 everywhere";
+  EXPECT_DOUBLE_EQ(number(a, "lc/share_cut", 0, 1), 1.0);
+  const auto lengths = row<float>(a, "lc/length", 1);
+  EXPECT_FLOAT_EQ(lengths[0], 3 * diameter) << "0.6 > 0.25";
+  EXPECT_FLOAT_EQ(lengths[1], 3 * diameter) << "1/3 > 0.25: overloaded at the first threshold";
+  const auto second = lengths.subspan(free_grains + 1);
+  EXPECT_FLOAT_EQ(second[0], 2 * diameter) << "0.6 <= 0.65";
+  EXPECT_TRUE(std::isnan(second[1])) << "not overloaded";
+  EXPECT_TRUE(std::isnan(second[4])) << "floor";
+}
+
+TEST_F(AnalysisRun, takes_from_the_observables_what_they_have) {
+  const Analysis a = analyse({-1, 1, -1}, 30.0);
+  EXPECT_EQ(number(a, "packing/volume_strain", 2), 4.0) << "of the row at 2 deg";
+  EXPECT_DOUBLE_EQ(number(a, "packing/solid_fraction", 1), 0.2);
+  EXPECT_NEAR(values<double>(a, "theta_d/dilation")[0], radians(4.0), 1e-12);
+  EXPECT_TRUE(std::isnan(values<double>(a, "theta_d/dilation")[1])) << "that strain is constant";
+}
+
+TEST_F(AnalysisRun, finds_the_percolation_angle_and_its_error) {
+  const Analysis a = analyse({1, 1, -1, -1, -1}, 30.0);
+  EXPECT_NEAR(values<double>(a, "theta_d/percolation")[0], radians(2.0), 1e-12);
+  EXPECT_NEAR(values<double>(a, "theta_d/percolation_error")[0], radians(1.0), 1e-12);
+}
+
+TEST_F(AnalysisRun, leaves_out_thresholds_where_the_slope_stands) {
+  const Analysis a = analyse({-1, 1}, none);
+  EXPECT_EQ(a.sizes.at('F'), 0u);
+  EXPECT_FALSE(a.data_sets.contains("overloaded/fraction"));
+  EXPECT_EQ(number(a, "contacts/coordination_number", 0), 7.0 / 4.0);
+  EXPECT_TRUE(std::isnan(values<double>(a, "gamma_c")[0]));
+  EXPECT_EQ(number(analyse({-1, 1}, none, {"gamma_c=0.5"}), "overloaded/fraction", 1), 0.75);
+}
+
+TEST_F(AnalysisRun, is_the_same_on_any_number_of_threads) {
+  std::vector<Index> soft;
+  for (Index k = 0; k < 12; ++k) soft.push_back(k % 5 - 1);
+  const std::vector<std::string> long_work = {"bins=1000", "sections=1000"};  // so that threads overlap
+  const Analysis one = analyse(soft, 30.0, long_work), three = analyse(soft, 30.0, long_work, 3);
+  ASSERT_EQ(one.data_sets.size(), three.data_sets.size());
+  for (const auto& [name, array] : one.data_sets)
+    std::visit(
+        [&, &its_name = name](const auto& numbers) {
+          const auto& other = std::get<std::decay_t<decltype(numbers)>>(find_data_set(three, its_name));
+          EXPECT_EQ(std::memcmp(numbers.data(), other.data(), numbers.size() * sizeof numbers[0]), 0)
+              << its_name;
+        },
+        array);
+}
+
+TEST_F(AnalysisRun, tells_its_progress) {
+  write_run(path_, {-1, 1, 2}, 30.0);
+  std::vector<std::size_t> done;
+  analyse_run(RunFile::open(path_), {}, 2, [&](std::size_t frames) { done.push_back(frames); });
+  EXPECT_EQ(done, (std::vector<std::size_t>{1, 2, 3}));
+}
+
+TEST_F(AnalysisRun, key_depends_on_run_and_parameters) {
+  write_run(path_, {-1}, 30.0);
+  const RunFile run = RunFile::open(path_);
+  const std::string key = analysis_key(run, {});
+  EXPECT_EQ(analysis_key(run, {}), key);
+  for (const char* setting :
+       {"threshold_factors=1", "gamma_c=0.5", "lc_cut=3", "joining=neighbours", "sections=3", "bins=7"})
+    EXPECT_NE(analysis_key(run, parse_analysis_settings({setting})), key) << setting;
+  write_run(folder_.path("other.h5"), {-1, -1}, 30.0);
+  EXPECT_NE(analysis_key(RunFile::open(folder_.path("other.h5")), {}), key);
+}
+
+TEST_F(AnalysisRun, of_a_folder_is_that_of_its_file) {
+  const Analysis packed = analyse({-1, 1}, 30.0);
+  write_run(folder_.path("part.h5"), {-1, 1}, 30.0, false);
+  const RunFile run = RunFile::open(folder_.path("part.h5"));
+  EXPECT_FALSE(run.complete());
+  EXPECT_EQ(analyse_run(run, {}, 1, {}).data_sets.at("lc/max"), packed.data_sets.at("lc/max"));
+}
+
+TEST_F(AnalysisRun, without_frames_is_refused) {
+  write_run(path_, {}, none);
+  EXPECT_THROW(analyse_run(RunFile::open(path_), {}, 1, {}), Error);
+}
+
+}  // namespace
+}  // namespace talus
