@@ -66,7 +66,7 @@ std::string threshold_cells(const AnalysedRun& run, std::size_t k, std::size_t f
 std::string series_table(const AnalysedRun& run) {
   const Analysis& analysis = run.analysis;
   const std::size_t factors = analysis.sizes.at('F');
-  std::string above(38, ' '), below = " theta   Gamma  sT/sN      z  dV/V (%)";
+  std::string above(39, ' '), below = " theta   Gamma   sT/sN      z  dV/V (%)";
   for (std::size_t f = 0; f < factors; ++f) {
     const std::string limit =
         formatted("gamma >= %.4g Gamma_c = %.4f", values<double>(analysis, "threshold_factor")[f],
@@ -78,7 +78,7 @@ std::string series_table(const AnalysedRun& run) {
   for (const std::size_t k : shown_frames(run.tilts.size())) {
     const auto value = [&](const char* name) { return row<double>(analysis, name, k)[0]; };
     text += formatted("%6.2f", degrees(run.tilts[k])) + cell("%.4f", 8, value("packing/stress_ratio")) +
-            cell("%.4f", 7, value("packing/sigma_t_over_n")) +
+            cell("%.4f", 8, value("packing/sigma_t_over_n")) +
             cell("%.3f", 7, value("contacts/coordination_number")) +
             cell("%+.4f", 10, 100.0 * value("packing/volume_strain"));
     for (std::size_t f = 0; f < factors; ++f) text += threshold_cells(run, k, f);
