@@ -226,8 +226,8 @@ Fields contact_fields() {
 Fields transition_fields() {
   return {
       {{"/analysis/theta_d/lc_jump", float64, "F", "rad",
-        "theta_d from l_c: tilt of the frame after the largest increase of lc/max between two frames up to "
-        "theta_c; NaN where it never increases"},
+        "theta_d from l_c: tilt of the frame after the largest increase of lc/max between two frames, up to "
+        "theta_c and to the first frame that reaches the cut; NaN where it never increases"},
        graining},
       {{"/analysis/theta_d/lc_jump_error", float64, "F", "rad", "spacing of these two frames"}, graining},
       {{"/analysis/theta_d/lc_jump_size", float64, "F", "m", "that increase"}, graining},
@@ -240,8 +240,8 @@ Fields transition_fields() {
        clusters},
       {{"/analysis/theta_d/dilation", float64, "2", "rad",
         "theta_d from the onset of dilation: tilt where the volume strain, and where the centre-of-mass "
-        "strain, is smallest up to theta_c, each a mean over 1 deg; NaN where it falls up to the end, or "
-        "never"},
+        "strain, is smallest up to theta_c, each a mean over 1 deg; NaN where it does not rise after it by "
+        "more than its noise"},
        ""},
       {{"/analysis/theta_d/dilation_low", float64, "2", "rad",
         "lowest tilt of the range around it in which the strain is not above the minimum by more than its "

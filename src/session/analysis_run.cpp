@@ -110,7 +110,7 @@ void find_transitions(const std::vector<ObservableRow>& rows, std::span<const do
       lengths.push_back(row<double>(analysis, "lc/max", k)[f]);
       spans.push_back(row<Index>(analysis, "clusters/spans_depth", k)[f]);
     }
-    const LengthJump jump = length_jump(tilts, lengths, theta_c);
+    const LengthJump jump = length_jump(tilts, lengths, theta_c, values<double>(analysis, "lc/cut")[0]);
     values<double>(analysis, "theta_d/lc_jump")[f] = jump.tilt;
     values<double>(analysis, "theta_d/lc_jump_error")[f] = jump.error;
     values<double>(analysis, "theta_d/lc_jump_size")[f] = jump.size;

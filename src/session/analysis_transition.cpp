@@ -35,10 +35,11 @@ std::vector<double> symmetric_means(std::span<const double> tilts, std::span<con
 
 }  // namespace
 
-LengthJump length_jump(std::span<const double> tilts, std::span<const double> lengths, double theta_c) {
+LengthJump length_jump(std::span<const double> tilts, std::span<const double> lengths, double theta_c,
+                       double cut) {
   LengthJump jump{none, none, none};
   double largest = 0.0;
-  for (std::size_t k = 1; k < count_up_to(tilts, theta_c); ++k) {
+  for (std::size_t k = 1; k < count_up_to(tilts, theta_c) && !(lengths[k - 1] >= cut); ++k) {
     const double increase = lengths[k] - lengths[k - 1];
     if (!(increase > largest)) continue;
     largest = increase;
@@ -68,7 +69,7 @@ DilationOnset dilation_onset(std::span<const double> tilts, std::span<const doub
   auto low = lowest, high = lowest;
   while (low != means.begin() && *std::prev(low) <= limit) --low;
   while (std::next(high) != means.end() && *std::next(high) <= limit) ++high;
-  if (low == means.begin() || std::next(high) == means.end()) return {none, none, none};
+  if (std::next(high) == means.end()) return {none, none, none};
   const auto tilt_of = [&](auto place) { return tilts[static_cast<std::size_t>(place - means.begin())]; };
   return {tilt_of(lowest), tilt_of(low), tilt_of(high)};
 }

@@ -10,12 +10,14 @@ namespace talus {
 
 /// Where the largest coarse-graining length jumps (paper, Fig. 12b).
 struct LengthJump {
-  double tilt = 0.0;   ///< of the frame after the largest increase between two frames up to theta_c
+  double tilt = 0.0;   ///< of the frame after the largest increase between two frames
   double error = 0.0;  ///< spacing of the two
   double size = 0.0;   ///< of the increase, in the unit of `lengths`
 };
-/// theta_c NaN: all frames count. No jump where the length never increases.
-LengthJump length_jump(std::span<const double> tilts, std::span<const double> lengths, double theta_c);
+/// Looks at frames up to theta_c, all where it is NaN, and up to the first whose length reaches `cut`: beyond
+/// it lengths are not known. No jump where the length never increases.
+LengthJump length_jump(std::span<const double> tilts, std::span<const double> lengths, double theta_c,
+                       double cut);
 
 /// Where overloaded grains begin to percolate (paper, section V B).
 struct PercolationOnset {
@@ -33,7 +35,7 @@ struct DilationOnset {
   double high = 0.0;  ///< noise, which is the rms deviation of the strain from the mean
 };
 /// The mean is over window/2 on either side, less near the ends, where it stays symmetric. No onset where the
-/// strain has not fallen by more than the noise before it, or not risen by more after it.
+/// range reaches the end: the strain has not risen by more than the noise.
 DilationOnset dilation_onset(std::span<const double> tilts, std::span<const double> strains, double theta_c,
                              double window);
 

@@ -152,6 +152,15 @@ TEST_F(AnalysisRun, finds_the_percolation_angle_and_its_error) {
   EXPECT_NEAR(values<double>(a, "theta_d/percolation_error")[0], radians(1.0), 1e-12);
 }
 
+TEST_F(AnalysisRun, finds_the_jump_of_the_largest_length) {
+  // With a soft grain 1 the moments about grain 3 sum up to gamma 5/7 when the second neighbour is in.
+  const Analysis a = analyse({1, 1, -1, -1}, 30.0, {"threshold_factors=1.6", "lc_cut=6"});
+  EXPECT_DOUBLE_EQ(number(a, "lc/max", 1), 4 * diameter);
+  EXPECT_NEAR(values<double>(a, "theta_d/lc_jump")[0], radians(2.0), 1e-12);
+  EXPECT_NEAR(values<double>(a, "theta_d/lc_jump_error")[0], radians(1.0), 1e-12);
+  EXPECT_DOUBLE_EQ(values<double>(a, "theta_d/lc_jump_size")[0], 2 * diameter);
+}
+
 TEST_F(AnalysisRun, leaves_out_thresholds_where_the_slope_stands) {
   const Analysis a = analyse({-1, 1}, none);
   EXPECT_EQ(a.sizes.at('F'), 0u);

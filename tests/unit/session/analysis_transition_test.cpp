@@ -14,24 +14,31 @@ namespace {
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 const std::vector<double> tilts = {0.0, 0.1, 0.2, 0.4, 0.5, 0.6};
 
+const std::vector<double> lengths = {5.0, 6.0, 5.5, 15.0, 16.0, 30.0};
+constexpr double cut = 40.0;
+
 TEST(LengthJump, is_the_largest_increase) {
-  const LengthJump jump = length_jump(tilts, std::vector{5.0, 6.0, 5.5, 15.0, 16.0, 30.0}, 0.55);
+  const LengthJump jump = length_jump(tilts, lengths, 0.55, cut);
   EXPECT_EQ(jump.tilt, 0.4) << "30 comes after theta_c";
   EXPECT_DOUBLE_EQ(jump.error, 0.2);
   EXPECT_DOUBLE_EQ(jump.size, 9.5);
-  EXPECT_EQ(length_jump(tilts, std::vector{5.0, 6.0, 5.5, 15.0, 16.0, 30.0}, none).tilt, 0.6);
-  EXPECT_EQ(length_jump(tilts, std::vector{5.0, 6.0, 5.5, 15.0, 16.0, 30.0}, 0.6).tilt, 0.6)
-      << "theta_c counts";
+  EXPECT_EQ(length_jump(tilts, lengths, none, cut).tilt, 0.6);
+  EXPECT_EQ(length_jump(tilts, lengths, 0.6, cut).tilt, 0.6) << "theta_c counts";
+}
+
+TEST(LengthJump, ends_where_the_length_reaches_the_cut) {
+  EXPECT_EQ(length_jump(tilts, lengths, none, 15.0).tilt, 0.4) << "30 comes after the first that is cut off";
+  EXPECT_TRUE(std::isnan(length_jump(tilts, lengths, none, 5.0).tilt)) << "cut off from the start";
 }
 
 TEST(LengthJump, of_a_length_that_never_increases_is_none) {
-  for (const auto& lengths :
-       {std::vector(6, 40.0), std::vector{9.0, 8.0, 7.0, 6.0, 5.0, 4.0}, std::vector(6, none)})
-    EXPECT_TRUE(std::isnan(length_jump(tilts, lengths, none).tilt));
+  for (const auto& falling :
+       {std::vector(6, 20.0), std::vector{9.0, 8.0, 7.0, 6.0, 5.0, 4.0}, std::vector(6, none)})
+    EXPECT_TRUE(std::isnan(length_jump(tilts, falling, none, cut).tilt));
 }
 
 TEST(LengthJump, is_not_seen_beside_a_frame_without_overloaded_grains) {
-  EXPECT_EQ(length_jump(tilts, std::vector{none, 20.0, none, 5.0, 6.0, 6.0}, none).tilt, 0.5);
+  EXPECT_EQ(length_jump(tilts, std::vector{none, 20.0, none, 5.0, 6.0, 6.0}, none, cut).tilt, 0.5);
 }
 
 TEST(PercolationOnset, is_the_first_of_three_frames) {
@@ -81,11 +88,17 @@ TEST(DilationOnset, is_the_minimum_of_the_strain_within_its_noise) {
 
 TEST(DilationOnset, of_a_strain_that_only_falls_is_none) {
   for (const double noise : {0.0, 1e-4}) {
-    const Strain falls = strain_of([](double t) { return -1e-4 * t * t; }, noise);
-    EXPECT_TRUE(std::isnan(dilation_onset(falls.tilt, falls.value, none, 1.0).tilt)) << noise;
-    const Strain rises = strain_of([](double t) { return 1e-4 * t * t; }, noise);
-    EXPECT_TRUE(std::isnan(dilation_onset(rises.tilt, rises.value, none, 1.0).tilt)) << noise;
+    const Strain strain = strain_of([](double t) { return -1e-4 * t * t; }, noise);
+    EXPECT_TRUE(std::isnan(dilation_onset(strain.tilt, strain.value, none, 1.0).tilt)) << noise;
   }
+}
+
+TEST(DilationOnset, of_a_strain_that_only_rises_is_the_start_within_its_noise) {
+  const Strain strain = strain_of([](double t) { return 1e-4 * t * t; }, 1e-4);
+  const DilationOnset onset = dilation_onset(strain.tilt, strain.value, none, 1.0);
+  EXPECT_LT(onset.tilt, 0.5);
+  EXPECT_EQ(onset.low, 0.0);
+  EXPECT_NEAR(onset.high, 1.0, 0.1);
 }
 
 TEST(DilationOnset, looks_no_further_than_theta_c) {
