@@ -1,5 +1,6 @@
 #include "beds.h"
 
+#include <cmath>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -40,59 +41,68 @@ std::optional<Scenario> scenario_of(Index grains) {
   return scenario;
 }
 
-std::string path_of(Index grains, Slope slope) {
-  return std::string(TALUS_BENCH_BEDS) + "/bed-" + std::to_string(grains) +
-         (slope == Slope::flat ? "-flat.h5" : "-ten-degrees.h5");
+std::string path_of(Index grains, const std::string& state) {
+  return std::string(TALUS_BENCH_BEDS) + "/bed-" + std::to_string(grains) + "-" + state + ".h5";
 }
 
-void save(const Session& session, const std::string& path) {
+void save(const Scenario& scenario, const Segment& segment, const Checkpoint& checkpoint,
+          const std::string& path) {
+  std::filesystem::create_directories(TALUS_BENCH_BEDS);
   RunHeader header;
-  header.statics = run_statics(session.scenario(), session.world());
-  header.scenario_given = header.scenario_resolved = resolved_toml(session.scenario());
-  header.seed = session.scenario().seed;
+  header.statics = run_statics(scenario, checkpoint.world);
+  header.scenario_given = header.scenario_resolved = resolved_toml(scenario);
+  header.seed = scenario.seed;
   RunStore store = RunStore::create(path, header, true);
-  store.commit(session.segment(), session.checkpoint(0.0));
+  store.commit(segment, checkpoint);
   store.pack();
 }
 
 void advance_to(Phase end, Session session, const std::string& path) {
   while (session.phase() != end) session.advance();
-  save(session, path);
+  save(session.scenario(), session.segment(), session.checkpoint(0.0), path);
 }
 
-/// Deposits and tilts where that has not been done before.
-Checkpoint deposited(Index grains, const Scenario& scenario, Slope slope) {
-  const std::string path = path_of(grains, slope);
+/// Deposits where that has not been done before.
+Checkpoint flat_bed(Index grains, const Scenario& scenario) {
+  const std::string path = path_of(grains, "flat");
+  if (!std::filesystem::exists(path)) advance_to(Phase::tilt, Session(scenario), path);
+  return RunFile::open(path).checkpoint();
+}
+
+/// Tilts where that has not been done before.
+Checkpoint tilted_bed(Index grains, const Scenario& scenario) {
+  const std::string path = path_of(grains, "ten-degrees");
+  if (!std::filesystem::exists(path))
+    advance_to(Phase::done, Session(scenario, flat_bed(grains, scenario)), path);
+  return RunFile::open(path).checkpoint();
+}
+
+void hold_until_rest(World& world, double h) {
+  constexpr int quiet_steps = 50;
+  StepSettings settings = step_settings(Scenario{});
+  settings.h = h;
+  StepWorkspace workspace;
+  const double rest = Scenario{}.deposition.rest_velocity * world.gravity * h;
+  for (int quiet = 0; quiet < quiet_steps;)
+    quiet = step(world, settings, workspace).rms_velocity < rest ? quiet + 1 : 0;
+}
+
+/// A bed may be in the midst of a rearrangement when it reaches its angle: holds it there, with steps of h,
+/// where that has not been done before.
+Checkpoint rested_bed(Index grains, const Scenario& scenario, double h) {
+  const std::string path =
+      path_of(grains, "ten-degrees-rest-" + std::to_string(std::llround(1e9 * h)) + "ns");
   if (!std::filesystem::exists(path)) {
-    std::filesystem::create_directories(TALUS_BENCH_BEDS);
-    if (slope == Slope::flat)
-      advance_to(Phase::tilt, Session(scenario), path);
-    else
-      advance_to(Phase::done, Session(scenario, deposited(grains, scenario, Slope::flat)), path);
+    Checkpoint checkpoint = tilted_bed(grains, scenario);
+    hold_until_rest(checkpoint.world, h);
+    save(scenario, {}, checkpoint, path);
   }
   return RunFile::open(path).checkpoint();
 }
 
-/// A bed may be in the midst of a rearrangement when it reaches its angle: it rests with the step of a run,
-/// and takes some steps of length h more.
-void hold_until_rest(World& world, double h) {
-  constexpr int quiet_steps = 50;
-  constexpr int steps_of_h = 300;
-  StepSettings settings = step_settings(Scenario{});
-  StepWorkspace workspace;
-  const double rest = Scenario{}.deposition.rest_velocity * world.gravity * settings.h;
-  for (int quiet = 0; quiet < quiet_steps;)
-    quiet = step(world, settings, workspace).rms_velocity < rest ? quiet + 1 : 0;
-  settings.h = h;
-  for (int k = 0; k < steps_of_h; ++k) step(world, settings, workspace);
-}
-
 World bed_at_rest(Index grains, Slope slope, double h) {
-  if (const std::optional<Scenario> scenario = scenario_of(grains)) {
-    World world = deposited(grains, *scenario, slope).world;
-    if (slope == Slope::ten_degrees) hold_until_rest(world, h);
-    return world;
-  }
+  if (const std::optional<Scenario> scenario = scenario_of(grains))
+    return (slope == Slope::flat ? flat_bed(grains, *scenario) : rested_bed(grains, *scenario, h)).world;
   if (grains <= 0 || grains % tile_grains != 0)
     throw Error(ExitCode::usage, "no bed of " + std::to_string(grains) +
                                      " grains: expected 500, 2000 or a multiple of " +

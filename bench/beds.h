@@ -16,7 +16,7 @@ enum class Slope { flat, ten_degrees };
 ///   8000     L = 200 D, H = 40 D: the paper's bed
 /// and k * 4000 of H = 40 D for any other k: copies of the third side by side, which is in equilibrium as
 /// that is. The first four come from a real deposition and tilt, kept as run files in the build folder.
-/// `h` is the time step (s) of the last steps at ten degrees: gaps and forces are those that it leaves.
+/// `h` is the time step (s) of the rest at ten degrees: gaps and forces are those that it leaves.
 /// Throws Error(usage) for other sizes.
 World bed(Index grains, Slope slope, double h);
 
