@@ -2,21 +2,10 @@
 /// The analysis of a run as text.
 
 #include <string>
-#include <vector>
 
-#include "core/snapshot.h"
-#include "io/analysis_record.h"
+#include "app/analysed_run.h"
 
 namespace talus {
-
-/// What a report needs beside the analysis.
-struct AnalysedRun {
-  std::string path;
-  std::string state;  ///< "stored", "read from the file", "not stored: ..."
-  RunStatics statics;
-  std::vector<double> tilts;  ///< rad, of the frames
-  Analysis analysis;
-};
 
 /// Two tables: series at about ten angles, thresholds side by side, and theta_d by each estimator. Lengths in
 /// mean diameters, angles in degrees.

@@ -26,6 +26,8 @@ const std::map<std::string, std::vector<std::string>> rooms = {
     {"session",
      {"session/", "dynamics/", "contact/", "solver/", "stress/", "analysis/", "io/", "core/",
       "render/frame_view.h"}},
+    {"figures",
+     {"figures/", "session/", "analysis/", "stress/", "io/", "maps/", "core/", "render/frame_view.h"}},
     {"maps", {"maps/", "core/", "stress/", "render/frame_view.h"}},
     {"render", {"render/", "core/errors.h"}},
     {"app", {""}},

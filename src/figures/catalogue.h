@@ -1,0 +1,23 @@
+#pragma once
+/// All figures that Talus makes of runs, in the order of the paper, then those beyond it.
+
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "figures/figure.h"
+#include "figures/run_group.h"
+
+namespace talus {
+
+struct FigureRecipe {
+  std::string_view name;   ///< Figure::name
+  std::string_view title;  ///< Figure::title
+  std::string_view needs;  ///< "a periodic bed that has failed": what a message says where it cannot be made
+  /// No value where there is no run of the kind it needs.
+  std::optional<Figure> (*make)(std::span<const RunGroup> groups);
+};
+
+std::span<const FigureRecipe> figure_catalogue();
+
+}  // namespace talus

@@ -1,0 +1,48 @@
+#pragma once
+/// A figure as data: its tables, its maps, and what they were made from. A gnuplot script of the same name,
+/// assets/figures/NAME.gp, draws it; nothing here draws.
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "render/frame_view.h"
+
+namespace talus {
+
+/// A column of numbers; NaN where there is none.
+struct Column {
+  std::string name;  ///< "p_o", as the script and readers of the CSV file call it
+  std::string unit;  ///< "deg", "D", "1"
+  std::string meaning;
+  std::vector<double> values;
+};
+
+/// One CSV file beside the figure: FIGURE.csv, or FIGURE-NAME.csv where it has a name. Columns are of equal
+/// length.
+struct Table {
+  std::string name;
+  std::vector<Column> columns;
+};
+
+/// A map that the renderer draws to FIGURE-NAME.png, for the script to place.
+struct FigureMap {
+  std::string name;
+  FrameView view;
+};
+
+struct Figure {
+  std::string name;     ///< "fig09-overloaded-fraction": that of its script and of all its files
+  std::string title;    ///< "Overloaded fraction over tilt (paper, Fig. 9)"
+  std::string caption;  ///< what is shown, with the number of runs behind it and what error bars are
+  std::vector<std::string> runs;  ///< paths of the runs that it was made from
+  bool wide = false;              ///< made for two columns (17.8 cm) rather than one (8.6 cm)
+  double height_over_width = 0.75;
+  std::vector<Table> tables;
+  std::vector<FigureMap> maps;
+  /// What the script has to know beside the tables: gnuplot names and values ("gamma_c", "0.23"; texts in
+  /// double quotes).
+  std::vector<std::pair<std::string, std::string>> variables;
+};
+
+}  // namespace talus

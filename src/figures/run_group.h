@@ -1,0 +1,34 @@
+#pragma once
+/// The runs that figures are made from, those of one scenario together.
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "io/analysis_record.h"
+#include "io/run_file.h"
+#include "session/scenario.h"
+
+namespace talus {
+
+/// A run that was opened and analysed.
+struct FigureRun {
+  std::string path;
+  RunFile file;
+  Analysis analysis;
+  Scenario scenario;
+};
+
+/// Runs that differ in their seed and in nothing else that shapes the result: an ensemble.
+struct RunGroup {
+  std::string label;  ///< "PBC, L = 200 D", with the keys that tell it from another group of that bed
+  std::vector<FigureRun> runs;  ///< by ascending seed
+
+  bool periodic() const { return runs.front().scenario.bed.boundary == BedBoundary::periodic; }
+};
+
+/// Groups in the order of their first run: of periodic beds first, then of beds between walls by their
+/// length. Throws Error(bad_data) where a run is there twice.
+std::vector<RunGroup> group_runs(std::vector<FigureRun> runs);
+
+}  // namespace talus
