@@ -6,9 +6,12 @@ namespace {
 using enum ElementType;
 using Fields = std::vector<AnalysisField>;
 
-const std::string overload = "threshold_factors gamma_c";
-const std::string graining = "threshold_factors gamma_c lc_cut";
-const std::string clusters = "threshold_factors gamma_c joining";
+const std::string moments = "averaging";
+const std::string thresholds = "threshold_factors gamma_c";
+const std::string ratios = moments + " min_contacts";
+const std::string overload = thresholds + " " + ratios;
+const std::string graining = overload + " lc_cut";
+const std::string clusters = overload + " joining";
 
 Fields general_fields() {
   return {
@@ -27,7 +30,7 @@ Fields general_fields() {
       {{"/analysis/threshold_factor", float64, "F", "1", "thresholds over Gamma_c"}, "threshold_factors"},
       {{"/analysis/threshold", float64, "F", "1",
         "stress ratio from which on a grain counts as overloaded, factor * Gamma_c"},
-       overload},
+       thresholds},
   };
 }
 
@@ -37,15 +40,15 @@ Fields packing_fields() {
       {{"/analysis/packing/stress", float64, "T 2 2", "Pa",
         "mean stress of the packing, the sum of the internal moments of the free grains over V (paper, Eq. "
         "6); compression positive, y away from the floor"},
-       ""},
+       moments},
       {{"/analysis/packing/sigma_t_over_n", float64, "T", "1",
         "sigma_T / sigma_N = -sigma_yx / sigma_yy; tan(theta) for a periodic bed in equilibrium (paper, Eq. "
         "10)"},
-       ""},
+       moments},
       {{"/analysis/packing/stress_ratio", float64, "T", "1",
         "Gamma = Q/P of the packing (paper, Eq. 7); sin(theta) for a periodic bed in equilibrium (paper, Eq. "
         "11)"},
-       ""},
+       moments},
       {{"/analysis/packing/volume_strain", float64, "T", "1",
         "(V - V0)/V0, V0 at the start of the tilt; negative = contraction; from /observables"},
        ""},
@@ -60,7 +63,7 @@ Fields packing_fields() {
        "sections"},
       {{"/analysis/sections/sigma_xx", float64, "T X", "Pa",
         "mean stress sigma_xx of a section, the sum of M_xx of its grains over V / sections (paper, Fig. 6)"},
-       "sections"},
+       moments + " sections"},
   };
 }
 
@@ -69,15 +72,16 @@ Fields overload_fields() {
       {{"/analysis/gamma/edge", float64, "B+1", "1", "edges of the bins of gamma"}, "bins"},
       {{"/analysis/gamma/density", float64, "T B", "1",
         "probability density of gamma over the free grains that carry something (paper, Fig. 8)"},
-       "bins"},
+       ratios + " bins"},
       {{"/analysis/gamma/error", float64, "T B", "1",
         "standard error of the density, from the number of grains in each bin"},
-       "bins"},
-      {{"/analysis/gamma/mean", float64, "T", "1", "mean gamma of the free grains that carry something"}, ""},
+       ratios + " bins"},
+      {{"/analysis/gamma/mean", float64, "T", "1", "mean gamma of the free grains that carry something"},
+       ratios},
       {{"/analysis/gamma/share_above_one", float64, "T", "1",
         "share of these grains with gamma above 1: the weight of a grain, small beside its contact forces, "
         "can make one principal value negative; they count in the density outside of its bins"},
-       ""},
+       ratios},
       {{"/analysis/overloaded/fraction", float64, "T F", "1",
         "p_o: overloaded grains over the free grains that carry something"},
        overload},
@@ -207,6 +211,11 @@ Fields contact_fields() {
         "correlation length of these clusters, sqrt(2 sum of s^2 R^2 / sum of s^2), R the radius of gyration "
         "of a cluster"},
        ""},
+  };
+}
+
+Fields correlation_fields() {
+  return {
       {{"/analysis/correlation/distance", float64, "B", "m",
         "middle of the bins of the distance between two points"},
        "bins"},
@@ -215,11 +224,11 @@ Fields contact_fields() {
         "mean of df df over that of df^2"},
        "bins"},
       {{"/analysis/correlation/gamma", float64, "T B", "1", "correlation of gamma of two free grains"},
-       "bins"},
+       ratios + " bins"},
       {{"/analysis/correlation/mean_stress", float64, "T B", "1",
         "correlation of p / (pi r^2) of two free grains, each over the mean of its layer of 2 D; p is the "
         "trace of the internal moment"},
-       "bins"},
+       moments + " bins"},
   };
 }
 
@@ -257,7 +266,7 @@ const std::vector<AnalysisField>& analysis_schema() {
   static const Fields schema = [] {
     Fields all;
     for (const Fields& part : {general_fields(), packing_fields(), overload_fields(), cluster_fields(),
-                               contact_fields(), transition_fields()})
+                               contact_fields(), correlation_fields(), transition_fields()})
       all.insert(all.end(), part.begin(), part.end());
     return all;
   }();

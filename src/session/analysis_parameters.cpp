@@ -47,6 +47,22 @@ AnalysisKey optional_number(const std::string& name, const std::string& unit, co
           }};
 }
 
+AnalysisKey averaging_key() {
+  constexpr double highest = 10.0;
+  return {"averaging",
+          "deg",
+          std::string("a number in [0, ") + short_text(highest) + "]",
+          "tilt over which the internal moment of a grain is averaged, half of it on either side of the "
+          "frame; 0: that of the frame alone",
+          [](const AnalysisParameters& p) { return short_text(p.averaging); },
+          [](AnalysisParameters& p, const std::string& text) {
+            const auto value = parse_number(text, -1.0, highest);
+            if (!value || *value < 0.0) return false;
+            p.averaging = *value;
+            return true;
+          }};
+}
+
 AnalysisKey count(const std::string& name, int highest, const std::string& help,
                   int AnalysisParameters::*field) {
   return {name,
@@ -131,6 +147,12 @@ const std::vector<AnalysisKey>& analysis_keys() {
       optional_number("lc_cut", "D", "depth", 1e4,
                       "diameter at which the search for l_c ends; depth: min(H, L/2)", &P::lc_cut),
       joining_key(),
+      averaging_key(),
+      count(
+          "min_contacts", 6,
+          "force-carrying contacts that a grain must have to count: a grain with fewer has no gamma, as one "
+          "that carries nothing",
+          &P::min_contacts),
       count("sections", 1000, "equal sections along the bed, for sigma_xx over x", &P::sections),
       count("bins", 1000, "bins of each distribution and correlation", &P::bins),
   };

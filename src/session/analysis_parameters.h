@@ -22,6 +22,9 @@ struct AnalysisParameters {
   std::optional<double> gamma_c;                       ///< without a value: sin(theta_c) of the run
   std::optional<double> lc_cut;                        ///< D; without a value: min(H, L/2)
   Joining joining = Joining::contacts;
+  double averaging =
+      0.0;               ///< deg of tilt over which the internal moment of a grain is averaged; 0: one frame
+  int min_contacts = 1;  ///< force-carrying contacts that a grain must have to count
   int sections = 20;
   int bins = 50;
 };

@@ -10,6 +10,7 @@
 #include "core/hash.h"
 #include "core/trigonometry.h"
 #include "session/analysis_frame.h"
+#include "session/analysis_input.h"
 #include "session/analysis_transition.h"
 
 namespace talus {
@@ -60,7 +61,7 @@ void analyse_frames(const RunFile& run, const AnalysisParameters& parameters, in
       std::unique_lock lock(reading);
       if (next == run.frame_count()) return;
       const std::size_t k = next++;
-      const Frame frame = run.frame(k);
+      const Frame frame = analysed_frame(run, parameters, k);
       lock.unlock();
       analyse_frame(frame, run.header().statics, parameters, k, analysis);
       lock.lock();

@@ -23,8 +23,11 @@ def main():
     with h5py.File(sys.argv[1], "r") as file:
         analysis = file["analysis"]
         check_attributes(analysis)
-        assert analysis["clusters/largest"].attrs["parameters"] == b"threshold_factors = 1,2; gamma_c = run"
-        assert analysis["packing/stress"].attrs["parameters"] == b"none"
+        assert analysis["clusters/largest"].attrs["parameters"] == (
+            b"threshold_factors = 1,2; gamma_c = run; averaging = 0"
+        )
+        assert analysis["packing/stress"].attrs["parameters"] == b"averaging = 0"
+        assert analysis["packing/volume"].attrs["parameters"] == b"none"
         assert analysis["packing/stress"].attrs["unit"] == b"Pa"
         length = analysis["lc/length"]
         assert length.dtype == np.float32 and length.shape == (len(file["frames/tilt"]), 2, 6)

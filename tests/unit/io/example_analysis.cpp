@@ -9,8 +9,11 @@ std::string analysed_state() { return hash_text(state_hash(checkpoint(analysis_c
 Analysis analysis(std::uint64_t thresholds, int serial) {
   Analysis analysis = make_analysis({{'T', 3}, {'N', grain_count}, {'F', thresholds}, {'X', 5}, {'B', 4}});
   analysis.key = hash_text(static_cast<std::uint64_t>(serial));
-  analysis.parameters = {
-      {"threshold_factors", "1,2"}, {"gamma_c", "run"}, {"lc_cut", "depth"}, {"bins", "4"}};
+  analysis.parameters = {{"threshold_factors", "1,2"},
+                         {"gamma_c", "run"},
+                         {"lc_cut", "depth"},
+                         {"averaging", "0"},
+                         {"bins", "4"}};
   int next = 1000 * serial;
   for (auto& [name, array] : analysis.data_sets)
     std::visit(

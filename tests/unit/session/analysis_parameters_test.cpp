@@ -24,17 +24,21 @@ std::string refusal(const std::vector<std::string>& settings) {
 TEST(AnalysisParameters, are_taken_from_settings) {
   const AnalysisParameters p =
       parse_analysis_settings({"threshold_factors=0.5,1,3", "gamma_c=0.3", "lc_cut=30", "joining=neighbours",
-                               "sections=7", "bins=10"});
+                               "averaging=0.5", "min_contacts=3", "sections=7", "bins=10"});
   EXPECT_EQ(p.threshold_factors, (std::vector{0.5, 1.0, 3.0}));
   EXPECT_EQ(p.gamma_c, 0.3);
   EXPECT_EQ(p.lc_cut, 30.0);
   EXPECT_EQ(p.joining, Joining::neighbours);
+  EXPECT_EQ(p.averaging, 0.5);
+  EXPECT_EQ(p.min_contacts, 3);
   EXPECT_EQ(p.sections, 7);
   EXPECT_EQ(p.bins, 10);
   EXPECT_EQ(as_facts(p), (Facts{{"threshold_factors", "0.5,1,3"},
                                 {"gamma_c", "0.3"},
                                 {"lc_cut", "30"},
                                 {"joining", "neighbours"},
+                                {"averaging", "0.5"},
+                                {"min_contacts", "3"},
                                 {"sections", "7"},
                                 {"bins", "10"}}));
 }
@@ -47,11 +51,27 @@ TEST(AnalysisParameters, admit_their_defaults_as_text) {
 }
 
 TEST(AnalysisParameters, out_of_range_are_refused) {
-  for (const char* setting :
-       {"threshold_factors=", "threshold_factors=2,1", "threshold_factors=1,1", "threshold_factors=1,,2",
-        "threshold_factors=1,2,3,4,5", "threshold_factors=0", "gamma_c=0", "gamma_c=1.5", "gamma_c=nan",
-        "gamma_c=sin", "lc_cut=-3", "lc_cut=30D", "lc_cut=inf", "joining=contact", "sections=0",
-        "sections=2.5", "bins=1001", "bins="})
+  for (const char* setting : {"threshold_factors=",
+                              "threshold_factors=2,1",
+                              "threshold_factors=1,1",
+                              "threshold_factors=1,,2",
+                              "threshold_factors=1,2,3,4,5",
+                              "threshold_factors=0",
+                              "gamma_c=0",
+                              "gamma_c=1.5",
+                              "gamma_c=nan",
+                              "gamma_c=sin",
+                              "lc_cut=-3",
+                              "lc_cut=30D",
+                              "lc_cut=inf",
+                              "joining=contact",
+                              "averaging=-1",
+                              "averaging=11",
+                              "min_contacts=0",
+                              "sections=0",
+                              "sections=2.5",
+                              "bins=1001",
+                              "bins="})
     EXPECT_NE(refusal({setting}).find(std::string("--set ") + setting + ": error: key '"), std::string::npos)
         << refusal({setting});
 }
@@ -61,7 +81,7 @@ TEST(AnalysisParameters, are_refused_all_at_once_and_say_what_was_expected) {
       refusal({"lc_cut=-3", "colour=red", "bins"}),
       "--set lc_cut=-3: error: key 'lc_cut' = -3: expected a number in (0, 10000], or depth, in D\n"
       "--set colour=red: error: unknown key 'colour'; expected one of threshold_factors, gamma_c, lc_cut, "
-      "joining, sections, bins\n"
+      "joining, averaging, min_contacts, sections, bins\n"
       "--set bins: error: expected key=value, such as --set lc_cut=30");
 }
 

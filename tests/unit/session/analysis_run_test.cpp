@@ -109,6 +109,31 @@ TEST_F(AnalysisRun, counts_overloaded_grains_at_each_threshold) {
   EXPECT_EQ(number(a, "overloaded/fraction", 1, 1), 0.75) << "1/3 < 0.5";
 }
 
+TEST_F(AnalysisRun, averages_moments_over_the_frames_around) {
+  // Grain 1 has M_xx = 0.5 in the frame at 1 deg alone: 1/4 as a mean of two frames, 1/6 as one of three.
+  const Analysis a = analyse({-1, 1, -1, -1}, 30.0, {"threshold_factors=1,1.3", "averaging=2"});
+  EXPECT_EQ(number(a, "overloaded/fraction", 0, 0), 1.0) << "0.6 >= 0.5";
+  EXPECT_EQ(number(a, "overloaded/fraction", 0, 1), 0.75) << "0.6 < 0.65";
+  EXPECT_EQ(number(a, "overloaded/fraction", 1, 1), 1.0) << "5/7 >= 0.65";
+  EXPECT_EQ(number(a, "overloaded/fraction", 3, 0), 1.0);
+  EXPECT_NEAR(number(a, "gamma/mean", 1), (3.0 + 5.0 / 7.0) / 4.0, 1e-12);
+  EXPECT_NEAR(number(a, "gamma/mean", 3), 1.0, 1e-12) << "1 deg is farther than half of the window";
+  EXPECT_EQ(number(analyse({-1, 1, -1}, 30.0, {"averaging=1.9"}), "overloaded/fraction", 1), 0.75)
+      << "a window that reaches no other frame";
+}
+
+TEST_F(AnalysisRun, leaves_grains_with_few_contacts_out) {
+  // The highest grain has one contact, the others two.
+  const Analysis a = analyse({-1, 1}, 30.0, {"min_contacts=2"});
+  EXPECT_EQ(number(a, "overloaded/fraction", 0), 1.0);
+  EXPECT_EQ(number(a, "overloaded/fraction_of_all", 0), 0.75);
+  EXPECT_EQ(number(a, "overloaded/fraction", 1), 2.0 / 3.0);
+  EXPECT_EQ(integer(a, "clusters/largest", 0), 3);
+  EXPECT_EQ(integer(a, "clusters/spans_depth", 0), 0) << "the highest grain is the surface";
+  EXPECT_EQ(number(a, "packing/stress_ratio", 0), 1.0) << "its moment counts";
+  EXPECT_EQ(number(analyse({-1, 1}, 30.0, {"min_contacts=3"}), "overloaded/fraction_of_all", 0), 0.0);
+}
+
 TEST_F(AnalysisRun, finds_clusters_and_labels_grains) {
   const Analysis a = analyse({-1, 1}, 30.0);
   EXPECT_EQ(integer(a, "clusters/spans_depth", 0), 1);
@@ -198,8 +223,8 @@ TEST_F(AnalysisRun, key_depends_on_run_and_parameters) {
   const RunFile run = RunFile::open(path_);
   const std::string key = analysis_key(run, {});
   EXPECT_EQ(analysis_key(run, {}), key);
-  for (const char* setting :
-       {"threshold_factors=1", "gamma_c=0.5", "lc_cut=3", "joining=neighbours", "sections=3", "bins=7"})
+  for (const char* setting : {"threshold_factors=1", "gamma_c=0.5", "lc_cut=3", "joining=neighbours",
+                              "averaging=2", "min_contacts=2", "sections=3", "bins=7"})
     EXPECT_NE(analysis_key(run, parse_analysis_settings({setting})), key) << setting;
   write_run(folder_.path("other.h5"), {-1, -1}, 30.0);
   EXPECT_NE(analysis_key(RunFile::open(folder_.path("other.h5")), {}), key);

@@ -1,0 +1,58 @@
+#include "session/analysis_input.h"
+
+#include <cmath>
+#include <limits>
+
+#include "analysis/free_grains.h"
+#include "core/trigonometry.h"
+#include "stress/stress_state.h"
+
+namespace talus {
+namespace {
+
+/// Frames of a window are told by their tilt, which is a multiple of a step up to rounding.
+constexpr double rounding = 1e-9;  // rad
+
+void average_moments(const RunFile& run, double half_window, std::size_t k, Frame& frame) {
+  const std::vector<double>& tilts = run.frame_tilts();
+  const auto is_near = [&](std::size_t other) {
+    return std::fabs(tilts[other] - tilts[k]) <= half_window + rounding;
+  };
+  std::size_t first = k, last = k;
+  while (first > 0 && is_near(first - 1)) --first;
+  while (last + 1 < tilts.size() && is_near(last + 1)) ++last;
+  if (first == last) return;
+  std::vector<Tensor2> sums(frame.internal_moment.size());
+  for (std::size_t other = first; other <= last; ++other) {
+    const std::vector<Tensor2> moments =
+        other == k ? frame.internal_moment : run.frame(other).internal_moment;
+    for (std::size_t i = 0; i < sums.size(); ++i) add_to(sums[i], moments[i]);
+  }
+  const double share = 1.0 / static_cast<double>(last - first + 1);
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    const Tensor2& sum = sums[i];
+    frame.internal_moment[i] = {share * sum.xx, share * sum.xy, share * sum.yx, share * sum.yy};
+    frame.gamma[i] = stress_state(frame.internal_moment[i]).ratio;
+  }
+}
+
+void leave_out_poorly_held(int min_contacts, Index free_count, Frame& frame) {
+  std::vector<int> contacts(frame.x.size(), 0);
+  for (Index c = 0; c < frame.contacts.count(); ++c)
+    for (const Index body : {frame.contacts.a[c], frame.contacts.b[c]})
+      if (body >= 0 && body < free_count) ++contacts[static_cast<std::size_t>(body)];
+  for (std::size_t i = 0; i < static_cast<std::size_t>(free_count); ++i)
+    if (contacts[i] < min_contacts) frame.gamma[i] = std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace
+
+Frame analysed_frame(const RunFile& run, const AnalysisParameters& parameters, std::size_t k) {
+  Frame frame = run.frame(k);
+  if (parameters.averaging > 0.0) average_moments(run, 0.5 * radians(parameters.averaging), k, frame);
+  if (parameters.min_contacts > 1)
+    leave_out_poorly_held(parameters.min_contacts, run.header().statics.free_count, frame);
+  return frame;
+}
+
+}  // namespace talus
