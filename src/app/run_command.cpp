@@ -126,7 +126,8 @@ void print_end(const RunArguments& arguments, const Session& session) {
     std::fprintf(
         stderr,
         "talus: warning: %lld steps of the deposition and %lld of the tilt did not reach their tolerance "
-        "(largest residual at rest %.2g, while moving %.2g)\n",
+        "(largest residual at rest %.2g, while moving %.2g); one or two in a hundred are usual "
+        "(docs/solver.md), solver.max_iterations gives them more passes\n",
         static_cast<long long>(record.unconverged_deposition),
         static_cast<long long>(record.unconverged_tilt), record.residual_max_rest,
         record.residual_max_moving);
