@@ -41,17 +41,17 @@ void summarise(CoarseGraining& result) {
 
 }  // namespace
 
-CoarseGraining coarse_graining(const Frame& frame, const RunStatics& statics, double threshold, double cut) {
+CoarseGraining coarse_graining(const Frame& frame, const RunStatics& statics,
+                               const CoarseGrainingRule& rule) {
   CoarseGraining result;
-  result.cut = cut;
   result.length.assign(static_cast<std::size_t>(statics.free_count), nan);
   Neighbourhoods neighbourhoods(frame, statics);
   for (Index i = 0; i < statics.free_count; ++i) {
-    if (!is_overloaded(frame.gamma[i], threshold)) continue;
-    double length = cut;
+    if (!is_overloaded(frame.gamma[i], rule.threshold)) continue;
+    double length = rule.cut;
     bool found = false;
-    neighbourhoods.around(i, 0.5 * cut, [&](double distance, const Tensor2& sum) {
-      found = is_within(sum, threshold);
+    neighbourhoods.around(i, 0.5 * rule.cut, [&](double distance, const Tensor2& sum) {
+      found = is_within(sum, rule.end_ratio);
       if (found) length = 2.0 * distance;
       return !found;
     });

@@ -10,21 +10,26 @@ namespace talus {
 
 /// The neighbourhood of diameter l of a grain is all free grains whose centre, or its nearest periodic image,
 /// lies within l/2 of its own, itself among them; gamma_l is the stress ratio of the sum of their internal
-/// moments. l_c is the smallest l at which gamma_l <= the threshold.
+/// moments. l_c is the smallest l at which gamma_l <= `end_ratio`.
+struct CoarseGrainingRule {
+  double threshold = 0.0;  ///< a grain is overloaded from this gamma on
+  double end_ratio = 0.0;  ///< in the paper the same
+  double cut = 0.0;  ///< m, a diameter: ends the search; beyond the period of a periodic bed neighbourhoods
+                     ///< are not whole
+};
+
 struct CoarseGraining {
   std::vector<double> length;  ///< l_c of each free grain, m, a diameter; NaN where it is not overloaded;
-                               ///< `cut` where gamma_l is above the threshold up to there
-  double cut = 0.0;            ///< m
+                               ///< the cut where gamma_l is above the end ratio up to there
   Index overloaded = 0;
   Index cut_off = 0;  ///< overloaded grains that reach the cut
-  double mean = 0.0;  ///< of l_c over overloaded grains, those cut off counting with `cut`; NaN without any
+  double mean = 0.0;  ///< of l_c over overloaded grains, those cut off counting with the cut; NaN without any
   double largest = 0.0;
   double standard_error = 0.0;  ///< of the mean, as if grains were independent
 };
 
-/// l_c of all overloaded grains, gamma >= threshold. `cut` (m, a diameter) ends the search; beyond the
-/// period of a periodic bed neighbourhoods are not whole.
-CoarseGraining coarse_graining(const Frame& frame, const RunStatics& statics, double threshold, double cut);
+/// l_c of all overloaded grains.
+CoarseGraining coarse_graining(const Frame& frame, const RunStatics& statics, const CoarseGrainingRule& rule);
 
 /// gamma_l of every free grain at the diameter l (m). NaN where the neighbourhood carries nothing.
 std::vector<double> coarse_stress_ratio(const Frame& frame, const RunStatics& statics, double l);

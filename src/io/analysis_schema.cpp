@@ -10,7 +10,7 @@ const std::string moments = "averaging";
 const std::string thresholds = "threshold_factors gamma_c";
 const std::string ratios = moments + " min_contacts";
 const std::string overload = thresholds + " " + ratios;
-const std::string graining = overload + " lc_cut";
+const std::string graining = overload + " lc_factor lc_cut";
 const std::string clusters = overload + " joining";
 
 Fields general_fields() {
@@ -91,9 +91,11 @@ Fields overload_fields() {
       {{"/analysis/lc/cut", float64, "", "m",
         "diameter at which the search for l_c ends, in a periodic bed not above L"},
        "lc_cut"},
+      {{"/analysis/lc/end_ratio", float64, "F", "1", "stress ratio of a neighbourhood at which l_c is found"},
+       thresholds + " lc_factor"},
       {{"/analysis/lc/length", float32, "T F N", "m",
         "l_c of an overloaded grain, a diameter: that of the smallest circle about its centre in which the "
-        "summed internal moments have a stress ratio not above the threshold; the cut where there is none; "
+        "summed internal moments have a stress ratio not above lc/end_ratio; the cut where there is none; "
         "NaN for other grains"},
        graining},
       {{"/analysis/lc/mean", float64, "T F", "m", "mean l_c of the overloaded grains"}, graining},

@@ -144,6 +144,11 @@ const std::vector<AnalysisKey>& analysis_keys() {
       optional_number("gamma_c", "", "run", 1.0,
                       "Gamma_c, the threshold of the packing; run: sin(theta_c), where the slope has failed",
                       &P::gamma_c),
+      optional_number(
+          "lc_factor", "Gamma_c", "threshold", 10.0,
+          "stress ratio of a neighbourhood at which the search for l_c ends; threshold: that from "
+          "which on a grain counts as overloaded",
+          &P::lc_factor),
       optional_number("lc_cut", "D", "depth", 1e4,
                       "diameter at which the search for l_c ends; depth: min(H, L/2)", &P::lc_cut),
       joining_key(),

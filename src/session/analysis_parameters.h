@@ -20,6 +20,7 @@ enum class Joining {
 struct AnalysisParameters {
   std::vector<double> threshold_factors = {1.0, 2.0};  ///< thresholds over Gamma_c, ascending
   std::optional<double> gamma_c;                       ///< without a value: sin(theta_c) of the run
+  std::optional<double> lc_factor;                     ///< end of l_c over Gamma_c; without a value: as above
   std::optional<double> lc_cut;                        ///< D; without a value: min(H, L/2)
   Joining joining = Joining::contacts;
   double averaging =

@@ -46,6 +46,8 @@ Analysis begin_analysis(const RunFile& run, const AnalysisParameters& parameters
   for (std::size_t f = 0; f < factors; ++f) {
     values<double>(analysis, "threshold_factor")[f] = parameters.threshold_factors[f];
     values<double>(analysis, "threshold")[f] = parameters.threshold_factors[f] * gamma_c;
+    values<double>(analysis, "lc/end_ratio")[f] =
+        parameters.lc_factor.value_or(parameters.threshold_factors[f]) * gamma_c;
   }
   set_axes(statics, parameters, analysis);
   return analysis;

@@ -50,7 +50,7 @@ double length_of(const Packing& packing, Index centre, double threshold, double 
 }
 
 CoarseGraining graining(const Packing& packing, double threshold, double cut) {
-  return coarse_graining(packing.frame, packing.statics, threshold, cut);
+  return coarse_graining(packing.frame, packing.statics, {threshold, threshold, cut});
 }
 
 void expect_same_bits(const std::vector<double>& one, const std::vector<double>& other) {

@@ -22,11 +22,12 @@ std::string refusal(const std::vector<std::string>& settings) {
 }
 
 TEST(AnalysisParameters, are_taken_from_settings) {
-  const AnalysisParameters p =
-      parse_analysis_settings({"threshold_factors=0.5,1,3", "gamma_c=0.3", "lc_cut=30", "joining=neighbours",
-                               "averaging=0.5", "min_contacts=3", "sections=7", "bins=10"});
+  const AnalysisParameters p = parse_analysis_settings(
+      {"threshold_factors=0.5,1,3", "gamma_c=0.3", "lc_factor=2", "lc_cut=30", "joining=neighbours",
+       "averaging=0.5", "min_contacts=3", "sections=7", "bins=10"});
   EXPECT_EQ(p.threshold_factors, (std::vector{0.5, 1.0, 3.0}));
   EXPECT_EQ(p.gamma_c, 0.3);
+  EXPECT_EQ(p.lc_factor, 2.0);
   EXPECT_EQ(p.lc_cut, 30.0);
   EXPECT_EQ(p.joining, Joining::neighbours);
   EXPECT_EQ(p.averaging, 0.5);
@@ -35,6 +36,7 @@ TEST(AnalysisParameters, are_taken_from_settings) {
   EXPECT_EQ(p.bins, 10);
   EXPECT_EQ(as_facts(p), (Facts{{"threshold_factors", "0.5,1,3"},
                                 {"gamma_c", "0.3"},
+                                {"lc_factor", "2"},
                                 {"lc_cut", "30"},
                                 {"joining", "neighbours"},
                                 {"averaging", "0.5"},
@@ -80,7 +82,8 @@ TEST(AnalysisParameters, are_refused_all_at_once_and_say_what_was_expected) {
   EXPECT_EQ(
       refusal({"lc_cut=-3", "colour=red", "bins"}),
       "--set lc_cut=-3: error: key 'lc_cut' = -3: expected a number in (0, 10000], or depth, in D\n"
-      "--set colour=red: error: unknown key 'colour'; expected one of threshold_factors, gamma_c, lc_cut, "
+      "--set colour=red: error: unknown key 'colour'; expected one of threshold_factors, gamma_c, lc_factor, "
+      "lc_cut, "
       "joining, averaging, min_contacts, sections, bins\n"
       "--set bins: error: expected key=value, such as --set lc_cut=30");
 }

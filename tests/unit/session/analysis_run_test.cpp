@@ -163,6 +163,17 @@ TEST_F(AnalysisRun, coarse_grains_up_to_the_cut) {
   EXPECT_TRUE(std::isnan(second[4])) << "floor";
 }
 
+TEST_F(AnalysisRun, ends_the_search_where_it_is_told_to) {
+  // Of the grains above 1.3 Gamma_c = 0.65, grain 0 has gamma 1, 3/5, 5/7 with its neighbours.
+  const Analysis a = analyse({-1, 1}, 30.0, {"threshold_factors=0.5,1.3", "lc_factor=1.1", "lc_cut=3"});
+  EXPECT_NEAR(values<double>(a, "lc/end_ratio")[1], 0.55, 1e-12);
+  const auto second = row<float>(a, "lc/length", 1).subspan(free_grains + 1);
+  EXPECT_FLOAT_EQ(second[0], 3 * diameter) << "0.6 > 0.55";
+  EXPECT_TRUE(std::isnan(second[1])) << "1/3 < 0.65: not overloaded";
+  const auto first = row<float>(a, "lc/length", 1);
+  EXPECT_FLOAT_EQ(first[1], 0.0) << "1/3 >= 0.25, and within 0.55 by itself";
+}
+
 TEST_F(AnalysisRun, takes_from_the_observables_what_they_have) {
   const Analysis a = analyse({-1, 1, -1}, 30.0);
   EXPECT_EQ(number(a, "packing/volume_strain", 2), 4.0) << "of the row at 2 deg";
@@ -223,8 +234,8 @@ TEST_F(AnalysisRun, key_depends_on_run_and_parameters) {
   const RunFile run = RunFile::open(path_);
   const std::string key = analysis_key(run, {});
   EXPECT_EQ(analysis_key(run, {}), key);
-  for (const char* setting : {"threshold_factors=1", "gamma_c=0.5", "lc_cut=3", "joining=neighbours",
-                              "averaging=2", "min_contacts=2", "sections=3", "bins=7"})
+  for (const char* setting : {"threshold_factors=1", "gamma_c=0.5", "lc_factor=2", "lc_cut=3",
+                              "joining=neighbours", "averaging=2", "min_contacts=2", "sections=3", "bins=7"})
     EXPECT_NE(analysis_key(run, parse_analysis_settings({setting})), key) << setting;
   write_run(folder_.path("other.h5"), {-1, -1}, 30.0);
   EXPECT_NE(analysis_key(RunFile::open(folder_.path("other.h5")), {}), key);
