@@ -32,6 +32,7 @@ struct Swatch {
 struct FrameView {
   std::vector<Disc> discs;  ///< in drawing order; copies across a periodic edge included
   double x_min = 0.0, x_max = 0.0, y_min = 0.0, y_max = 0.0;  ///< what is shown; discs are cut at its edges
+  bool furniture = true;           ///< false: the bed alone fills the picture; what follows is not drawn
   bool walls = false;              ///< side walls are drawn as lines, instead of a cut at the periodic edge
   bool floor_line = false;         ///< the lower edge is a smooth floor, drawn as a line
   double tilt = 0.0;               ///< rad, for the gravity arrow: gravity points along (sin tilt, -cos tilt)

@@ -128,6 +128,29 @@ double add_row(Layout& layout, const Group& left, const Group& right, double y, 
   return std::ceil(std::max(y + left.height, right_y + right.height));
 }
 
+/// The height, px, unless it is above largest_side.
+int checked_height(int width, double height) {
+  if (height > largest_side)
+    throw Error(ExitCode::usage, "a picture " + std::to_string(width) + " px wide of this bed would be " +
+                                     std::to_string(std::llround(height)) + " px high; at most " +
+                                     std::to_string(largest_side) +
+                                     " px are possible: ask for a smaller width");
+  return static_cast<int>(height);
+}
+
+/// A picture of the bed alone.
+Layout lay_out_bed(const FrameView& view, int width) {
+  Layout layout;
+  layout.width = width;
+  layout.camera.scale = width / (view.x_max - view.x_min);
+  const double height = std::ceil((view.y_max - view.y_min) * layout.camera.scale);
+  layout.height = checked_height(width, height);
+  layout.bed = {0.0, 0.0, static_cast<double>(width), height};
+  layout.camera.origin_x = -view.x_min * layout.camera.scale;
+  layout.camera.origin_y = height + view.y_min * layout.camera.scale;
+  return layout;
+}
+
 /// The layout in one font size, if everything fits its width.
 std::optional<Layout> lay_out_with(const FrameView& view, int width, double em, const Font& font) {
   Layout layout;
@@ -149,13 +172,7 @@ std::optional<Layout> lay_out_with(const FrameView& view, int width, double em, 
   layout.camera.origin_x = side - view.x_min * layout.camera.scale;
   layout.camera.origin_y = layout.bed.bottom() + view.y_min * layout.camera.scale;
   const double bottom = add_row(layout, legend, scale, std::ceil(layout.bed.bottom() + 0.6 * em), side);
-  const double height = std::ceil(bottom + 0.5 * em);
-  if (height > largest_side)
-    throw Error(ExitCode::usage, "a picture " + std::to_string(width) + " px wide of this bed would be " +
-                                     std::to_string(std::llround(height)) + " px high; at most " +
-                                     std::to_string(largest_side) +
-                                     " px are possible: ask for a smaller width");
-  layout.height = static_cast<int>(height);
+  layout.height = checked_height(width, std::ceil(bottom + 0.5 * em));
   return layout;
 }
 
@@ -166,6 +183,7 @@ Layout lay_out(const FrameView& view, int width, const Font& font) {
     throw Error(ExitCode::usage, "width = " + std::to_string(width) + ": expected " +
                                      std::to_string(smallest_width) + " ... " + std::to_string(largest_side) +
                                      " px");
+  if (!view.furniture) return lay_out_bed(view, width);
   for (double em = std::max(10.0, std::round(width / 90.0)); em >= smallest_em; em -= 0.5)
     if (std::optional<Layout> layout = lay_out_with(view, width, em, font)) return *layout;
   throw Error(ExitCode::usage, "width = " + std::to_string(width) +

@@ -32,7 +32,6 @@ Renderer::~Renderer() {
 Image Renderer::draw(const FrameView& view, int width) {
   const Layout layout = lay_out(view, width, font_);
   prepare_target(layout.width, layout.height);
-  prepare_atlas(layout.em);
 
   gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
   gl_.Viewport(0, 0, width_, height_);
@@ -47,7 +46,7 @@ Image Renderer::draw(const FrameView& view, int width) {
               static_cast<GLsizei>(layout.bed.width), static_cast<GLsizei>(layout.bed.height));
   draw_discs(view.discs, layout.camera);
   gl_.Disable(GL_SCISSOR_TEST);
-  draw_furniture(view, layout);
+  if (view.furniture) draw_furniture(view, layout);
   return read_target();
 }
 
@@ -81,6 +80,7 @@ void Renderer::draw_discs(const std::vector<Disc>& discs, const Camera& camera) 
 }
 
 void Renderer::draw_furniture(const FrameView& view, const Layout& layout) {
+  prepare_atlas(layout.em);
   const Furniture furniture = furnish(view, layout, font_, atlas_);
   draw_discs(furniture.swatches, Camera{1.0, 0.0, 0.0});
 

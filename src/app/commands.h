@@ -15,5 +15,8 @@ void add_animate_command(CLI::App& app);
 void add_dump_command(CLI::App& app);
 void add_solve_command(CLI::App& app);
 void add_study_command(CLI::App& app);
+void add_perturb_command(CLI::App& app);
+void add_figures_command(CLI::App& app);
+void add_reproduce_command(CLI::App& app);
 
 }  // namespace talus

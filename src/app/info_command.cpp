@@ -1,5 +1,6 @@
 /// `talus info`: what a run holds.
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -25,8 +26,9 @@ struct RunInfo {
   std::uint64_t seed = 0;
   Index grains = 0;  ///< free
   Index floor_grains = 0;
-  std::size_t frames = 0;
-  double tilt_first = none;  ///< rad, of the frames
+  std::size_t frames = 0;       ///< of the tilt
+  std::size_t flow_frames = 0;  ///< after failure
+  double tilt_first = none;     ///< rad, of the frames of the tilt
   double tilt_last = none;
   double tilt = 0.0;  ///< rad, of the last state
   std::size_t steps = 0;
@@ -49,6 +51,10 @@ double figure(const Figures& figures, const std::string& name) {
   for (const auto& [key, value] : figures)
     if (key == name) return value;
   return none;
+}
+
+bool has(const Figures& figures, const std::string& name) {
+  return std::ranges::any_of(figures, [&](const auto& figure) { return figure.first == name; });
 }
 
 /// The tolerance of the stored scenario; none where it is a scenario of another version.
@@ -79,6 +85,7 @@ RunInfo look_at(const std::string& path) {
   info.grains = statics.free_count;
   info.floor_grains = static_cast<Index>(statics.radius.size()) - statics.free_count;
   info.frames = run.frame_count();
+  info.flow_frames = run.all_frame_tilts().size() - info.frames;
   if (info.frames > 0) {
     info.tilt_first = run.frame_tilts().front();
     info.tilt_last = run.frame_tilts().back();
@@ -114,10 +121,12 @@ void print_json(const RunInfo& info) {
       {"grains", number(info.grains)},
       {"floor_grains", number(info.floor_grains)},
       {"frames", number(info.frames)},
+      {"frames_after_failure", number(info.flow_frames)},
       {"tilt_first_deg", number(degrees(info.tilt_first))},
       {"tilt_last_deg", number(degrees(info.tilt_last))},
       {"tilt_deg", number(degrees(info.tilt))},
       {"theta_c", number(degrees(figure(info.results, "theta_c")))},
+      {"theta_r", number(degrees(figure(info.results, "theta_r")))},
       {"solver_tolerance", number(info.solver_tolerance)},
       {"residual_max", number(info.residual_max)},
       {"unconverged_steps", number(info.unconverged_steps)},
@@ -146,6 +155,12 @@ std::string short_number(double value) {
   return std::isnan(value) ? "none" : text;
 }
 
+std::string rest_text(const RunInfo& info) {
+  const double theta_r = figure(info.results, "theta_r");
+  return std::isnan(theta_r) ? "none: no flow after failure has come to rest"
+                             : in_degrees(theta_r) + ", at a tilt of " + in_degrees(info.tilt);
+}
+
 void print_text(const RunInfo& info) {
   const double theta_c = figure(info.results, "theta_c");
   print_line("run", info.path + (info.complete ? "" : " (not complete, at " + in_degrees(info.tilt) + ")"));
@@ -153,11 +168,14 @@ void print_text(const RunInfo& info) {
   print_line("seed", std::to_string(info.seed));
   print_line("grains",
              std::to_string(info.grains) + " free, " + std::to_string(info.floor_grains) + " on the floor");
-  print_line("frames",
-             std::to_string(info.frames) + (info.frames == 0 ? ""
-                                                             : ", tilt " + in_degrees(info.tilt_first) +
-                                                                   " to " + in_degrees(info.tilt_last)));
+  print_line(
+      "frames",
+      std::to_string(info.frames) +
+          (info.frames == 0 ? ""
+                            : ", tilt " + in_degrees(info.tilt_first) + " to " + in_degrees(info.tilt_last)) +
+          (info.flow_frames == 0 ? "" : ", " + std::to_string(info.flow_frames) + " after failure"));
   print_line("theta_c", std::isnan(theta_c) ? "none: the slope has not failed" : in_degrees(theta_c));
+  if (has(info.results, "theta_r")) print_line("theta_r", rest_text(info));
   print_line("solver tolerance", short_number(info.solver_tolerance));
   print_line("worst residual", short_number(info.residual_max) + " in the tilt, " +
                                    std::to_string(info.unconverged_steps) + " of its steps not converged");
@@ -181,8 +199,9 @@ void add_info_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("info", "Print what a run holds");
   command->add_option("run", arguments->path, "Run file, or the name of a run that is not complete")
       ->required();
-  command->add_flag("--json", arguments->json,
-                    "As JSON: theta_c and keys ending in _deg in degrees, results and timing in SI units");
+  command->add_flag(
+      "--json", arguments->json,
+      "As JSON: theta_c, theta_r and keys ending in _deg in degrees, results and timing in SI units");
   command->callback([arguments] {
     const RunInfo info = look_at(arguments->path);
     if (arguments->json)

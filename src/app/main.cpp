@@ -36,6 +36,9 @@ int main(int argc, char** argv) {
     talus::add_dump_command(app);
     talus::add_solve_command(app);
     talus::add_study_command(app);
+    talus::add_perturb_command(app);
+    talus::add_figures_command(app);
+    talus::add_reproduce_command(app);
     app.parse(argc, argv);
     return static_cast<int>(ExitCode::done);
   } catch (const CLI::Success& success) {  // --help, --version

@@ -43,6 +43,11 @@ void ProgressLine::show(const RunProgress& progress) {
     std::snprintf(text, sizeof text, "deposition  t = %.3f s  v = %.2e g h  residual %.1e  contacts %d  (%s)",
                   world.time, report.rms_velocity / gh, report.solver.residual.eta, report.contacts,
                   duration_text(progress.wall_seconds).c_str());
+  } else if (session.phase() == Phase::flow) {
+    std::snprintf(text, sizeof text,
+                  "flow  theta = %.3f deg  residual %.1e  E_kin %.1e J  v = %.2e g h  (%s)",
+                  degrees(world.tilt), report.solver.residual.eta, kinetic_energy(world.grains),
+                  report.rms_velocity / gh, duration_text(progress.wall_seconds).c_str());
   } else {
     const double tilt = degrees(world.tilt);
     if (tilt_started_at_ < 0.0) {

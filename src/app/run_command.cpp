@@ -1,22 +1,17 @@
 /// `talus run`: computes a run from its scenario, or continues one.
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <csignal>
 #include <cstdio>
-#include <ctime>
 #include <filesystem>
 #include <memory>
 #include <thread>
 
 #include "app/commands.h"
+#include "app/open_run.h"
 #include "app/progress.h"
 #include "core/errors.h"
 #include "core/hash.h"
 #include "core/trigonometry.h"
-#include "core/version.h"
-#include "session/run.h"
 
 namespace talus {
 namespace {
@@ -33,110 +28,54 @@ struct RunArguments {
   bool quiet = false;
 };
 
-volatile std::sig_atomic_t stop_requested = 0;
-
-/// The first signal asks the run to stop after its step; the second leaves at once (the store is whole at any
-/// time).
-void handle_stop(int) {
-  if (stop_requested != 0) _exit(static_cast<int>(ExitCode::stopped));
-  stop_requested = 1;
-}
-
-void catch_stop_signals() {
-  struct sigaction action = {};
-  action.sa_handler = handle_stop;
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
-}
-
-std::string utc_now() {
-  const std::time_t now = std::time(nullptr);
-  std::tm parts{};
-  gmtime_r(&now, &parts);
-  char text[32];
-  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
-  return text;
-}
-
-std::string host_name() {
-  char name[256] = "unknown";
-  gethostname(name, sizeof name - 1);
-  return name;
-}
-
 std::string command_line(const RunArguments& arguments) {
   std::string line = "talus run " + arguments.scenario + " -o " + arguments.output;
   for (const std::string& setting : arguments.settings) line += " --set " + setting;
   return line;
 }
 
-RunHeader make_header(const RunArguments& arguments, const Session& session, const std::string& text) {
-  RunHeader header;
-  header.statics = run_statics(session.scenario(), session.world());
-  header.scenario_given = text;
-  header.scenario_resolved = resolved_toml(session.scenario());
-  header.seed = session.scenario().seed;
-  header.provenance = {{"version", version},
-                       {"git_hash", git_hash},
-                       {"compiler", compiler},
-                       {"flags", build_flags},
-                       {"host", host_name()},
-                       {"threads", std::to_string(arguments.threads)},
-                       {"start", utc_now()},
-                       {"command", command_line(arguments)},
-                       {"scenario_file", arguments.scenario}};
-  return header;
+/// The settings of the scenario, the seed among them.
+RunRequest request_of(const RunArguments& arguments) {
+  RunRequest request;
+  request.scenario = arguments.scenario;
+  request.output = arguments.output;
+  request.settings = arguments.settings;
+  if (arguments.has_seed) request.settings.push_back("seed=" + std::to_string(arguments.seed));
+  request.threads = arguments.threads;
+  request.overwrite = arguments.overwrite;
+  request.command_line = command_line(arguments);
+  return request;
 }
 
-struct OpenRun {
-  RunStore store;
-  Session session;
-};
-
-OpenRun start_run(const RunArguments& arguments) {
-  std::vector<std::string> settings = arguments.settings;
-  if (arguments.has_seed) settings.push_back("seed=" + std::to_string(arguments.seed));
-  std::string text;
-  const Scenario scenario = read_scenario(arguments.scenario, settings, &text);
-  Session session(scenario);
-  RunStore store =
-      RunStore::create(arguments.output, make_header(arguments, session, text), arguments.overwrite);
-  return {std::move(store), std::move(session)};
-}
-
-/// The scenario of a resumed run is the one stored with it; a file that says something else is refused.
-OpenRun resume_run(const RunArguments& arguments) {
-  RunHeader header;
-  Checkpoint checkpoint;
-  RunStore store = RunStore::resume(arguments.output, header, checkpoint);
-  std::vector<std::string> settings = arguments.settings;
-  if (arguments.has_seed) settings.push_back("seed=" + std::to_string(arguments.seed));
-  if (!arguments.scenario.empty() &&
-      resolved_toml(read_scenario(arguments.scenario, settings)) != header.scenario_resolved)
-    throw Error(ExitCode::bad_data,
-                arguments.output + " was started with another scenario than " + arguments.scenario +
-                    "; compare `talus info` of the run with `talus check` of the scenario");
-  const Scenario scenario = parse_scenario(header.scenario_resolved, arguments.output + ":/parameters");
-  return {std::move(store), Session(scenario, std::move(checkpoint))};
+void print_rest(const Session& session) {
+  const double tilt = degrees(session.world().tilt);
+  if (const std::optional<double> theta_r = session.angle_at_rest())
+    std::printf("Its flow stopped at a tilt of %.3f deg: angle at rest theta_r = %.3f deg.\n", tilt,
+                degrees(*theta_r));
+  else
+    std::printf("Its flow had not stopped when the run ended, at a tilt of %.3f deg: no angle at rest.\n",
+                tilt);
 }
 
 void print_end(const RunArguments& arguments, const Session& session) {
   const SolverRecord& record = session.solver_record();
-  if (record.unconverged_deposition + record.unconverged_tilt > 0)
-    std::fprintf(
-        stderr,
-        "talus: warning: %lld steps of the deposition and %lld of the tilt did not reach their tolerance "
-        "(largest residual at rest %.2g, while moving %.2g); one or two in a hundred are usual "
-        "(docs/solver.md), solver.max_iterations gives them more passes\n",
-        static_cast<long long>(record.unconverged_deposition),
-        static_cast<long long>(record.unconverged_tilt), record.residual_max_rest,
-        record.residual_max_moving);
+  if (record.unconverged_deposition + record.unconverged_tilt + record.unconverged_flow > 0)
+    std::fprintf(stderr,
+                 "talus: warning: %lld steps of the deposition, %lld of the tilt and %lld after failure did "
+                 "not reach their tolerance "
+                 "(largest residual at rest %.2g, while moving %.2g); one or two in a hundred are usual "
+                 "(docs/solver.md), solver.max_iterations gives them more passes\n",
+                 static_cast<long long>(record.unconverged_deposition),
+                 static_cast<long long>(record.unconverged_tilt),
+                 static_cast<long long>(record.unconverged_flow), record.residual_max_rest,
+                 record.residual_max_moving);
   if (arguments.quiet) return;
   const std::optional<double> theta_c = session.angle_of_repose();
   if (theta_c)
     std::printf("The slope failed: angle of repose theta_c = %.3f deg.\n", degrees(*theta_c));
   else
     std::printf("The slope stands at %.3f deg.\n", degrees(session.world().tilt));
+  if (theta_c && session.scenario().tilt.after_failure != AfterFailure::stop) print_rest(session);
   std::printf("%s: %lld steps, state hash %s\n", arguments.output.c_str(),
               static_cast<long long>(session.world().step), hash_text(state_hash(session.world())).c_str());
 }
@@ -147,13 +86,14 @@ void run(const RunArguments& arguments) {
     if (!arguments.quiet) std::printf("%s is complete already.\n", arguments.output.c_str());
     return;
   }
-  catch_stop_signals();
+  const volatile std::sig_atomic_t* stop = catch_stop_signals();
+  const RunRequest request = request_of(arguments);
   OpenRun open =
-      arguments.resume && presence == RunPresence::folder ? resume_run(arguments) : start_run(arguments);
+      arguments.resume && presence == RunPresence::folder ? resume_run(request) : start_run(request);
   open.session.use_threads(arguments.threads);
   ProgressLine line(arguments.quiet);
   RunControl control;
-  control.stop = &stop_requested;
+  control.stop = stop;
   control.on_step = [&line](const RunProgress& progress) { line.show(progress); };
   const RunEnd end = run_to_end(open.session, open.store, control);
   line.finish();

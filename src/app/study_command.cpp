@@ -8,13 +8,10 @@
 #include <span>
 #include <thread>
 
-#include "app/child_runs.h"
 #include "app/commands.h"
-#include "app/study_progress.h"
+#include "app/missing_runs.h"
 #include "app/study_report.h"
-#include "core/errors.h"
 #include "io/durable_file.h"
-#include "session/estimate.h"
 
 namespace talus {
 namespace {
@@ -30,78 +27,12 @@ struct StudyArguments {
   bool json = false;
 };
 
-/// Whether a run is complete. Throws Error(bad_data) where the run at that path has another scenario.
-bool is_complete(const std::string& path, const StudyRun& run) {
-  const RunPresence presence = run_presence(path);
-  if (presence == RunPresence::none) return false;
-  if (RunFile::open(path).header().scenario_resolved != resolved_toml(run.scenario))
-    throw Error(ExitCode::bad_data,
-                path +
-                    " is a run of another scenario than this study's; expected the scenario, the settings "
-                    "and the version that the study began with; give another folder");
-  return presence == RunPresence::packed;
-}
-
-/// `talus run` of a run of the study, as a user would type it.
-ChildRun child_of(const StudyPlan& plan, const StudyRun& run, const std::string& path) {
-  ChildRun child;
-  child.arguments = {"run", plan.scenario_file, "-o", path, "--resume", "--threads", "1"};
-  for (const std::string& setting : plan.variations[run.variation].settings) {
-    child.arguments.emplace_back("--set");
-    child.arguments.push_back(setting);
-  }
-  child.arguments.emplace_back("--seed");
-  child.arguments.push_back(std::to_string(run.seed));
-  child.log = std::filesystem::path(path).replace_extension(".log").string();
-  return child;
-}
-
-void create_folder(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error)
-    throw Error(ExitCode::cannot_create, folder.string() + ": cannot create the folder: " + error.message());
-}
-
-struct FailedRun {
-  std::string log;
-  int exit_code = 0;
-};
-
-/// Computes what is not complete yet and returns the runs that ended with an error. Throws Error(stopped).
-std::vector<FailedRun> compute(const StudyArguments& arguments, const StudyPlan& plan) {
-  std::vector<ChildRun> children;
-  std::vector<AwaitedRun> awaited;
-  for (const StudyRun& run : plan.runs) {
-    const std::string path = study_path(arguments.folder, run);
-    if (is_complete(path, run)) continue;
-    create_folder(std::filesystem::path(path).parent_path());
-    children.push_back(child_of(plan, run, path));
-    awaited.push_back({run.name, estimate(run.scenario).seconds});
-  }
-  if (children.empty()) return {};
-  StudyProgress progress(std::move(awaited), plan.runs.size() - children.size(), arguments.jobs);
-  std::vector<FailedRun> failed;
-  ChildEvents events;
-  events.on_start = [&](std::size_t k) { progress.start(k); };
-  events.on_end = [&](std::size_t k, int exit_code) {
-    progress.end(k, exit_code);
-    if (exit_code != 0) failed.push_back({children[k].log, exit_code});
-  };
-  events.on_wait = [&] { progress.show(); };
-  const bool all = run_children(children, arguments.jobs, events);
-  progress.finish();
-  if (!all) throw Error(ExitCode::stopped, "the study was stopped; the same command goes on with it");
-  return failed;
-}
-
-[[noreturn]] void refuse(const std::vector<FailedRun>& failed) {
-  std::string text = std::to_string(failed.size()) + (failed.size() == 1 ? " run" : " runs") +
-                     " ended with an error, left out of the tables; what happened is in";
-  for (const FailedRun& run : failed)
-    text += "\n  " + run.log + " (exit code " + std::to_string(run.exit_code) + ")";
-  const int code = failed.front().exit_code;
-  throw Error(code > 128 ? ExitCode::internal : static_cast<ExitCode>(code), text);
+std::vector<WantedRun> wanted_runs(const StudyPlan& plan, const std::string& folder) {
+  std::vector<WantedRun> runs;
+  for (const StudyRun& run : plan.runs)
+    runs.push_back({run.name, study_path(folder, run), plan.scenario_file,
+                    plan.variations[run.variation].settings, run.scenario});
+  return runs;
 }
 
 void write_text(const std::filesystem::path& path, const std::string& text) {
@@ -110,7 +41,8 @@ void write_text(const std::filesystem::path& path, const std::string& text) {
 
 void study(const StudyArguments& arguments) {
   const StudyPlan plan = plan_study(arguments.scenario, arguments.settings, arguments.axes, arguments.seeds);
-  const std::vector<FailedRun> failed = compute(arguments, plan);
+  const std::vector<FailedRun> failed =
+      compute_missing(wanted_runs(plan, arguments.folder), arguments.jobs, "study");
   if (failed.size() == plan.runs.size()) refuse(failed);
   const StudyResult result = read_study(plan, arguments.folder, arguments.reference);
   const std::filesystem::path folder = arguments.folder;

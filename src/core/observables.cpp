@@ -39,7 +39,7 @@ const std::array<SeriesField, observable_count> observable_fields = {{
 
 const std::array<SeriesField, step_field_count> step_fields = {{
     {"step", "1", "steps taken since the beginning of the run"},
-    {"phase", "1", "0 deposition and relaxation, 1 tilt"},
+    {"phase", "1", "0 deposition and relaxation, 1 tilt, 3 flow after failure"},
     {"contacts", "1", "contacts and near contacts in the problem of the step"},
     {"iterations", "1", "solver iterations (passes over all contacts)"},
     {"residual", "1", "natural-map residual eta at which the solver stopped"},

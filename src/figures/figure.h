@@ -29,7 +29,11 @@ struct Table {
 struct FigureMap {
   std::string name;
   FrameView view;
+  double width = 1.0;  ///< of the map over that of the figure, at map_resolution
 };
+
+/// Dots per inch of a map as wide as its figure.
+inline constexpr double map_resolution = 300.0;
 
 struct Figure {
   std::string name;     ///< "fig09-overloaded-fraction": that of its script and of all its files
@@ -44,5 +48,13 @@ struct Figure {
   /// double quotes).
   std::vector<std::pair<std::string, std::string>> variables;
 };
+
+/// The files of a table and of a map, beside FIGURE.gp.
+inline std::string file_of(const Figure& figure, const Table& table) {
+  return figure.name + (table.name.empty() ? "" : "-") + table.name + ".csv";
+}
+inline std::string file_of(const Figure& figure, const FigureMap& map) {
+  return figure.name + "-" + map.name + ".png";
+}
 
 }  // namespace talus

@@ -53,7 +53,7 @@ AnalysisValues read_array(hdf5::Reader& reader, const DataSetField& field) {
 
 /// The sizes of the letters of a stored analysis, each from a data set whose shape begins with it.
 Sizes stored_sizes(hdf5::Reader& reader) {
-  Sizes sizes = {{'T', reader.row_count("/frames/tilt")}, {'N', reader.row_count("/particles/grains/id")}};
+  Sizes sizes = {{'N', reader.row_count("/particles/grains/id")}};
   if (!reader.has(group + "/threshold")) sizes['F'] = 0;
   for (const AnalysisField& field : analysis_schema()) {
     if (!is_array(field) || field.data_set.shape.empty()) continue;

@@ -76,10 +76,10 @@ void verify_seal(const std::string& path) {
 }
 
 std::vector<std::byte> packed_bytes(const RunFile& run) {
-  const std::vector<ObservableRow> observables = run.observables();
+  const std::vector<ObservableRow> observables = run.all_observables();
   const std::vector<StepRow> steps = run.steps();
   const Checkpoint& checkpoint = run.checkpoint();
-  hdf5::Writer writer({{'T', run.frame_count()},
+  hdf5::Writer writer({{'T', run.all_frame_tilts().size()},
                        {'N', run.header().statics.radius.size()},
                        {'M', run.contact_count()},
                        {'R', observables.size()},

@@ -41,7 +41,8 @@ struct RunFile::State {
   RunHeader header;
   Checkpoint checkpoint;
   std::vector<StoredSegment> segments;
-  std::vector<double> tilts;
+  std::vector<double> all_tilts;
+  std::vector<double> tilts;  ///< of the frames up to the highest tilt
   std::size_t open_segment = 0;
   std::optional<hdf5::Reader> reader;
 
@@ -54,7 +55,10 @@ struct RunFile::State {
   }
 
   void read_tilts() {
-    for (std::size_t s = 0; s < segments.size(); ++s) append(tilts, segment(s).read<double>("/frames/tilt"));
+    for (std::size_t s = 0; s < segments.size(); ++s)
+      append(all_tilts, segment(s).read<double>("/frames/tilt"));
+    const auto highest = std::ranges::max_element(all_tilts);
+    tilts.assign(all_tilts.begin(), highest == all_tilts.end() ? highest : std::next(highest));
   }
 };
 
@@ -137,8 +141,8 @@ RunFile RunFile::open(const std::string& path) {
 
 const RunHeader& RunFile::header() const { return state_->header; }
 bool RunFile::complete() const { return state_->folder.empty(); }
-std::size_t RunFile::frame_count() const { return state_->tilts.size(); }
 const std::vector<double>& RunFile::frame_tilts() const { return state_->tilts; }
+const std::vector<double>& RunFile::all_frame_tilts() const { return state_->all_tilts; }
 const Checkpoint& RunFile::checkpoint() const { return state_->checkpoint; }
 
 std::uint64_t RunFile::contact_count() const {
@@ -151,11 +155,20 @@ Frame RunFile::frame(std::size_t k) const {
   std::size_t s = 0;
   for (; s < state_->segments.size() && k >= state_->segments[s].frames; ++s) k -= state_->segments[s].frames;
   if (s == state_->segments.size())
-    throw Error(ExitCode::internal, "the run has " + std::to_string(frame_count()) + " frames only");
+    throw Error(ExitCode::internal,
+                "the run has " + std::to_string(state_->all_tilts.size()) + " frames only");
   return read_frame(state_->segment(s), k);
 }
 
 std::vector<ObservableRow> RunFile::observables() const {
+  std::vector<ObservableRow> rows = all_observables();
+  const auto highest =
+      std::ranges::max_element(rows, {}, [](const ObservableRow& row) { return at(row, Observable::tilt); });
+  if (highest != rows.end()) rows.erase(std::next(highest), rows.end());
+  return rows;
+}
+
+std::vector<ObservableRow> RunFile::all_observables() const {
   std::vector<ObservableRow> rows;
   for (std::size_t s = 0; s < state_->segments.size(); ++s)
     append(rows, read_observables(state_->segment(s)));

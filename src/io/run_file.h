@@ -24,13 +24,18 @@ class RunFile {
 
   const RunHeader& header() const;
   bool complete() const;  ///< false for the folder of an interrupted or running run
-  std::size_t frame_count() const;
-  std::uint64_t contact_count() const;             ///< of all frames together
+  /// Of the tilt: up to the first frame, or row of observables, with the highest tilt. Those of a flow that
+  /// was followed after failure (tilt.after_failure) come after them; only all_... tell of these too.
+  std::size_t frame_count() const { return frame_tilts().size(); }
   const std::vector<double>& frame_tilts() const;  ///< rad, ascending
-  /// Frame k with everything stored, k < frame_count(). Values are those of the file (single precision where
-  /// it stores floats). Not for several threads at once.
-  Frame frame(std::size_t k) const;
   std::vector<ObservableRow> observables() const;
+
+  const std::vector<double>& all_frame_tilts() const;  ///< rad
+  std::vector<ObservableRow> all_observables() const;
+  std::uint64_t contact_count() const;  ///< of all frames together
+  /// Frame k with everything stored, k < all_frame_tilts().size(). Values are those of the file (single
+  /// precision where it stores floats). Not for several threads at once.
+  Frame frame(std::size_t k) const;
   std::vector<StepRow> steps() const;
   const Checkpoint& checkpoint() const;  ///< the last state, with results and timing
 

@@ -40,7 +40,10 @@ std::vector<DataSetField> frame_fields() {
        "/particles/grains"},
       {"/frames/time", float64, "T", "s",
        "simulated time; also linked as `time` beside each `value` of /particles/grains"},
-      {"/frames/tilt", float64, "T", "rad", "angle of the bed to the horizontal, theta; ascending"},
+      {"/frames/tilt", float64, "T", "rad",
+       "angle of the bed to the horizontal, theta; ascending up to failure, what comes after the first "
+       "highest "
+       "value is the flow that follows it"},
       {"/particles/grains/position/value", float32, "T N 2", "m",
        "centre (x, y) in the frame of the bed: x along it, downslope when the tilt is positive, in [0, L) of "
        "a periodic bed; y away from the floor"},
@@ -74,6 +77,10 @@ std::vector<DataSetField> checkpoint_fields() {
   return {
       {"/results/theta_c", float64, "", "rad",
        "angle of repose: the tilt at which the slope failed; NaN if it has not"},
+      {"/results/theta_r", float64, "", "rad",
+       "angle at rest: slope of the free surface against the horizontal where the flow after failure has "
+       "come to "
+       "rest; NaN if it has not; not there with tilt.after_failure = \"stop\""},
       {"/results/*", float64, "", "SI", "a figure of the run, in the SI unit of its kind"},
       {"/provenance/timing/*", float64, "", "s", "wall time spent in a stage"},
       {"/checkpoint/state_hash", text, "", "1",

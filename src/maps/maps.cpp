@@ -19,9 +19,12 @@ std::string fixed(double value, int decimals) {
   return text.data();
 }
 
-double shade_of(double gamma, MapKind kind, double gamma_c) {
-  if (kind == MapKind::overloaded) return is_overloaded(gamma, gamma_c) ? 1.0 : 0.0;
-  return gamma_shade(gamma, gamma_c);
+std::vector<double> map_shades(const Frame& frame, const RunStatics& statics, MapKind kind, double gamma_c) {
+  std::vector<double> shades;
+  for (const double gamma : std::span(frame.gamma).first(static_cast<std::size_t>(statics.free_count)))
+    shades.push_back(kind == MapKind::gamma ? gamma_shade(gamma, gamma_c)
+                                            : static_cast<double>(is_overloaded(gamma, gamma_c)));
+  return shades;
 }
 
 /// A disc, and in a periodic bed its copy where it crosses an edge.
@@ -39,7 +42,7 @@ void add_disc(std::vector<Disc>& discs, Disc disc, const RunStatics& statics) {
   discs.push_back(copy);
 }
 
-std::vector<Disc> map_discs(const Frame& frame, const RunStatics& statics, MapKind kind, double gamma_c) {
+std::vector<Disc> map_discs(const Frame& frame, const RunStatics& statics, std::span<const double> shades) {
   std::vector<Disc> discs;
   discs.reserve(frame.x.size() + frame.x.size() / 16);
   for (std::size_t i = 0; i < frame.x.size(); ++i) {
@@ -47,8 +50,8 @@ std::vector<Disc> map_discs(const Frame& frame, const RunStatics& statics, MapKi
     disc.x = static_cast<float>(frame.x[i]);
     disc.y = static_cast<float>(frame.y[i]);
     disc.radius = static_cast<float>(statics.radius[i]);
-    if (i < static_cast<std::size_t>(statics.free_count))
-      disc.shade = static_cast<float>(shade_of(frame.gamma[i], kind, gamma_c));
+    if (i < shades.size())
+      disc.shade = static_cast<float>(shades[i]);
     else
       disc.hatched = 1.0f;
     add_disc(discs, disc, statics);
@@ -102,17 +105,25 @@ void extend(MapExtent& extent, const Frame& frame, const RunStatics& statics) {
   }
 }
 
+FrameView bare_map(const Frame& frame, const RunStatics& statics, std::span<const double> shades,
+                   const MapExtent& extent) {
+  FrameView view;
+  view.furniture = false;
+  view.discs = map_discs(frame, statics, shades);
+  view.x_max = statics.length;
+  view.y_min = extent.y_min;
+  view.y_max = extent.y_max;
+  return view;
+}
+
 FrameView make_map(const Frame& frame, const RunStatics& statics, MapKind kind, double theta_c,
                    const MapExtent& extent) {
   if (!(theta_c > radians(2.0) && theta_c < radians(89.0)))
     throw Error(ExitCode::bad_data, "theta_c = " + fixed(degrees(theta_c), 3) +
                                         " deg: expected an angle of repose between 2 and 89 deg");
   const double gamma_c = sine(theta_c);
-  FrameView view;
-  view.discs = map_discs(frame, statics, kind, gamma_c);
-  view.x_max = statics.length;
-  view.y_min = extent.y_min;
-  view.y_max = extent.y_max;
+  FrameView view = bare_map(frame, statics, map_shades(frame, statics, kind, gamma_c), extent);
+  view.furniture = true;
   view.walls = !statics.periodic;
   view.floor_line = statics.free_count == frame.grain_count();
   view.tilt = frame.tilt;

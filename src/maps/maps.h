@@ -1,6 +1,7 @@
 #pragma once
 /// Maps of the bed: from a frame of a run to what the renderer draws.
 
+#include <span>
 #include <string_view>
 
 #include "core/snapshot.h"
@@ -32,6 +33,10 @@ struct MapExtent {
 
 /// Lets the extent hold all grains of a frame.
 void extend(MapExtent& extent, const Frame& frame, const RunStatics& statics);
+
+/// The bed of a frame without furniture, with a shade in [0, 1] for each free grain.
+FrameView bare_map(const Frame& frame, const RunStatics& statics, std::span<const double> shades,
+                   const MapExtent& extent);
 
 /// A map of a frame. `theta_c` is the angle of repose, rad, with Gamma_c = sin(theta_c).
 /// Throws Error(bad_data) where no gray scale can be made of theta_c.

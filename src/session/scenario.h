@@ -11,6 +11,7 @@ namespace talus {
 
 enum class BedBoundary { periodic, walls };
 enum class BedFloor { rough, smooth };
+enum class AfterFailure { stop, lower, hold };
 enum class SolverMethod { accelerated, gauss_seidel };
 
 struct Scenario {
@@ -56,6 +57,9 @@ struct Scenario {
     double rate = 1.0;                ///< deg/s
     double step = 0.001;              ///< deg per time step; h = step / rate
     std::optional<double> end_angle;  ///< deg; without a value ("repose"): until the slope fails
+    /// "stop": the run ends there; "lower", "hold": the tilt is lowered or kept until the flow has stopped
+    AfterFailure after_failure = AfterFailure::stop;
+    double lowering_rate = 0.1;  ///< deg/s
 
     bool operator==(const Tilt&) const = default;
   } tilt;

@@ -154,6 +154,14 @@ void add_loading_keys(Keys& keys) {
   keys.push_back(number_or_word(
       "tilt", "end_angle", "deg", end, "tilt at which the run ends; \"repose\": when the slope has failed",
       [](auto& s) -> auto& { return s.tilt.end_angle; }));
+  keys.push_back(choice(
+      "tilt", "after_failure", {{"stop", "lower", "hold"}},
+      "what follows failure: the end of the run, or a tilt that is lowered or kept until the flow has "
+      "stopped",
+      [](auto& s) -> auto& { return s.tilt.after_failure; }));
+  keys.push_back(number(
+      "tilt", "lowering_rate", "deg/s", from_to(1e-4, 100.0), "how fast the tilt is lowered after failure",
+      [](auto& s) -> auto& { return s.tilt.lowering_rate; }));
 }
 
 void add_computing_keys(Keys& keys) {

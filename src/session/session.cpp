@@ -6,6 +6,7 @@
 #include "core/errors.h"
 #include "core/trigonometry.h"
 #include "dynamics/bed.h"
+#include "stress/free_surface.h"
 
 namespace talus {
 namespace {
@@ -61,6 +62,14 @@ StepSettings step_settings(const Scenario& scenario) {
   return settings;
 }
 
+StepSettings step_settings(const Scenario& scenario, const World& world) {
+  StepSettings settings = step_settings(scenario);
+  const double velocity = rms_velocity(world.grains) / (world.gravity * settings.h);
+  settings.solver.tolerance = std::clamp(velocity * scenario.solver.moving_tolerance,
+                                         scenario.solver.tolerance, scenario.solver.moving_tolerance);
+  return settings;
+}
+
 RunStatics run_statics(const Scenario& scenario, const World& world) {
   RunStatics statics;
   statics.free_count = world.grains.free_count;
@@ -78,12 +87,9 @@ RunStatics run_statics(const Scenario& scenario, const World& world) {
 Session::Session(const Scenario& scenario) : scenario_(scenario), world_(loose_bed(scenario)) {}
 
 StepSettings Session::settings() const {
-  StepSettings settings = step_settings(scenario_);
+  StepSettings settings = step_settings(scenario_, world_);
   if (phase_ == Phase::deposition)
     settings.law.friction = settings.law.wall_friction = scenario_.deposition.friction;
-  const double velocity = rms_velocity(world_.grains) / (world_.gravity * settings.h);
-  settings.solver.tolerance = std::clamp(velocity * scenario_.solver.moving_tolerance,
-                                         scenario_.solver.tolerance, scenario_.solver.moving_tolerance);
   settings.solver.threads = threads_;
   return settings;
 }
@@ -98,6 +104,8 @@ const StepReport& Session::advance() {
     advance_deposition();
   else if (phase_ == Phase::tilt)
     advance_tilt();
+  else if (phase_ == Phase::flow)
+    advance_flow();
   return report_;
 }
 
@@ -127,31 +135,65 @@ double Session::step_angle() const { return radians(scenario_.tilt.step); }
 void Session::advance_tilt() {
   ++tilt_steps_;
   world_.tilt = static_cast<double>(tilt_steps_) * step_angle();
-  take_step();
-
-  const double diameter = scenario_.grains.mean_diameter;
-  const double velocity = surface_velocity(world_.grains, surface_height_ - surface_layer_depth * diameter);
-  surface_displacement_ += time_step(scenario_) * velocity;
+  const double velocity = take_step_and_follow();
   const bool failed_before = flow_.failed;
   follow_surface(flow_, velocity, world_.tilt, time_step(scenario_),
-                 flow_rule(diameter, world_.gravity, world_.boundary));
+                 flow_rule(scenario_.grains.mean_diameter, world_.gravity, world_.boundary));
 
   const double tilt = degrees(world_.tilt);
-  const bool ends = scenario_.tilt.end_angle ? tilt >= *scenario_.tilt.end_angle - 0.5 * scenario_.tilt.step
-                                             : flow_.failed || tilt >= steepest_tilt;
-  if (ends || tilt_steps_ % steps_between(scenario_.output.observable_every, scenario_.tilt.step) == 0)
-    record_row();
-  if (ends || flow_.failed != failed_before ||
-      tilt_steps_ % steps_between(scenario_.output.frame_every, scenario_.tilt.step) == 0)
-    segment_.frames.push_back(make_frame(world_, contact_law(scenario_)));
+  const bool followed = flow_.failed && scenario_.tilt.after_failure != AfterFailure::stop;
+  const bool reached = scenario_.tilt.end_angle
+                           ? tilt >= *scenario_.tilt.end_angle - 0.5 * scenario_.tilt.step
+                           : flow_.failed || tilt >= steepest_tilt;
+  const bool ends = followed || reached;
+  record(ends, ends || flow_.failed != failed_before);
+  if (ends) phase_ = followed ? Phase::flow : Phase::done;
+}
+
+void Session::advance_flow() {
+  ++flow_steps_;
+  const double time = static_cast<double>(flow_steps_) * time_step(scenario_);
+  const bool lowered = scenario_.tilt.after_failure == AfterFailure::lower;
+  if (lowered)
+    world_.tilt = std::max(
+        0.0, static_cast<double>(tilt_steps_) * step_angle() - time * radians(scenario_.tilt.lowering_rate));
+  take_step_and_follow();
+
+  const bool rests = is_at_rest() && report_.solver.converged;
+  const bool ends = rests || (lowered ? world_.tilt == 0.0 : time >= scenario_.deposition.max_time);
+  record(ends, ends);
+  if (rests)
+    angle_at_rest_ =
+        world_.tilt - surface_inclination(world_.grains, world_.boundary,
+                                          surface_sample_spacing * scenario_.grains.mean_diameter);
   if (ends) phase_ = Phase::done;
+}
+
+double Session::take_step_and_follow() {
+  take_step();
+  const double layer = surface_layer_depth * scenario_.grains.mean_diameter;
+  const double velocity = surface_velocity(world_.grains, surface_height_ - layer);
+  surface_displacement_ += time_step(scenario_) * velocity;
+  return velocity;
+}
+
+void Session::record(bool row, bool frame) {
+  const auto due = [this](double every) {
+    return (tilt_steps_ + flow_steps_) % steps_between(every, scenario_.tilt.step) == 0;
+  };
+  if (row || due(scenario_.output.observable_every)) record_row();
+  if (frame || due(scenario_.output.frame_every))
+    segment_.frames.push_back(make_frame(world_, contact_law(scenario_)));
 }
 
 void Session::take_step() {
   report_ = step(world_, settings(), workspace_);
   quiet_steps_ = is_quiet() ? quiet_steps_ + 1 : 0;
   const bool tilting = phase_ == Phase::tilt;
-  if (!report_.solver.converged) ++(tilting ? record_.unconverged_tilt : record_.unconverged_deposition);
+  if (!report_.solver.converged)
+    ++(tilting                       ? record_.unconverged_tilt
+       : phase_ == Phase::deposition ? record_.unconverged_deposition
+                                     : record_.unconverged_flow);
   const double eta = report_.solver.residual.eta;
   residual_since_row_ = std::max(residual_since_row_, eta);
   if (tilting) {
@@ -159,7 +201,7 @@ void Session::take_step() {
     worst = std::max(worst, eta);
   }
   for (std::size_t k = 0; k < stage_count; ++k) stage_seconds_[k] += report_.seconds[k];
-  (tilting ? tilt_seconds_ : deposition_seconds_) += seconds(report_);
+  (phase_ == Phase::deposition ? deposition_seconds_ : tilt_seconds_) += seconds(report_);
   segment_.steps.push_back(step_row(world_, report_, static_cast<double>(phase_)));
 }
 

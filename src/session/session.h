@@ -1,6 +1,6 @@
 #pragma once
-/// A run as a value that is stepped: deposition, rest, tilt, failure. The command line and the interactive
-/// frontend are both thin clients of it.
+/// A run as a value that is stepped: deposition, rest, tilt, failure, and what follows it. The command line
+/// and the interactive frontend are both thin clients of it.
 
 #include <array>
 #include <cstdint>
@@ -14,12 +14,14 @@
 
 namespace talus {
 
-enum class Phase : std::int64_t { deposition = 0, tilt = 1, done = 2 };
+/// Flow: what follows failure where the scenario asks for it (tilt.after_failure), until the bed is at rest.
+enum class Phase : std::int64_t { deposition = 0, tilt = 1, done = 2, flow = 3 };
 
 /// How well the steps of the tilt were solved so far.
 struct SolverRecord {
   std::int64_t unconverged_deposition = 0;  ///< steps that did not reach the tolerance asked of them
   std::int64_t unconverged_tilt = 0;
+  std::int64_t unconverged_flow = 0;
   double residual_max_rest = 0.0;    ///< worst eta of a step of the tilt at rest
   double residual_max_moving = 0.0;  ///< worst eta of the other steps of the tilt
 };
@@ -48,6 +50,10 @@ class Session {
   const SolverRecord& solver_record() const { return record_; }
   /// rad; no value while the slope has not failed.
   std::optional<double> angle_of_repose() const;
+  /// Slope of the free surface against the horizontal where the flow after failure has come to rest, rad; no
+  /// value before, or where it has not: by 0 deg where the tilt is lowered, within deposition.max_time where
+  /// it is held.
+  std::optional<double> angle_at_rest() const { return angle_at_rest_; }
 
   /// What was recorded since the last call of clear_segment.
   const Segment& segment() const { return segment_; }
@@ -64,16 +70,25 @@ class Session {
   void advance_deposition();
   void begin_tilt();
   void advance_tilt();
+  void advance_flow();
+  /// Takes a step and follows the surface layer in it; returns its velocity, m/s.
+  double take_step_and_follow();
+  /// Records a row of observables and a frame where they are due, or where `row` or `frame` is true.
+  void record(bool row, bool frame);
   void record_row();
   double step_angle() const;  ///< rad of tilt per step
+  void add_flow(Checkpoint& checkpoint) const;
+  void take_flow(const Checkpoint& checkpoint);
 
   Scenario scenario_;
   World world_;
   Phase phase_ = Phase::deposition;
   std::int64_t tilt_steps_ = 0;
+  std::int64_t flow_steps_ = 0;
   std::int64_t quiet_steps_ = 0;  ///< in a row, until now
   Baseline baseline_;
   SurfaceFlow flow_;
+  std::optional<double> angle_at_rest_;
   double surface_height_ = 0.0;        ///< m, mean free surface at the last row
   double surface_displacement_ = 0.0;  ///< m
   double residual_since_row_ = 0.0;
@@ -93,6 +108,9 @@ ContactLawParameters contact_law(const Scenario& scenario);
 
 /// A step of the tilt of a bed at rest, on one thread.
 StepSettings step_settings(const Scenario& scenario);
+
+/// The next step of a world in the tilt, on one thread: with the tolerance that its velocity asks for.
+StepSettings step_settings(const Scenario& scenario, const World& world);
 
 /// What does not change during the run.
 RunStatics run_statics(const Scenario& scenario, const World& world);

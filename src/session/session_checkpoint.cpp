@@ -48,6 +48,7 @@ Checkpoint Session::checkpoint(double seconds_writing) const {
                         {"residual_max_moving", record_.residual_max_moving},
                         {"unconverged_steps_deposition", static_cast<double>(record_.unconverged_deposition)},
                         {"unconverged_steps", static_cast<double>(record_.unconverged_tilt)}};
+  if (scenario_.tilt.after_failure != AfterFailure::stop) add_flow(checkpoint);
   checkpoint.timing = {{"deposition", deposition_seconds_}, {"tilt", tilt_seconds_}};
   for (std::size_t k = 0; k < stage_count; ++k)
     checkpoint.timing.emplace_back(std::string("stage_") + std::string(stage_names[k]), stage_seconds_[k]);
@@ -55,14 +56,29 @@ Checkpoint Session::checkpoint(double seconds_writing) const {
   return checkpoint;
 }
 
+void Session::add_flow(Checkpoint& checkpoint) const {
+  const double angle = angle_at_rest_.value_or(std::numeric_limits<double>::quiet_NaN());
+  checkpoint.integers.emplace_back("flow_steps", flow_steps_);
+  checkpoint.integers.emplace_back("unconverged_flow", record_.unconverged_flow);
+  checkpoint.results.emplace_back("theta_r", angle);
+  checkpoint.results.emplace_back("unconverged_steps_flow", static_cast<double>(record_.unconverged_flow));
+}
+
+void Session::take_flow(const Checkpoint& checkpoint) {
+  flow_steps_ = value_of(checkpoint.integers, "flow_steps");
+  record_.unconverged_flow = value_of(checkpoint.integers, "unconverged_flow");
+  const double angle = value_of(checkpoint.results, "theta_r");
+  if (!std::isnan(angle)) angle_at_rest_ = angle;
+}
+
 Session::Session(const Scenario& scenario, Checkpoint checkpoint)
     : scenario_(scenario), world_(std::move(checkpoint.world)) {
   const auto& integers = checkpoint.integers;
   const auto& reals = checkpoint.reals;
   const std::int64_t phase = value_of(integers, "phase");
-  if (phase < 0 || phase > static_cast<std::int64_t>(Phase::done))
+  if (phase < 0 || phase > static_cast<std::int64_t>(Phase::flow))
     throw Error(ExitCode::bad_data,
-                "the checkpoint has phase " + std::to_string(phase) + ", expected 0, 1 or 2");
+                "the checkpoint has phase " + std::to_string(phase) + ", expected 0, 1, 2 or 3");
   phase_ = static_cast<Phase>(phase);
   tilt_steps_ = value_of(integers, "tilt_steps");
   quiet_steps_ = value_of(integers, "quiet_steps");
@@ -79,6 +95,7 @@ Session::Session(const Scenario& scenario, Checkpoint checkpoint)
   surface_height_ = value_of(reals, "surface_height");
   surface_displacement_ = value_of(reals, "surface_displacement");
   residual_since_row_ = value_of(reals, "residual_since_row");
+  if (scenario_.tilt.after_failure != AfterFailure::stop) take_flow(checkpoint);
   deposition_seconds_ = or_zero(checkpoint.timing, "deposition");
   tilt_seconds_ = or_zero(checkpoint.timing, "tilt");
   for (std::size_t k = 0; k < stage_count; ++k)

@@ -9,8 +9,6 @@
 #include "core/hash.h"
 
 namespace talus {
-namespace {
-
 std::string version_of(const Facts& provenance) {
   std::string version, git_hash;
   for (const auto& [name, value] : provenance) {
@@ -19,8 +17,6 @@ std::string version_of(const Facts& provenance) {
   }
   return version + " (" + git_hash + ")";
 }
-
-}  // namespace
 
 std::string study_path(const std::string& folder, const StudyRun& run) {
   return (std::filesystem::path(folder) / (run.name + ".h5")).string();

@@ -12,6 +12,9 @@
 
 namespace talus {
 
+/// The version that computed a run, with its git hash, from its provenance.
+std::string version_of(const Facts& provenance);
+
 /// The file of a run of the study below `folder`.
 std::string study_path(const std::string& folder, const StudyRun& run);
 

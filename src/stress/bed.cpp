@@ -1,37 +1,16 @@
 #include "stress/bed.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "core/trigonometry.h"
+#include "stress/free_surface.h"
 
 namespace talus {
-namespace {
-
-/// Raises the samples that a disk covers to its upper edge. `first` may lie outside: samples are periodic or
-/// cut.
-void raise_envelope(std::vector<double>& height, double spacing, bool periodic, Vec2 centre, double radius) {
-  const auto count = static_cast<Index>(height.size());
-  const auto first = static_cast<Index>(std::ceil((centre.x - radius) / spacing - 0.5));
-  const auto last = static_cast<Index>(std::floor((centre.x + radius) / spacing - 0.5));
-  for (Index k = first; k <= last; ++k) {
-    if (!periodic && (k < 0 || k >= count)) continue;
-    const double offset = (k + 0.5) * spacing - centre.x;
-    const double top = centre.y + std::sqrt(std::max(0.0, radius * radius - offset * offset));
-    double& sample = height[static_cast<std::size_t>(((k % count) + count) % count)];
-    sample = std::max(sample, top);
-  }
-}
-
-}  // namespace
 
 double bed_volume(const Grains& grains, const Boundary& boundary, double spacing) {
-  const auto count = static_cast<std::size_t>(std::ceil(boundary.length / spacing));
-  if (count == 0) return 0.0;
-  const double step = boundary.length / static_cast<double>(count);
-  std::vector<double> height(count, 0.0);
-  for (Index i = 0; i < grains.free_count; ++i)
-    raise_envelope(height, step, boundary.periodic, {grains.x[i], grains.y[i]}, grains.radius[i]);
+  const std::vector<double> height = free_surface(grains, boundary, spacing);
+  if (height.empty()) return 0.0;
+  const double step = boundary.length / static_cast<double>(height.size());
   double sum = 0.0;
   for (double sample : height) sum += sample;
   return sum * step;

@@ -9,9 +9,7 @@
 
 namespace talus {
 
-/// Area below the free surface and above y = 0 (the tops of the floor grains), m^2. The free surface is the
-/// upper envelope of the free grains as seen from above, sampled every `spacing` metres along the bed; a
-/// place that no grain covers counts with height 0.
+/// Area below the free surface (free_surface.h) and above y = 0, m^2.
 double bed_volume(const Grains& grains, const Boundary& boundary, double spacing);
 
 /// Area of the free grains, m^2.

@@ -116,10 +116,12 @@ INSTANTIATE_TEST_SUITE_P(Signals, InterruptedStudy, testing::Values(SIGINT, SIGT
 /// Starts a study of one run that would go on for a minute, and returns once that has committed something.
 pid_t start_long_study(const TemporaryFolder& folder) {
   write_file(folder, "long.toml", "[bed]\nlength = 50\ndepth = 20\n[output]\ncheckpoint_every = 0\n");
+  const std::string manifest = folder.path("long/baseline/seed-1.h5.run/manifest");
+  std::error_code none;  // of a study that has not run before
+  const auto before = std::filesystem::last_write_time(manifest, none);
   const pid_t process =
       start_talus({"study", "long.toml", "--seeds", "1", "-o", "long", "--jobs", "1"}, folder.path());
-  const std::string manifest = folder.path("long/baseline/seed-1.h5.run/manifest");
-  for (int wait = 0; wait < 1000 && !std::filesystem::exists(manifest); ++wait)
+  for (int wait = 0; wait < 1000 && std::filesystem::last_write_time(manifest, none) == before; ++wait)
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   return process;
 }
@@ -141,7 +143,6 @@ TEST(Study, that_is_stopped_stops_its_runs_and_goes_on_where_they_were) {
   const int steps = steps_of_long_run(folder);
   EXPECT_GT(steps, 1);
   const pid_t second = start_long_study(folder);
-  std::this_thread::sleep_for(std::chrono::milliseconds(100));
   kill(second, SIGTERM);
   EXPECT_EQ(wait_for(second), 75);
   EXPECT_GE(steps_of_long_run(folder), steps);

@@ -49,6 +49,23 @@ TEST(Layout, NothingOverlapsAtAnyWidthInAnyBed) {
     }
 }
 
+TEST(Layout, WithoutFurnitureTheBedFillsThePicture) {
+  FrameView view = synthetic_view(MapKind::gamma, 200, 46);
+  view.furniture = false;
+  const Layout layout = lay_out(view, 1600, embedded_font());
+  EXPECT_EQ(layout.bed.x, 0.0);
+  EXPECT_EQ(layout.bed.y, 0.0);
+  EXPECT_EQ(layout.bed.width, 1600.0);
+  EXPECT_EQ(layout.width, 1600);
+  EXPECT_EQ(layout.bed.height, layout.height);
+  EXPECT_NEAR(layout.height, 1600.0 * (view.y_max - view.y_min) / (view.x_max - view.x_min), 1.0);
+  EXPECT_NEAR(layout.camera.origin_x + layout.camera.scale * view.x_min, 0.0, 1e-9);
+  EXPECT_NEAR(layout.camera.origin_y - layout.camera.scale * view.y_min, layout.height, 1e-9);
+  EXPECT_TRUE(layout.texts.empty());
+  view.y_max = 100.0 * view.x_max;
+  EXPECT_THROW(lay_out(view, 1600, embedded_font()), Error);
+}
+
 TEST(Layout, HoldsTheWholeBedInItsAspect) {
   const Font font = embedded_font();
   const FrameView view = synthetic_view(MapKind::gamma, 200, 46);

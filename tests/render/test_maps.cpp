@@ -70,6 +70,22 @@ TEST(OverloadedMap, CountsFreeGrainsThatCarrySomething) {
   EXPECT_EQ(view.title, "Overloaded grains, p_o = 0.500");
 }
 
+TEST(BareMap, TakesItsShadesAndHasNoFurniture) {
+  const test::SyntheticBed bed = test::make_synthetic_bed(3, 1, false);
+  const FrameView view = bare_map(bed.frame, bed.statics, std::vector<double>{0.0, 0.25, 1.0}, {-0.01, 0.05});
+  ASSERT_EQ(view.discs.size(), 6u);
+  EXPECT_EQ(view.discs[0].shade, 0.0f);
+  EXPECT_EQ(view.discs[1].shade, 0.25f);
+  EXPECT_EQ(view.discs[2].shade, 1.0f);
+  EXPECT_EQ(view.discs[2].hatched, 0.0f);
+  EXPECT_EQ(view.discs[3].hatched, 1.0f);
+  EXPECT_FALSE(view.furniture);
+  EXPECT_EQ(view.x_max, bed.statics.length);
+  EXPECT_EQ(view.y_min, -0.01);
+  EXPECT_EQ(view.y_max, 0.05);
+  EXPECT_TRUE(make_map(bed.frame, bed.statics, MapKind::gamma, theta_c, {-0.01, 0.05}).furniture);
+}
+
 TEST(Map, CopiesDiscsAcrossAPeriodicEdge) {
   EXPECT_EQ(discs_of(one_grain(5.0, 0.1), MapKind::gamma).size(), 1u);
   const std::vector<Disc> left = discs_of(one_grain(0.5, 0.1), MapKind::gamma);

@@ -69,6 +69,21 @@ TEST(Renderer, CutsDiscsAtTheEdgesOfTheBed) {
   EXPECT_EQ(gray_at(image, layout.bed.x + 0.5 * layout.bed.width, layout.bed.y - 1), 255);
 }
 
+TEST(Renderer, DrawsTheBedAloneWithoutFurniture) {
+  Renderer renderer(make_osmesa_context());
+  FrameView view = view_of({{0, 2, 1, 1.0f}});
+  view.furniture = false;
+  view.walls = view.floor_line = true;
+  const Image image = renderer.draw(view, 1000);
+  ASSERT_EQ(image.width, 1000);
+  ASSERT_EQ(image.height, 400);
+  EXPECT_EQ(gray_at(image, 0, 200), 0);
+  int strays = 0;
+  for (int y = 0; y < 400; ++y)
+    for (int x = 0; x < 1000; ++x) strays += gray_at(image, x, y) < 255 && std::hypot(x, y - 200) > 102.0;
+  EXPECT_EQ(strays, 0) << "nothing but the disc";
+}
+
 TEST(Renderer, DrawsWallsAndFloorOutsideTheBed) {
   Renderer renderer(make_osmesa_context());
   FrameView view = view_of({});

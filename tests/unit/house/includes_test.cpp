@@ -28,6 +28,7 @@ const std::map<std::string, std::vector<std::string>> rooms = {
       "render/frame_view.h"}},
     {"figures",
      {"figures/", "session/", "analysis/", "stress/", "io/", "maps/", "core/", "render/frame_view.h"}},
+    {"reproduction", {"reproduction/", "figures/", "session/", "analysis/", "io/", "core/"}},
     {"maps", {"maps/", "core/", "stress/", "render/frame_view.h"}},
     {"render", {"render/", "core/errors.h"}},
     {"app", {""}},

@@ -115,7 +115,7 @@ void expect_example_run(const RunFile& run) {
     steps.insert(steps.end(), written.steps.begin(), written.steps.end());
   }
   EXPECT_EQ(run.frame_count(), frames);
-  EXPECT_EQ(run.observables(), observables);
+  EXPECT_EQ(run.all_observables(), observables);
   EXPECT_EQ(run.steps(), steps);
 }
 
@@ -136,6 +136,37 @@ TEST(RoundTrip, of_a_packed_file) {
   EXPECT_TRUE(run.complete());
   expect_example_run(run);
   EXPECT_FALSE(std::filesystem::exists(folder.path("run.h5.run")));
+}
+
+/// Frames and rows of observables, one of each at these tilts.
+Segment segment_at(const std::vector<double>& tilts) {
+  Segment segment;
+  Frame frame = example::segment(1).frames.front();
+  for (const double tilt : tilts) {
+    frame.tilt = tilt;
+    segment.frames.push_back(frame);
+    segment.observables.emplace_back();
+    at(segment.observables.back(), Observable::tilt) = tilt;
+  }
+  return segment;
+}
+
+TEST(RoundTrip, of_a_flow_after_failure_which_is_told_apart) {
+  for (const double after : {0.3, 0.2}) {  // held at the highest tilt, or lowered
+    const example::TemporaryFolder folder;
+    RunStore store = RunStore::create(folder.path("run.h5"), example::header(), false);
+    store.commit(segment_at({0.1, 0.2}), example::checkpoint(0));
+    store.commit(segment_at({0.3, after}), example::checkpoint(1));
+    store.commit(segment_at({after}), example::checkpoint(2));
+    store.pack();
+    const RunFile run = RunFile::open(folder.path("run.h5"));
+    EXPECT_EQ(run.frame_tilts(), (std::vector{0.1, 0.2, 0.3}));
+    EXPECT_EQ(run.frame_count(), 3u);
+    EXPECT_EQ(run.observables().size(), 3u);
+    EXPECT_EQ(run.all_frame_tilts(), (std::vector{0.1, 0.2, 0.3, after, after}));
+    EXPECT_EQ(run.all_observables().size(), 5u);
+    EXPECT_EQ(run.frame(4).tilt, after);
+  }
 }
 
 TEST(RoundTrip, of_a_run_without_frames) {

@@ -60,6 +60,8 @@ TEST(Assets, have_a_small_demo) {
   Scenario expected = paper_bed(BedBoundary::periodic, 50.0);
   expected.bed.depth = 20.0;
   EXPECT_EQ(asset("demo.toml"), expected);
+  expected.tilt.after_failure = AfterFailure::lower;
+  EXPECT_EQ(asset("dynamic-angle.toml"), expected) << "the same bed, lowered after failure";
 }
 
 }  // namespace

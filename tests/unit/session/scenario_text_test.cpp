@@ -69,10 +69,12 @@ Scenario all_fields_changed() {
   deposition_friction = -0.0;
   rest_velocity = DBL_MIN;
   max_time = 3600.0;
-  auto& [rate, step, end_angle] = tilt;
+  auto& [rate, step, end_angle, after_failure, lowering_rate] = tilt;
   rate = 0.7;
   step = 0.0007;
   end_angle = std::nextafter(60.0, 0.0);
+  after_failure = AfterFailure::lower;
+  lowering_rate = 0.03;
   auto& [solver_method, tolerance, moving_tolerance, max_iterations, allowed_overlap, overlap_correction] =
       solver;
   solver_method = SolverMethod::gauss_seidel;

@@ -32,10 +32,11 @@ TEST(Suggestion, of_a_key_looks_at_other_sections_too) {
 }
 
 TEST(Suggestion, says_what_there_is_where_nothing_is_near) {
-  EXPECT_EQ(suggest_key("tilt", "speed"), "; [tilt] has rate, step, end_angle");
-  EXPECT_EQ(suggest_key("tilt", ""), "; [tilt] has rate, step, end_angle");
+  EXPECT_EQ(suggest_key("tilt", "speed"), "; [tilt] has rate, step, end_angle, after_failure, lowering_rate");
+  EXPECT_EQ(suggest_key("tilt", ""), "; [tilt] has rate, step, end_angle, after_failure, lowering_rate");
   EXPECT_TRUE(suggest_key("", "viscosity").starts_with("; expected seed, or a section: [grains], "));
-  EXPECT_EQ(suggest_key("tilt", std::string(100000, 'r')), "; [tilt] has rate, step, end_angle");
+  EXPECT_EQ(suggest_key("tilt", std::string(100000, 'r')),
+            "; [tilt] has rate, step, end_angle, after_failure, lowering_rate");
 }
 
 TEST(Suggestion, of_a_section) {

@@ -1,4 +1,4 @@
-#include "app/study_progress.h"
+#include "app/runs_progress.h"
 
 #include <unistd.h>
 
@@ -16,20 +16,22 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 
 }  // namespace
 
-StudyProgress::StudyProgress(std::vector<AwaitedRun> awaited, std::size_t complete, int at_once)
-    : awaited_(std::move(awaited)),
+RunsProgress::RunsProgress(ProgressWords words, std::vector<AwaitedRun> awaited, std::size_t complete,
+                           int at_once)
+    : words_(std::move(words)),
+      awaited_(std::move(awaited)),
       complete_(complete),
       at_once_(at_once),
       terminal_(isatty(STDERR_FILENO) != 0) {
   for (const AwaitedRun& run : awaited_) waiting_estimate_ += run.estimate;
 }
 
-void StudyProgress::start(std::size_t run) {
+void RunsProgress::start(std::size_t run) {
   running_.emplace(run, Clock::now());
   waiting_estimate_ -= awaited_[run].estimate;
 }
 
-void StudyProgress::end(std::size_t run, int exit_code) {
+void RunsProgress::end(std::size_t run, int exit_code) {
   const double seconds = seconds_since(running_.at(run));
   running_.erase(run);
   if (exit_code == 0) {
@@ -44,7 +46,7 @@ void StudyProgress::end(std::size_t run, int exit_code) {
 }
 
 /// Runs that ended tell how far the estimates are off; those under way count with what is left of them.
-double StudyProgress::seconds_left() const {
+double RunsProgress::seconds_left() const {
   const double pace = ended_estimate_ > 0.0 ? ended_seconds_ / ended_estimate_ : 1.0;
   double left = pace * waiting_estimate_;
   double longest = 0.0;
@@ -56,17 +58,17 @@ double StudyProgress::seconds_left() const {
   return std::max(left / at_once_, longest);
 }
 
-std::string StudyProgress::text() const {
-  return std::to_string(complete_ + ended_) + " of " + std::to_string(complete_ + awaited_.size()) +
-         " runs done, " + std::to_string(running_.size()) + " under way  ETA " +
+std::string RunsProgress::text() const {
+  return std::to_string(complete_ + ended_) + " of " + std::to_string(complete_ + awaited_.size()) + " " +
+         words_.counted + " done, " + std::to_string(running_.size()) + " under way  ETA " +
          duration_text(seconds_left()) + "  (" + duration_text(seconds_since(begin_)) + ")";
 }
 
-void StudyProgress::show() const {
-  if (terminal_) std::fprintf(stderr, "\r\033[Kstudy  %s", text().c_str());
+void RunsProgress::show() const {
+  if (terminal_) std::fprintf(stderr, "\r\033[K%s  %s", words_.label.c_str(), text().c_str());
 }
 
-void StudyProgress::finish() const {
+void RunsProgress::finish() const {
   if (terminal_) std::fputc('\n', stderr);
 }
 

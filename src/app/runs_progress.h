@@ -1,5 +1,6 @@
 #pragma once
-/// Progress of a study: one line that is rewritten on a terminal, a line for each run that ends in a log.
+/// Progress of several runs, or analyses: one line that is rewritten on a terminal, a line for each that ends
+/// in a log.
 
 #include <chrono>
 #include <map>
@@ -8,16 +9,22 @@
 
 namespace talus {
 
-/// A run that has still to be computed.
+/// A run, or an analysis, that has still to be computed.
 struct AwaitedRun {
   std::string name;
   double estimate = 0.0;  ///< s on one core, before anything is known
 };
 
-class StudyProgress {
+/// How the line begins, and what it counts.
+struct ProgressWords {
+  std::string label;    ///< "study"
+  std::string counted;  ///< "runs"
+};
+
+class RunsProgress {
  public:
-  /// `complete` runs of the study were there before.
-  StudyProgress(std::vector<AwaitedRun> awaited, std::size_t complete, int at_once);
+  /// `complete` of them were there before.
+  RunsProgress(ProgressWords words, std::vector<AwaitedRun> awaited, std::size_t complete, int at_once);
 
   void start(std::size_t run);
   void end(std::size_t run, int exit_code);
@@ -31,6 +38,7 @@ class StudyProgress {
   double seconds_left() const;
   std::string text() const;
 
+  ProgressWords words_;
   std::vector<AwaitedRun> awaited_;
   std::size_t complete_;
   std::size_t ended_ = 0;

@@ -1,0 +1,24 @@
+# A panel for each periodic bed.
+angles = "0 10 15"
+set xlabel "{/:Italic γ}"
+set ylabel "{/:Italic P}({/:Italic γ})"
+set xrange [0:1]
+set yrange [0:*]
+panel_top = 0.5
+set multiplot
+do for [g = 1:groups] {
+  eval panel(g, groups, 1, 1)
+  do for [f = 1:2] {
+    unset arrow f
+    unset label f
+    threshold = f * value(sprintf("gamma_c_%d", g))
+    if (threshold > 1) { continue }
+    set arrow f from threshold, graph 0 to threshold, graph 1 nohead linestyle 102
+    name = f == 1 ? "Γ_c" : "2 Γ_c"
+    set label f name at threshold, graph 0.93 offset character 0.4, 0
+  }
+  set label 3 label(g) at graph 0, graph 1 offset 0, character 0.6 font ",7"
+  plot for [a = 1:3] data(g) using "gamma":(column("density_" . word(angles, a))) with linespoints linetype a pointinterval 3 title "{/:Italic θ} = " . word(angles, a) . "°"
+  unset key
+}
+unset multiplot

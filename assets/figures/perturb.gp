@@ -1,0 +1,36 @@
+# The threshold over the distance to theta_c, as a velocity and as an energy. A bar is a bracket, its point the
+# middle on the scale of the axis. One symbol for each seed; triangles are states with one end only.
+file = figure . ".csv"
+set logscale y
+set pointintervalbox 0
+set format y "10^{%T}"
+set xrange [0:*]
+set xlabel "{/:Italic θ_c} − {/:Italic θ}  (deg)"
+set key at screen 0.5, screen 0.99 center top horizontal Left reverse maxrows 2 maxcols 6 samplen 1 width 1
+
+both(low, high) = low > 0 && high > 0     # false where one of them is NaN or 0
+none(name) = stringcolumn(name) eq "NaN"
+is_of(s) = column("seed") == word(seeds, s) + 0
+type(s) = int((s - 1) % 8) + 1
+x(s) = is_of(s) ? column("distance") : NaN
+
+# The angles theta_d, as distances; the labels on the outer sides of the lines.
+side = theta_d_lc > theta_d_dilation ? 1.2 : -1.2
+if (theta_d_lc > 0) { set arrow 1 from first theta_d_lc, graph 0 to first theta_d_lc, graph 1 nohead linestyle 102; \
+  set label 1 "{/:Italic θ_d} ({/:Italic l_c})" at first theta_d_lc, graph 0.03 left rotate by 90 offset character side, 0 }
+if (theta_d_dilation > 0) { set arrow 2 from first theta_d_dilation, graph 0 to first theta_d_dilation, graph 1 nohead linestyle 103; \
+  set label 2 "{/:Italic θ_d} (dilation)" at first theta_d_dilation, graph 0.03 left rotate by 90 offset character -side, 0 }
+
+set multiplot layout 1, 2 margins screen 0.09, 0.985, 0.16, 0.86 spacing screen 0.115
+do for [panel = 1:2] {
+  quantity = word("v energy", panel)
+  low = quantity . "_without"
+  high = quantity . "_with"
+  if (panel == 1) { set ylabel "{/:Italic v} / ({/:Italic gD})^{1/2}" } else { set ylabel "{/:Italic E} / {/:Italic mgD}"; unset key }
+  plot for [s = 1:words(seeds)] file using (x(s)):(both(column(low), column(high)) ? sqrt(column(low) * column(high)) : NaN):(column(low)):(column(high)) \
+         with yerrorbars linetype type(s) dashtype solid linewidth 1 pointsize 0.3 notitle, \
+       for [s = 1:words(seeds)] file using (x(s)):(none(high) ? column(low) : NaN) with points linetype type(s) pointtype 8 pointsize 0.6 notitle, \
+       for [s = 1:words(seeds)] file using (x(s)):(column(low) == 0 && !none(high) ? column(high) : NaN) with points linetype type(s) pointtype 10 pointsize 0.6 notitle, \
+       for [s = 1:words(seeds)] NaN with points linetype type(s) title "seed " . word(seeds, s)
+}
+unset multiplot

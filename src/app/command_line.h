@@ -1,0 +1,11 @@
+#pragma once
+/// How this program was called.
+
+#include <string>
+
+namespace talus {
+
+/// `talus figures runs/a.h5 -o 'my figures'`: as a shell reads it, for provenance.
+std::string command_line();
+
+}  // namespace talus

@@ -1,0 +1,93 @@
+#include "app/figure_text.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/json.h"
+#include "core/hash.h"
+#include "core/version.h"
+#include "figures/scripts.h"
+
+namespace talus {
+namespace {
+
+using json::quoted;
+
+std::string list_of(const std::vector<std::string>& values, int depth) {
+  const std::string margin(2 * static_cast<std::size_t>(depth), ' ');
+  std::string text = "[";
+  for (const std::string& value : values) text += (text.size() > 1 ? ",\n" : "\n") + margin + "  " + value;
+  return values.empty() ? "[]" : text + "\n" + margin + "]";
+}
+
+std::string table_json(const Figure& figure, const Table& table) {
+  std::vector<std::string> columns;
+  for (const Column& column : table.columns)
+    columns.push_back(json::object(
+        {{"name", quoted(column.name)}, {"unit", quoted(column.unit)}, {"meaning", quoted(column.meaning)}},
+        4));
+  return json::object({{"file", quoted(file_of(figure, table))}, {"columns", list_of(columns, 3)}}, 2);
+}
+
+std::string run_json(const FigureRun& run, const std::string& group) {
+  const std::string& scenario = run.file.header().scenario_resolved;
+  json::Members parameters;
+  for (const auto& [name, value] : run.analysis.parameters) parameters.emplace_back(name, quoted(value));
+  return json::object({{"path", quoted(run.path)},
+                       {"group", quoted(group)},
+                       {"seed", json::number(run.scenario.seed)},
+                       {"state_hash", quoted(hash_text(state_hash(run.file.checkpoint().world)))},
+                       {"scenario_hash", quoted(hash_text(hash_bytes(std::as_bytes(std::span(scenario)))))},
+                       {"analysis_key", quoted(run.analysis.key)},
+                       {"analysis", json::object(parameters, 3)}},
+                      2);
+}
+
+}  // namespace
+
+std::string csv_text(const Table& table) {
+  std::string text;
+  for (const Column& column : table.columns) text.append(text.empty() ? "" : ",").append(column.name);
+  text += '\n';
+  const std::size_t rows = table.columns.empty() ? 0 : table.columns.front().values.size();
+  for (std::size_t r = 0; r < rows; ++r)
+    for (const Column& column : table.columns) {
+      const double value = column.values[r];
+      text += std::isnan(value) ? std::string("NaN") : short_text(value);
+      text += &column == &table.columns.back() ? '\n' : ',';
+    }
+  return text;
+}
+
+std::string provenance_json(const Figure& figure, std::span<const RunGroup> groups,
+                            const std::string& command_line) {
+  std::vector<std::string> runs, tables;
+  for (const RunGroup& group : groups)
+    for (const FigureRun& run : group.runs)
+      if (std::ranges::find(figure.runs, run.path) != figure.runs.end())
+        runs.push_back(run_json(run, group.label));
+  for (const Table& table : figure.tables) tables.push_back(table_json(figure, table));
+  return json::object({{"figure", quoted(figure.name)},
+                       {"title", quoted(figure.title)},
+                       {"caption", quoted(figure.caption)},
+                       {"version", quoted(version_text())},
+                       {"command", quoted(command_line)},
+                       {"runs", list_of(runs, 1)},
+                       {"tables", list_of(tables, 1)}}) +
+         "\n";
+}
+
+double figure_width(const Figure& figure, int columns) {
+  return column_widths[columns > 0 ? columns - 1 : figure.wide ? 1 : 0];
+}
+
+std::string gnuplot_text(const Figure& figure, double width) {
+  std::string text = "# " + figure.title + "\n# To draw it again as PDF, SVG and PNG: gnuplot " +
+                     figure.name + ".gp\n\nfigure = \"" + figure.name + "\"\nwidth = " + short_text(width) +
+                     "  # cm\nheight = " + short_text(width * figure.height_over_width) + "\n";
+  for (const auto& [name, value] : figure.variables) text += name + " = " + value + "\n";
+  text.append("\n").append(figure_script("style")).append("\n").append(figure_script(figure.name));
+  return text + "\nunset output\npass = pass + 1\nif (pass <= 3) reread\n";
+}
+
+}  // namespace talus

@@ -1,0 +1,29 @@
+#pragma once
+/// The text files of a figure: data, provenance, and the script that draws it.
+
+#include <span>
+#include <string>
+
+#include "figures/figure.h"
+#include "figures/run_group.h"
+
+namespace talus {
+
+/// Column names, then a line for each row; the shortest digits that read back as the same number, NaN as NaN.
+std::string csv_text(const Table& table);
+
+/// What a figure shows and was made from: title, caption, version, command line, runs with seed, state hash,
+/// scenario hash and parameters of the analysis, and name, unit and meaning of each column of its tables.
+std::string provenance_json(const Figure& figure, std::span<const RunGroup> groups,
+                            const std::string& command_line);
+
+/// cm; of one column and of two.
+inline constexpr double column_widths[] = {8.6, 17.8};
+/// The width of a figure, for 1 or 2 columns; 0: its own.
+double figure_width(const Figure& figure, int columns);
+
+/// A script that needs nothing but the tables and maps beside it: the figure's variables, the common style
+/// and its own script. It draws FIGURE.pdf, FIGURE.svg and FIGURE.png in the folder where it is run.
+std::string gnuplot_text(const Figure& figure, double width);
+
+}  // namespace talus

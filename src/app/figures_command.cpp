@@ -1,0 +1,157 @@
+/// `talus figures`: the paper's figures of runs, as PDF, SVG and PNG with their data.
+
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "app/command_line.h"
+#include "app/commands.h"
+#include "app/figure_files.h"
+#include "app/figure_runs.h"
+#include "app/gnuplot.h"
+#include "app/map_options.h"
+#include "core/errors.h"
+#include "figures/catalogue.h"
+#include "session/scenario_suggestion.h"
+#include "session/scenario_text.h"
+
+namespace talus {
+namespace {
+
+struct FiguresArguments {
+  std::vector<std::string> runs;
+  std::vector<std::string> only;
+  std::vector<std::string> settings;
+  AnalysisOptions analysis;
+  int columns = 0;  ///< 0: each figure's own
+  std::string folder;
+  bool overwrite = false;
+};
+
+/// "fig09" of "fig09-overloaded-fraction"; other names have no short form.
+std::string_view short_name(std::string_view name) {
+  return name.starts_with("fig") ? name.substr(0, name.find('-')) : name;
+}
+
+/// "9" and "09" are short for "fig09".
+std::string long_form(const std::string& word) {
+  const bool number = !word.empty() && word.size() <= 2 &&
+                      std::ranges::all_of(word, [](unsigned char c) { return std::isdigit(c) != 0; });
+  return number ? std::string("fig").append(2 - word.size(), '0').append(word) : word;
+}
+
+[[noreturn]] void refuse_name(const std::string& word) {
+  std::string_view nearest;
+  std::size_t least = 1000;
+  for (const FigureRecipe& recipe : figure_catalogue())
+    for (const std::string_view name : {recipe.name, short_name(recipe.name)})
+      if (const std::size_t distance = edit_distance(word.substr(0, 60), name); distance < least) {
+        least = distance;
+        nearest = name;
+      }
+  throw Error(ExitCode::usage, std::string("--only ")
+                                   .append(printable(word))
+                                   .append(": there is no such figure; did you mean ")
+                                   .append(nearest)
+                                   .append("? talus figures --help lists them"));
+}
+
+/// The recipes that are asked for, in the order of the catalogue.
+std::vector<FigureRecipe> chosen_recipes(const std::vector<std::string>& only) {
+  const auto catalogue = figure_catalogue();
+  const auto is_called = [](const FigureRecipe& recipe, const std::string& word) {
+    return recipe.name == word || short_name(recipe.name) == long_form(word);
+  };
+  for (const std::string& word : only)
+    if (std::ranges::none_of(catalogue, [&](const auto& recipe) { return is_called(recipe, word); }))
+      refuse_name(word);
+  std::vector<FigureRecipe> recipes(catalogue.begin(), catalogue.end());
+  if (!only.empty())
+    std::erase_if(recipes, [&](const FigureRecipe& recipe) {
+      return std::ranges::none_of(only, [&](const std::string& word) { return is_called(recipe, word); });
+    });
+  return recipes;
+}
+
+/// The figures that can be made of the runs; the others are named with what they need.
+std::vector<Figure> make_figures(const std::vector<FigureRecipe>& recipes, std::span<const RunGroup> groups) {
+  std::vector<Figure> figures;
+  for (const FigureRecipe& recipe : recipes)
+    if (auto figure = recipe.make(groups))
+      figures.push_back(std::move(*figure));
+    else
+      std::fprintf(stderr, "left out: %.*s needs %.*s\n", static_cast<int>(recipe.name.size()),
+                   recipe.name.data(), static_cast<int>(recipe.needs.size()), recipe.needs.data());
+  if (figures.empty()) throw Error(ExitCode::bad_data, "no figure can be made of these runs");
+  return figures;
+}
+
+void make(const FiguresArguments& arguments) {
+  const std::vector<FigureRecipe> recipes = chosen_recipes(arguments.only);
+  const AnalysisParameters parameters = parse_analysis_settings(arguments.settings);
+  require_gnuplot();
+  const std::vector<RunGroup> groups =
+      group_runs(open_figure_runs(arguments.runs, parameters, arguments.analysis));
+  const std::vector<Figure> figures = make_figures(recipes, groups);
+  const std::filesystem::path folder = arguments.folder;
+  for (const Figure& figure : figures)
+    for (const std::string& file : figure_files(figure))
+      refuse_existing((folder / file).string(), arguments.overwrite);
+  for (std::size_t k = 0; k < figures.size(); ++k) {
+    write_figure(figures[k], groups, arguments.folder, {arguments.columns, command_line()});
+    if (!arguments.analysis.quiet) show_frame_progress("figures", k + 1, figures.size());
+  }
+  for (const Figure& figure : figures) std::printf("%-34s %s\n", figure.name.c_str(), figure.title.c_str());
+  std::printf("%zu figure%s in %s: .pdf, .svg, .png; data in .csv, provenance in .json, script in .gp\n",
+              figures.size(), figures.size() == 1 ? "" : "s", arguments.folder.c_str());
+}
+
+/// All figures, one a line, for the help.
+std::string list_of_figures() {
+  std::string text = "Figures:\n";
+  for (const FigureRecipe& recipe : figure_catalogue())
+    text.append("  ").append(recipe.name).append(": ").append(recipe.title).append("\n");
+  return text;
+}
+
+}  // namespace
+
+void add_figures_command(CLI::App& app) {
+  auto arguments = std::make_shared<FiguresArguments>();
+  CLI::App* command = app.add_subcommand(
+      "figures", "Draw the paper's figures of runs as PDF, SVG and PNG, with their data (needs gnuplot)");
+  command
+      ->add_option(
+          "runs", arguments->runs,
+          "Run files; those that differ in their seed only are averaged. Their analysis is read from "
+          "the file, or made and stored")
+      ->required();
+  command->add_option("-o,--output", arguments->folder, "Folder of the figures, made where missing")
+      ->required();
+  command
+      ->add_option("--only", arguments->only,
+                   "Figures to make, by name or number, with commas: --only fig09,12; default all")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command
+      ->add_option("--columns", arguments->columns,
+                   "Width of the figures: 1 column (8.6 cm) or 2 (17.8 cm); default: each figure's own")
+      ->check(CLI::IsMember({1, 2}));
+  command
+      ->add_option("--set", arguments->settings,
+                   "Change a parameter of the analysis, e.g. --set lc_cut=30 (see docs/analysis.md)")
+      ->allow_extra_args(false);
+  command
+      ->add_option("--threads", arguments->analysis.threads,
+                   "Frames analysed side by side; the result does not depend on it")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 256));
+  command->add_flag("--overwrite", arguments->overwrite, "Replace files that exist");
+  command->add_flag("-q,--quiet", arguments->analysis.quiet, "Show no progress");
+  command->footer(list_of_figures());
+  command->callback([arguments] { make(*arguments); });
+}
+
+}  // namespace talus

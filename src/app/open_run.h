@@ -1,0 +1,38 @@
+#pragma once
+/// A run that is about to be computed: begun, or taken up where its last commit left it.
+
+#include <csignal>
+#include <string>
+#include <vector>
+
+#include "session/run.h"
+
+namespace talus {
+
+/// What a command line asks for.
+struct RunRequest {
+  std::string scenario;               ///< its file
+  std::string output;                 ///< the run file
+  std::vector<std::string> settings;  ///< "key=value", the seed among them
+  int threads = 1;
+  bool overwrite = false;
+  std::string command_line;  ///< for the provenance
+};
+
+struct OpenRun {
+  RunStore store;
+  Session session;
+};
+
+/// A new run. Throws as read_scenario and RunStore::create do.
+OpenRun start_run(const RunRequest& request);
+
+/// The run whose folder is there. The scenario is the one stored with it: Error(bad_data) where the file and
+/// the settings say something else.
+OpenRun resume_run(const RunRequest& request);
+
+/// Catches SIGINT and SIGTERM from now on and returns the flag that they set. The first asks the run to stop
+/// after its step; the second leaves at once with ExitCode::stopped (the store is whole at any time).
+const volatile std::sig_atomic_t* catch_stop_signals();
+
+}  // namespace talus

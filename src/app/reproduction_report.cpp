@@ -1,0 +1,330 @@
+#include "app/reproduction_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "app/progress.h"
+#include "core/version.h"
+#include "session/estimate.h"
+#include "session/scenario_text.h"
+
+namespace talus {
+namespace {
+
+template <typename... Values>
+std::string formatted(const char* format, Values... values) {
+  char text[256];
+  std::snprintf(text, sizeof text, format, values...);
+  return text;
+}
+
+/// "0.300", "15.0", "119", "7.4e-05".
+std::string three_digits(double value) {
+  std::string text = formatted("%#.3g", value);
+  if (text.ends_with('.')) text.pop_back();
+  return text;
+}
+
+std::string unit_text(std::string_view unit) {
+  return unit == "1" ? std::string() : std::string(" ").append(unit);
+}
+
+/// "about 3.5", and below it how far off a value may be, and where it stands.
+ReportCell paper_cell(const PaperValue& paper) {
+  std::string note;
+  if (paper.relation == Relation::equals)
+    note = formatted("%.3g ± %.2g", paper.value, paper.accuracy) + unit_text(paper.unit) + "; ";
+  return {std::string(paper.text), note + std::string(paper.where)};
+}
+
+std::vector<std::size_t> periodic_beds(const ReproductionPlan& plan) {
+  std::vector<std::size_t> beds;
+  for (std::size_t b = 0; b < plan.beds.size(); ++b)
+    if (plan.beds[b].periodic()) beds.push_back(b);
+  return beds;
+}
+
+std::vector<const ReproducedOutcome*> outcomes_of(const ReproductionResult& result, std::size_t bed) {
+  std::vector<const ReproducedOutcome*> outcomes;
+  for (const ReproducedOutcome& outcome : result.outcomes)
+    if (result.plan.runs[outcome.run].bed == bed) outcomes.push_back(&outcome);
+  return outcomes;
+}
+
+std::string settings_text(const std::vector<std::string>& settings) {
+  std::string text;
+  for (const std::string& setting : settings) text += " --set " + setting;
+  return text;
+}
+
+std::string bed_text(const ReproducedBed& bed) {
+  return std::string(bed.periodic() ? "periodic" : "walls") + ", L = " + short_text(bed.scenario.bed.length) +
+         " D";
+}
+
+ReportTable beds_table(const ReproductionResult& result) {
+  ReportTable table{{{"bed"},
+                     {"H", true},
+                     {"grains", true},
+                     {"deposition.friction", true},
+                     {"seeds complete", true},
+                     {"theta_c [deg]", true},
+                     {"processor time", true}},
+                    {}};
+  for (std::size_t b = 0; b < result.plan.beds.size(); ++b) {
+    const ReproducedBed& bed = result.plan.beds[b];
+    const auto outcomes = outcomes_of(result, b);
+    double seconds = 0.0;
+    for (const ReproducedOutcome* outcome : outcomes) seconds += outcome->seconds;
+    table.rows.push_back(
+        {{bed_text(bed)},
+         {short_text(bed.scenario.bed.depth) + " D"},
+         {std::to_string(estimate(bed.scenario).grains)},
+         {short_text(bed.scenario.deposition.friction)},
+         {std::to_string(outcomes.size()) + " of " + std::to_string(result.plan.seeds.size())},
+         {spread_text(spread_of(result, b, PaperQuantity::theta_c, 0))},
+         {duration_text(seconds)}});
+  }
+  return table;
+}
+
+std::string versions_text(const ReproductionResult& result) {
+  std::vector<std::string> versions;
+  double seconds = 0.0;
+  for (const ReproducedOutcome& outcome : result.outcomes) {
+    seconds += outcome.seconds;
+    if (std::ranges::find(versions, outcome.version) == versions.end()) versions.push_back(outcome.version);
+  }
+  std::string text = "Runs by Talus ";
+  for (const std::string& version : versions) text += (&version == &versions.front() ? "" : ", ") + version;
+  return text + "; their steps took " + duration_text(seconds) +
+         " on one thread each. Analysed and drawn by " + version_text() + ".";
+}
+
+std::vector<std::string> run_commands(const ReproductionPlan& plan) {
+  std::vector<std::string> lines;
+  for (const ReproducedBed& bed : plan.beds)
+    lines.push_back("talus run scenarios/" + bed.scenario_name + ".toml" + settings_text(bed.settings) +
+                    " --seed N -o runs/" + bed.name + "/seed-N.h5");
+  lines.push_back("talus analyze runs/*/seed-*.h5");
+  return lines;
+}
+
+std::vector<ReportBlock> run_blocks(const ReproductionResult& result) {
+  const ReproductionPlan& plan = result.plan;
+  std::string seeds;
+  for (const std::uint64_t seed : plan.seeds) seeds += (seeds.empty() ? "" : ", ") + std::to_string(seed);
+  std::vector<ReportBlock> blocks = {ReportHeading{2, "What was run"}};
+  if (plan.quick)
+    blocks.emplace_back(ReportParagraph{
+        "Quick: beds of half the paper's depth with the same H / L between walls. Angles and ratios can be "
+        "compared with the paper's, lengths cannot. Without `--quick` the beds are the paper's."});
+  blocks.emplace_back(ReportParagraph{
+      "Rigid disks, friction 0.5, no restitution, diameters within a ratio of 1.5, tilted by 1 deg/s in "
+      "steps "
+      "of 0.001 deg until the slope fails. Seeds: " +
+      seeds +
+      ". The paper does not say how grains rubbed while its beds were deposited, so the periodic bed is "
+      "prepared in three ways: `deposition.friction` = 0.5 as in the rest of the run, 0.15 and 0."});
+  blocks.emplace_back(beds_table(result));
+  blocks.emplace_back(ReportParagraph{versions_text(result)});
+  blocks.emplace_back(ReportParagraph{"The same by hand, in the folder of this report, for each seed N:"});
+  blocks.emplace_back(ReportCommands{run_commands(plan)});
+  return blocks;
+}
+
+std::vector<ReportBlock> rule_blocks() {
+  return {
+      ReportHeading{2, "How values are compared"},
+      ReportList{{
+          "Ours is the mean over the seeds ± their standard deviation (that of one bed, not of the mean).",
+          ("The accuracy of a value of the paper, printed below it, is half a step of the number as it is "
+           "printed, or of the scale that it was read from."),
+          ("The tolerance is this accuracy and one standard deviation of ours. Up to it, a value agrees. So "
+           "a "
+           "wide spread makes it easier to agree: it stands beside."),
+          ("\"Does not occur\": no run shows it. \"Not comparable\" says why. `<=` is an upper bound: what "
+           "is "
+           "looked for is there from the first frame on."),
+          ("All that depends on the threshold for overloaded grains stands there twice: with the printed "
+           "one, "
+           "gamma >= Gamma_c = sin(theta_c), and with twice it. theta_c is that of the same run."),
+      }}};
+}
+
+std::vector<ReportTable::Column> value_columns(const ReproductionPlan& plan, bool threshold) {
+  std::vector<ReportTable::Column> columns = {{"quantity"}, {"paper"}};
+  if (threshold) columns.push_back({"threshold"});
+  for (const std::size_t b : periodic_beds(plan)) columns.push_back({preparation_text(plan.beds[b]), true});
+  return columns;
+}
+
+std::vector<ReportCell> value_cells(const ReproductionResult& result, const PaperValue& paper,
+                                    std::size_t factor) {
+  std::vector<ReportCell> cells;
+  for (const std::size_t b : periodic_beds(result.plan))
+    cells.push_back(judged_cell(paper, spread_of(result, b, paper.quantity, factor),
+                                result.plan.beds[b].scenario.bed.depth));
+  return cells;
+}
+
+std::string name_text(const PaperValue& paper) {
+  return std::string(paper.name) + (paper.unit == "1" ? "" : " [" + std::string(paper.unit) + "]");
+}
+
+ReportTable packing_table(const ReproductionResult& result) {
+  ReportTable table{value_columns(result.plan, false), {}};
+  for (const PaperValue& paper : packing_values()) {
+    std::vector<ReportCell> row = {{name_text(paper)}, paper_cell(paper)};
+    std::ranges::move(value_cells(result, paper, 0), std::back_inserter(row));
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+ReportTable chain_table(const ReproductionResult& result) {
+  ReportTable table{value_columns(result.plan, true), {}};
+  const char* const thresholds[] = {"Gamma_c, as printed", "2 Gamma_c"};
+  for (const PaperValue& paper : chain_values()) {
+    const bool both = paper.quantity != PaperQuantity::theta_d_by_dilation;
+    for (std::size_t f = 0; f < (both ? 2U : 1U); ++f) {
+      std::vector<ReportCell> row = {{f == 0 ? name_text(paper) : ""},
+                                     f == 0 ? paper_cell(paper) : ReportCell{""},
+                                     {both ? thresholds[f] : "none needed"}};
+      std::ranges::move(value_cells(result, paper, f), std::back_inserter(row));
+      table.rows.push_back(std::move(row));
+    }
+  }
+  return table;
+}
+
+ReportTable wall_table(const ReproductionResult& result) {
+  ReportTable table{{{"bed"}, {"quantity"}, {"paper"}, {"ours", true}}, {}};
+  for (const PaperValue& general : wall_values())
+    for (std::size_t b = 0; b < result.plan.beds.size(); ++b) {
+      const ReproducedBed& bed = result.plan.beds[b];
+      if (bed.periodic()) continue;
+      const PaperValue paper = paper_value_of_walls(general.quantity, bed.depth_over_length());
+      table.rows.push_back(
+          {{bed_text(bed)},
+           {name_text(paper)},
+           paper_cell(paper),
+           judged_cell(paper, spread_of(result, b, paper.quantity, 0), bed.scenario.bed.depth)});
+    }
+  const std::vector<WallPoint> points = wall_points(result);
+  const WallFit fit = fit_wall_law(points);
+  const PaperValue& paper = paper_value(PaperQuantity::wall_coefficient);
+  const int count = static_cast<int>(points.size());
+  const Spread ours{count, count, fit.k, fit.error, false};
+  table.rows.push_back({{"all between walls"},
+                        {std::string(paper.name)},
+                        paper_cell(paper),
+                        judged_cell(paper, ours, paper_depth)});
+  return table;
+}
+
+ReportTable definition_table() {
+  ReportTable table{{{"quantity"}, {"how ours is measured"}, {"data set of a run file"}}, {}};
+  for (const PaperValue& paper : paper_values)
+    table.rows.push_back({{std::string(paper.name)},
+                          {std::string(paper.definition)},
+                          {"`/analysis/" + std::string(paper.source) + "`"}});
+  return table;
+}
+
+std::vector<ReportBlock> definition_blocks() {
+  return {
+      ReportHeading{2, "How each number is measured"},
+      ReportParagraph{
+          "`talus analyze runs/BED/seed-N.h5` prints the series of a run and, with `--json`, all of them; "
+          "they stand in the run file under the path given here. Definitions are those of "
+          "docs/analysis.md and docs/notation.md; `values.csv` has the value of each run."},
+      definition_table()};
+}
+
+/// How many of some values agree in a preparation.
+std::string agreement_count(const ReproductionResult& result, std::size_t bed,
+                            std::span<const PaperValue> values) {
+  int agreeing = 0, comparable = 0;
+  for (const PaperValue& paper : values) {
+    const Agreement found =
+        judge(paper, spread_of(result, bed, paper.quantity, 0), result.plan.beds[bed].scenario.bed.depth)
+            .agreement;
+    agreeing += found == Agreement::agrees ? 1 : 0;
+    comparable += found != Agreement::not_comparable ? 1 : 0;
+  }
+  return std::to_string(agreeing) + " of " + std::to_string(comparable);
+}
+
+}  // namespace
+
+std::string preparation_text(const ReproducedBed& bed) {
+  return "deposition friction " + short_text(bed.scenario.deposition.friction);
+}
+
+std::string spread_text(const Spread& spread) {
+  if (spread.count == 0) return "-";
+  std::string text = spread.at_most ? "<= " : "";
+  if (spread.count > 1 && spread.deviation > 0.0) {
+    const int decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(spread.deviation))), 0, 8);
+    text += formatted("%.*f ± %.*f", decimals, spread.mean, decimals, spread.deviation);
+  } else {
+    text += three_digits(spread.mean) + (spread.count > 1 ? " ± 0" : "");
+  }
+  if (spread.count < spread.runs)
+    text += " (" + std::to_string(spread.count) + " of " + std::to_string(spread.runs) + ")";
+  return text;
+}
+
+ReportCell judged_cell(const PaperValue& paper, const Spread& ours, double depth) {
+  const Judgement judgement = judge(paper, ours, depth);
+  const Tone tones[] = {Tone::good, Tone::bad, Tone::bad, Tone::muted};
+  return {spread_text(ours), judgement_text(judgement), tones[static_cast<std::size_t>(judgement.agreement)]};
+}
+
+std::vector<std::string> reproduction_summary(const ReproductionResult& result) {
+  std::vector<std::string> items;
+  std::vector<std::string> counts;
+  for (const std::size_t b : periodic_beds(result.plan))
+    counts.push_back(agreement_count(result, b, packing_values()) + " with " +
+                     preparation_text(result.plan.beds[b]));
+  items.push_back("Of the paper's values for the packing agree " + listed(counts) + ".");
+  const std::vector<WallPoint> points = wall_points(result);
+  const WallFit fit = fit_wall_law(points);
+  if (points.size() > 1)
+    items.push_back(formatted("Between walls, k_L - k_0 = %.2f ± %.2f over %zu runs; in the paper about 2.5.",
+                              fit.k, fit.error, points.size()));
+  std::ranges::move(threshold_conclusion(result.plan, study_of(result)), std::back_inserter(items));
+  return items;
+}
+
+ReportDocument reproduction_report(const ReproductionResult& result,
+                                   const std::vector<ReportPicture>& pictures) {
+  ReportDocument document{"Talus beside the paper", {}};
+  auto& blocks = document.blocks;
+  const auto append = [&blocks](std::vector<ReportBlock> more) {
+    std::ranges::move(more, std::back_inserter(blocks));
+  };
+  blocks.emplace_back(ReportParagraph{
+      "What L. Staron, J.-P. Vilotte and F. Radjai report in \"Multiscale Analysis of the Stress State in a "
+      "Granular Slope in Transition to Failure\" (2005), and what Talus finds in beds made and tilted in the "
+      "same way. Written by `talus reproduce`."});
+  append({ReportHeading{2, "In short"}, ReportList{reproduction_summary(result)}});
+  append(run_blocks(result));
+  append(rule_blocks());
+  append({ReportHeading{2, "The packing"}, packing_table(result)});
+  append({ReportHeading{2, "Overloaded grains, lengths and the transition"}, chain_table(result)});
+  append(
+      {ReportHeading{2, "Beds between walls"},
+       ReportParagraph{"Deposition friction 0.5. The paper's Eq. 15: (sigma_T/sigma_N)/tan(theta) "
+                       "= 1 - (k_L - k_0)/3 H/L; its values for each length are this with k_L - k_0 = 2.5."},
+       wall_table(result)});
+  append(threshold_blocks(result));
+  append(definition_blocks());
+  if (!pictures.empty()) blocks.emplace_back(ReportHeading{2, "Figures"});
+  for (const ReportPicture& picture : pictures) blocks.emplace_back(picture);
+  return document;
+}
+
+}  // namespace talus

@@ -1,0 +1,212 @@
+/// The part of the reproduction report on what brings the paper's chain about.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "app/reproduction_report.h"
+#include "session/scenario_text.h"
+
+namespace talus {
+namespace {
+
+std::string formatted(const char* format, double value) {
+  char text[64];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+std::string reading_text(const Reading& reading) {
+  return reading.threshold + (reading.change.empty() ? "" : ", " + reading.change);
+}
+
+std::string result_text(const ReproductionPlan& plan, const ReadingResult& result) {
+  return std::string("`")
+      .append(reading_text(readings()[result.reading]))
+      .append("` with ")
+      .append(preparation_text(plan.beds[result.preparation]));
+}
+
+std::string score_text(const ReadingResult& result) {
+  return std::to_string(result.agreeing) + " of " + std::to_string(result.comparable);
+}
+
+/// "27 %"; "-" where half of the values do not occur.
+std::string deviation_text(const ReadingResult& result) {
+  return std::isfinite(result.deviation) ? formatted("%.0f", 100.0 * result.deviation) + " %" : "-";
+}
+
+/// The values of the chain as heads of columns.
+std::vector<ReportTable::Column> chain_columns() {
+  std::vector<ReportTable::Column> columns = {{"reading"}};
+  for (const PaperValue& paper : chain_values())
+    columns.push_back(
+        {std::string(paper.name) + (paper.unit == "1" ? "" : " [" + std::string(paper.unit) + "]"), true});
+  columns.push_back({"agree", true});
+  columns.push_back({"half within", true});
+  return columns;
+}
+
+/// A value without its seeds missing: columns are narrow.
+ReportCell chain_cell(const Spread& spread, const Judgement& judgement) {
+  const Tone tone = judgement.agreement == Agreement::agrees           ? Tone::good
+                    : judgement.agreement == Agreement::not_comparable ? Tone::muted
+                                                                       : Tone::plain;
+  return {spread_text(spread), judgement.agreement == Agreement::agrees ? "agrees" : "", tone};
+}
+
+ReportTable preparation_table(std::span<const ReadingResult> results, std::size_t preparation) {
+  ReportTable table{chain_columns(), {}};
+  std::vector<ReportCell> paper = {{"the paper", "", Tone::muted}};
+  for (const PaperValue& value : chain_values())
+    paper.push_back({formatted("%.3g", value.value), "", Tone::muted});
+  paper.resize(table.columns.size());
+  table.rows.push_back(std::move(paper));
+  for (const ReadingResult& result : results) {
+    if (result.preparation != preparation) continue;
+    const Reading& reading = readings()[result.reading];
+    std::vector<ReportCell> row = {reading.change.empty() ? ReportCell{reading.threshold}
+                                                          : ReportCell{"", reading.change}};
+    for (std::size_t v = 0; v < result.values.size(); ++v)
+      row.push_back(chain_cell(result.values[v], result.judgements[v]));
+    row.push_back({score_text(result)});
+    row.push_back({deviation_text(result)});
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+std::string best_text(const ReproductionPlan& plan, std::span<const ReadingResult> results,
+                      const StudyConclusion& conclusion) {
+  constexpr std::size_t most = 3;
+  std::vector<std::string> names;
+  for (const std::size_t r : conclusion.best)
+    if (names.size() < most) names.push_back(result_text(plan, results[r]));
+  const std::size_t more = conclusion.best.size() - names.size();
+  if (more > 0) names.push_back(std::to_string(more) + " more");
+  return "Nearest to the paper's chain " + std::string(conclusion.best.size() > 1 ? "are " : "is ") +
+         listed(names) + ": " + score_text(results[conclusion.best.front()]) +
+         " values agree, half lie within " + deviation_text(results[conclusion.best.front()]) +
+         " of the paper's" + (conclusion.best.size() > 1 ? ", in each." : ".");
+}
+
+/// Where another result than the best one has the smallest deviation.
+std::string least_text(const ReproductionPlan& plan, std::span<const ReadingResult> results,
+                       std::size_t least) {
+  return "The smallest median deviation has " + result_text(plan, results[least]) + ": " +
+         deviation_text(results[least]) + ", with " + score_text(results[least]) + " that agree.";
+}
+
+std::string scores_text(const ReproductionPlan& plan, const StudyConclusion& conclusion) {
+  std::vector<std::string> preparations, thresholds;
+  for (std::size_t p = 0; p < conclusion.score_of_preparation.size(); ++p)
+    if (!std::isnan(conclusion.score_of_preparation[p]))
+      preparations.push_back(formatted("%.1f", conclusion.score_of_preparation[p]) + " with " +
+                             preparation_text(plan.beds[p]));
+  for (std::size_t r = 0; r < conclusion.score_of_reading.size(); ++r)
+    if (readings()[r].change.empty())
+      thresholds.push_back(formatted("%.1f", conclusion.score_of_reading[r]) + " for `" +
+                           readings()[r].threshold + "`");
+  return "Mean number of values that agree, over all readings: " + listed(preparations) +
+         "; over preparations, with nothing else changed: " + listed(thresholds) + ".";
+}
+
+/// The change of each threshold that raises its score most, over preparations.
+std::string changes_text(const StudyConclusion& conclusion) {
+  std::vector<std::string> texts;
+  for (std::size_t base = 0; base < conclusion.score_of_reading.size(); ++base) {
+    if (!readings()[base].change.empty()) continue;
+    std::size_t best = base;
+    for (std::size_t r = base + 1; r < conclusion.score_of_reading.size() && !readings()[r].change.empty();
+         ++r)
+      if (conclusion.score_of_reading[r] > conclusion.score_of_reading[best]) best = r;
+    texts.push_back(best == base
+                        ? "no change raises that of `" + readings()[base].threshold + "`"
+                        : "`" + readings()[best].change + "` raises that of `" + readings()[base].threshold +
+                              "` most, to " + formatted("%.1f", conclusion.score_of_reading[best]));
+  }
+  return "Of the changes to a reading, " + listed(texts) + ".";
+}
+
+std::string missed_text(const ReproductionPlan& plan, std::span<const ReadingResult> results,
+                        const StudyConclusion& conclusion) {
+  std::vector<std::string> texts;
+  for (const auto& [value, nearest] : conclusion.missed) {
+    const PaperValue& paper = chain_values()[value];
+    std::string text(paper.name);
+    if (nearest)
+      text += formatted(" (paper %.3g", paper.value) + ", nearest " +
+              spread_text(results[*nearest].values[value]) + ", " + result_text(plan, results[*nearest]) +
+              ")";
+    else
+      text += " (occurs in none)";
+    texts.push_back(text);
+  }
+  return "No combination reaches " + listed(texts) + ".";
+}
+
+/// What is asked, and how the definitions are read.
+std::vector<ReportBlock> introduction() {
+  return {
+      ReportHeading{2, "Settling the threshold"},
+      ReportParagraph{
+          "The paper leaves some things open: how beds were made, and details of its data processing. Here "
+          "its definitions are read in other ways, one factor at a time from the printed threshold and from "
+          "twice it, for each preparation. \"Agree\" counts the values of the chain that agree with the "
+          "paper's, each by the rule above; \"half within\" is the median of |ours - paper| / paper over the "
+          "chain. They say how near a reading comes, not why; values of one chain are not independent."},
+      ReportList{{
+          "p_o over all grains: not over those alone that carry something.",
+          ("Grains with 3 contacts or more: a grain held by two contacts has gamma near 1 whatever its load; "
+           "here it does not count."),
+          "Moments averaged over 1 deg: the internal moment of each grain is a mean over 1 deg of tilt.",
+          ("Neighbours joined: overloaded grains join to clusters where their centres are closer than 1.1 "
+           "times the sum of their radii, in contact or not."),
+          "l_c cut as in the paper: at 30 D of 40 D, so at 3/4 of the depth; else at the depth.",
+          ("l_c ends at Gamma_c: grains count from 2 Gamma_c on, but their neighbourhoods grow until the "
+           "stress ratio is Gamma_c."),
+      }}};
+}
+
+}  // namespace
+
+std::string listed(const std::vector<std::string>& words) {
+  std::string text;
+  for (std::size_t k = 0; k < words.size(); ++k)
+    text += (k == 0 ? "" : k + 1 == words.size() ? " and " : ", ") + words[k];
+  return text;
+}
+
+std::vector<std::string> threshold_conclusion(const ReproductionPlan& plan,
+                                              std::span<const ReadingResult> results) {
+  if (results.empty()) return {"No periodic bed is complete: nothing is said about the threshold."};
+  const StudyConclusion conclusion = conclude(results);
+  std::vector<std::string> sentences = {best_text(plan, results, conclusion)};
+  const auto least = conclusion.least_deviation;
+  if (least && std::isfinite(results[*least].deviation) && std::ranges::count(conclusion.best, *least) == 0)
+    sentences.push_back(least_text(plan, results, *least));
+  sentences.push_back(scores_text(plan, conclusion));
+  sentences.push_back(changes_text(conclusion));
+  if (!conclusion.missed.empty()) sentences.push_back(missed_text(plan, results, conclusion));
+  sentences.emplace_back(conclusion.complete
+                             ? "So the nearest reading brings the paper's chain and ours together."
+                             : "So nothing that was tried brings the paper's chain and ours together.");
+  return sentences;
+}
+
+std::vector<ReportBlock> threshold_blocks(const ReproductionResult& result) {
+  const std::vector<ReadingResult> results = study_of(result);
+  std::vector<ReportBlock> blocks = introduction();
+  for (std::size_t b = 0; b < result.plan.beds.size(); ++b) {
+    if (std::ranges::none_of(results, [b](const ReadingResult& each) { return each.preparation == b; }))
+      continue;
+    const std::string preparation = preparation_text(result.plan.beds[b]);
+    blocks.emplace_back(ReportHeading{3, "The bed with " + preparation});
+    blocks.emplace_back(preparation_table(results, b));
+  }
+  blocks.emplace_back(ReportHeading{3, "What follows"});
+  blocks.emplace_back(ReportList{threshold_conclusion(result.plan, results)});
+  return blocks;
+}
+
+}  // namespace talus

@@ -1,0 +1,56 @@
+#include "figures/catalogue.h"
+
+#include <array>
+
+#include "figures/contact_figures.h"
+#include "figures/dynamic_angle.h"
+#include "figures/force_chains.h"
+#include "figures/map_panels.h"
+#include "figures/neighbourhoods_figure.h"
+#include "figures/overload_figures.h"
+#include "figures/packing_stress_figures.h"
+#include "figures/volume_strain_figure.h"
+#include "figures/wall_figures.h"
+
+namespace talus {
+
+std::span<const FigureRecipe> figure_catalogue() {
+  static constexpr FigureRecipe recipes[] = {
+      {"fig04-shear-stress", "Normalised shear stress over tan(theta) (paper, Fig. 4)", "a run",
+       shear_stress_figure},
+      {"fig05-stress-ratio", "Stress ratio of the packing over sin(theta) (paper, Fig. 5)", "a run",
+       stress_ratio_figure},
+      {"fig06-wall-stress", "Stress sigma_xx along a bed between walls (paper, Fig. 6)",
+       "a bed between walls that has failed", wall_stress_figure},
+      {"fig07-wall-ratio", "Shear stress at failure over the length between walls (paper, Fig. 7)",
+       "a bed between walls that has failed", wall_ratio_figure},
+      {"fig08-stress-ratio-density", "Distribution of the stress ratio of grains (paper, Fig. 8)",
+       "a periodic bed with a threshold: that has failed, or --set gamma_c", gamma_density_figure},
+      {"fig09-overloaded-fraction", "Overloaded fraction over tilt (paper, Fig. 9)",
+       "a periodic bed with a threshold: that has failed, or --set gamma_c", overloaded_fraction_figure},
+      {"fig10-stress-ratio-maps", "Maps of the stress ratio of each grain (paper, Fig. 10)",
+       "a run that has failed", gamma_maps},
+      {"fig11-neighbourhoods", "Growing neighbourhoods of an overloaded grain (paper, Fig. 11)",
+       "a run that has failed, with overloaded grains in the middle of its bed", neighbourhoods_figure},
+      {"fig12-coarse-graining-length",
+       "Coarse-graining length of overloaded grains over tilt (paper, Fig. 12)",
+       "a periodic bed with a threshold: that has failed, or --set gamma_c", length_figure},
+      {"fig13-overloaded-maps", "Maps of the overloaded grains (paper, Fig. 13)", "a run that has failed",
+       overload_maps},
+      {"fig14-volume-strain", "Volume strain over tilt, and theta_d by each estimator (paper, Fig. 14)",
+       "a periodic bed", volume_strain_figure},
+      {"contact-directions", "Directions of contact normals", "a run that has failed", contact_directions},
+      {"force-chains", "Force chains just before failure", "a run that has failed", force_chains},
+      {"force-distribution", "Distribution of the normal forces", "a run that has failed",
+       force_distribution},
+      {"critical-contacts", "Contacts with fully mobilised friction", "a run that has failed",
+       critical_contacts_figure},
+      {"correlations", "Correlation of forces and stresses over distance", "a run that has failed",
+       correlations},
+      {"dynamic-angle", "Angle at rest over theta_c and theta_d",
+       "a run with tilt.after_failure whose flow has stopped", dynamic_angle_figure},
+  };
+  return recipes;
+}
+
+}  // namespace talus

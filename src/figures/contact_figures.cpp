@@ -1,0 +1,161 @@
+#include "figures/contact_figures.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/trigonometry.h"
+#include "figures/failed_group.h"
+#include "figures/run_means.h"
+#include "session/study_statistics.h"
+
+namespace talus {
+namespace {
+
+/// The two states that are compared: the first frame of each run, and its last before theta_c.
+struct State {
+  std::string name, text;
+  std::vector<std::size_t> frames;
+};
+
+std::vector<State> states_of(const RunChoice& runs) {
+  State start{"_start", " at the start of the tilt", {}};
+  State repose{"_repose", " at the last frame before theta_c", {}};
+  for (const FigureRun* run : runs) {
+    start.frames.push_back(0);
+    repose.frames.push_back(repose_frame(*run));
+  }
+  return {start, repose};
+}
+
+/// Adds the means of a data set, at both states, to a table.
+void add_means(Table& table, const RunChoice& runs, std::string_view data_set, const Column& column) {
+  for (const State& state : states_of(runs))
+    for (Column& mean : row_means(runs, state.frames, data_set,
+                                  {column.name + state.name, column.unit, column.meaning + state.text, {}}))
+      table.columns.push_back(std::move(mean));
+}
+
+double mean_tilt(const RunChoice& runs, const State& state) {
+  double sum = 0.0;
+  for (std::size_t r = 0; r < runs.size(); ++r)
+    sum += runs[r]->file.frame_tilts()[state.frames[r]] / static_cast<double>(runs.size());
+  return sum;
+}
+
+/// A figure of these runs, with the angles of the two states for its script.
+Figure figure_of(const FailedGroup& failed) {
+  Figure figure;
+  for (const FigureRun* run : failed.runs) figure.runs.push_back(run->path);
+  for (const State& state : states_of(failed.runs))
+    set_variable(figure, "theta" + state.name, gnuplot_quoted(angle_text(mean_tilt(failed.runs, state))));
+  return figure;
+}
+
+std::string states_text(const FailedGroup& failed) {
+  const std::vector<State> states = states_of(failed.runs);
+  return " at theta = " + angle_text(mean_tilt(failed.runs, states[0])) +
+         " deg and at the last frame before failure (theta = " +
+         angle_text(mean_tilt(failed.runs, states[1])) +
+         (failed.runs.size() > 1 ? " deg in the mean): " : " deg): ") +
+         (failed.runs.size() > 1 ? "mean of " : "") + runs_text(failed.runs.size()) + " of " +
+         failed.group->label;
+}
+
+constexpr const char* error_text = ", with the standard error over the runs as bars where there are several";
+
+/// Lower and upper edges of bins, in units of `unit`.
+std::vector<Column> edge_columns(std::span<const double> edges, double unit, const Column& axis) {
+  Column from{axis.name + "_from", axis.unit, "lower edge of a bin of " + axis.meaning, {}};
+  Column to{axis.name + "_to", axis.unit, "its upper edge", {}};
+  for (std::size_t b = 0; b + 1 < edges.size(); ++b) {
+    from.values.push_back(edges[b] / unit);
+    to.values.push_back(edges[b + 1] / unit);
+  }
+  return {from, to};
+}
+
+}  // namespace
+
+std::vector<Column> row_means(const RunChoice& runs, std::span<const std::size_t> frames,
+                              std::string_view data_set, Column mean) {
+  Column error{mean.name + "_error", mean.unit, "its standard error over the runs", {}};
+  const std::size_t width = row_width(runs.front()->analysis, data_set);
+  for (std::size_t k = 0; k < width; ++k) {
+    std::vector<double> elements;
+    for (std::size_t r = 0; r < runs.size(); ++r)
+      elements.push_back(row<double>(runs[r]->analysis, data_set, frames[r])[k]);
+    const MeanError result = mean_error(elements);
+    mean.values.push_back(result.mean);
+    error.values.push_back(result.error);
+  }
+  return {std::move(mean), std::move(error)};
+}
+
+std::optional<Figure> contact_directions(std::span<const RunGroup> groups) {
+  const auto failed = first_failed_group(groups);
+  if (!failed) return std::nullopt;
+  Figure figure = figure_of(*failed);
+  figure.name = "contact-directions";
+  figure.title = "Directions of contact normals";
+  figure.caption =
+      "Probability density of the direction of contact normals, to the bed," + states_text(*failed) +
+      ". Filled: each contact counted once; outlined: weighted with its normal force; thin "
+      "circle: uniform, 1/pi per rad. A normal and its opposite are one direction; 0, 60 and 120 deg are "
+      "marked.";
+  figure.wide = true;
+  figure.height_over_width = 0.48;
+  const auto edges = values<double>(failed->first().analysis, "contacts/direction_edge");
+  Table table{"", edge_columns(edges, radians(1.0), {"direction", "deg", "the direction to the bed", {}})};
+  add_means(table, failed->runs, "contacts/direction_density",
+            {"density", "1/rad", "probability density of the direction", {}});
+  add_means(table, failed->runs, "contacts/direction_density_by_force",
+            {"by_force", "1/rad", "the same, contacts weighted with f_n,", {}});
+  figure.tables = {std::move(table)};
+  return figure;
+}
+
+std::optional<Figure> force_distribution(std::span<const RunGroup> groups) {
+  const auto failed = first_failed_group(groups);
+  if (!failed) return std::nullopt;
+  Figure figure = figure_of(*failed);
+  figure.name = "force-distribution";
+  figure.title = "Distribution of the normal forces";
+  figure.caption = "Probability density of the normal force f over its mean <f>," + states_text(*failed) +
+                   error_text + "; (a) semilogarithmic, (b) double logarithmic.";
+  figure.wide = true;
+  figure.height_over_width = 0.4;
+  const auto edges = values<double>(failed->first().analysis, "contacts/force_edge");
+  Table table{"", edge_columns(edges, 1.0, {"force", "1", "the normal force over its mean", {}})};
+  add_means(table, failed->runs, "contacts/force_density",
+            {"density", "1", "probability density of f over <f>", {}});
+  figure.tables = {std::move(table)};
+  return figure;
+}
+
+std::optional<Figure> correlations(std::span<const RunGroup> groups) {
+  const auto failed = first_failed_group(groups);
+  if (!failed) return std::nullopt;
+  Figure figure = figure_of(*failed);
+  figure.name = "correlations";
+  figure.title = "Correlation of forces and stresses over distance";
+  figure.caption =
+      "Correlation of the normal forces, of the stress ratio gamma of grains and of their mean "
+      "stress, over distance," +
+      states_text(*failed) + error_text +
+      ". Forces and mean stresses are over the mean of their layer of 2 D.";
+  figure.wide = true;
+  figure.height_over_width = 0.4;
+  Column distance{"r", "D", "distance between two contact points, or two centres", {}};
+  for (const double r : values<double>(failed->first().analysis, "correlation/distance"))
+    distance.values.push_back(r / failed->first().file.header().statics.mean_diameter);
+  Table table{"", {std::move(distance)}};
+  add_means(table, failed->runs, "correlation/normal_force",
+            {"force", "1", "correlation of normal forces", {}});
+  add_means(table, failed->runs, "correlation/gamma", {"gamma", "1", "correlation of gamma", {}});
+  add_means(table, failed->runs, "correlation/mean_stress",
+            {"stress", "1", "correlation of the mean stress of grains", {}});
+  figure.tables = {std::move(table)};
+  return figure;
+}
+
+}  // namespace talus

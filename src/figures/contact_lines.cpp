@@ -1,0 +1,55 @@
+#include "figures/contact_lines.h"
+
+#include "stress/free_surface.h"
+
+namespace talus {
+namespace {
+
+constexpr double samples_per_diameter = 4.0;
+
+/// Appends a line whose second end may lie outside of the period.
+void append_cut(std::vector<ContactLine>& lines, const ContactLine& line, double length) {
+  const double edge = line.x2 < 0.0 ? 0.0 : length;
+  const double period = line.x2 < 0.0 ? -length : length;
+  const double y = line.y1 + (line.y2 - line.y1) * (edge - line.x1) / (line.x2 - line.x1);
+  lines.push_back({line.x1, line.y1, edge, y, line.contact});
+  lines.push_back({edge - period, y, line.x2 - period, line.y2, line.contact});
+}
+
+}  // namespace
+
+std::vector<ContactLine> contact_lines(const Frame& frame, const RunStatics& statics) {
+  const FrameContacts& contacts = frame.contacts;
+  std::vector<ContactLine> lines;
+  for (Index c = 0; c < contacts.count(); ++c) {
+    const Index a = contacts.a[c], b = contacts.b[c];
+    ContactLine line{frame.x[a], frame.y[a], contacts.px[c], contacts.py[c], c};
+    if (b < frame.grain_count()) {
+      line.x2 = frame.x[b] + contacts.shift[c] * statics.length;
+      line.y2 = frame.y[b];
+    }
+    if (contacts.shift[c] == 0)
+      lines.push_back(line);
+    else
+      append_cut(lines, line, statics.length);
+  }
+  return lines;
+}
+
+SurfaceLine surface_line(const Frame& frame, const RunStatics& statics) {
+  Grains grains;
+  grains.free_count = statics.free_count;
+  grains.x = frame.x;
+  grains.y = frame.y;
+  grains.radius = statics.radius;
+  Boundary boundary;
+  boundary.periodic = statics.periodic;
+  boundary.length = statics.length;
+  SurfaceLine line;
+  line.y = free_surface(grains, boundary, statics.mean_diameter / samples_per_diameter);
+  const double step = statics.length / static_cast<double>(line.y.size());
+  for (std::size_t k = 0; k < line.y.size(); ++k) line.x.push_back((static_cast<double>(k) + 0.5) * step);
+  return line;
+}
+
+}  // namespace talus

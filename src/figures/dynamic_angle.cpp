@@ -1,0 +1,172 @@
+#include "figures/dynamic_angle.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/trigonometry.h"
+#include "figures/group_table.h"
+#include "figures/run_means.h"
+#include "session/scenario_text.h"
+
+namespace talus {
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+constexpr double seconds_before_failure = 2.0;
+
+/// rad; NaN where the run has none.
+double angle_at_rest(const FigureRun& run) {
+  for (const auto& [name, value] : run.file.checkpoint().results)
+    if (name == "theta_r") return value;
+  return none;
+}
+
+RunChoice runs_at_rest(const RunGroup& group) {
+  RunChoice runs = all_runs(group);
+  std::erase_if(runs, [](const FigureRun* run) { return std::isnan(angle_at_rest(*run)); });
+  return runs;
+}
+
+/// The three columns of an estimate of theta_d.
+void add_estimate(std::vector<Column>& columns, const std::string& name, const std::string& meaning) {
+  columns.push_back({name, "deg", "theta_d by " + meaning, {}});
+  columns.push_back({name + "_low", "deg", "lower end of its range", {}});
+  columns.push_back({name + "_high", "deg", "upper end of its range", {}});
+}
+
+std::vector<Column> empty_columns(std::span<const double> factors) {
+  std::vector<Column> columns = {
+      {"seed", "1", "seed of the run", {}},
+      {"theta_r", "deg", "angle at rest", {}},
+      {"theta_c", "deg", "angle of repose", {}},
+  };
+  for (const double factor : factors) {
+    const std::string text = short_text(factor);
+    add_estimate(columns, "lc_jump_" + text, "the jump of l_c max, threshold " + text + " Gamma_c");
+    add_estimate(columns, "percolation_" + text,
+                 "percolation of the overloaded grains, threshold " + text + " Gamma_c");
+  }
+  add_estimate(columns, "dilation_volume", "the onset of dilation, volume");
+  add_estimate(columns, "dilation_centre", "the onset of dilation, centre of mass");
+  return columns;
+}
+
+/// The values of a run, in the order of empty_columns. An angle that is told from the frame before it lies
+/// between the two; where there is no frame before it, it has no range.
+std::vector<double> row_of(const FigureRun& run) {
+  const auto value = [&run](const char* name, std::size_t k) {
+    return degrees(values<double>(run.analysis, name)[k]);
+  };
+  std::vector<double> row = {static_cast<double>(run.scenario.seed), degrees(angle_at_rest(run)),
+                             value("theta_c", 0)};
+  for (std::size_t f = 0; f < run.analysis.sizes.at('F'); ++f)
+    for (const auto& [name, error] : {std::pair("theta_d/lc_jump", "theta_d/lc_jump_error"),
+                                      std::pair("theta_d/percolation", "theta_d/percolation_error")}) {
+      const double angle = value(name, f);
+      const double spacing = value(error, f);
+      row.insert(row.end(), {angle, std::isnan(spacing) ? angle : angle - spacing, angle});
+    }
+  for (std::size_t s = 0; s < 2; ++s)
+    row.insert(row.end(), {value("theta_d/dilation", s), value("theta_d/dilation_low", s),
+                           value("theta_d/dilation_high", s)});
+  return row;
+}
+
+std::vector<Column> columns_of(const RunChoice& runs) {
+  std::vector<Column> columns = empty_columns(values<double>(runs.front()->analysis, "threshold_factor"));
+  for (const FigureRun* run : runs) {
+    const std::vector<double> row = row_of(*run);
+    for (std::size_t k = 0; k < columns.size(); ++k) columns[k].values.push_back(row[k]);
+  }
+  return columns;
+}
+
+std::string factors_text(const FigureRun& run) {
+  std::string text;
+  for (const double factor : values<double>(run.analysis, "threshold_factor"))
+    text.append(text.empty() ? "" : " ").append(short_text(factor));
+  return text;
+}
+
+std::string caption_of(std::size_t runs, const FigureRun& shown, const std::string& label) {
+  return "Angle at rest theta_r, the dynamic angle of repose, of " + runs_text(runs) +
+         ", (a) over the angle of repose theta_c and (b, c, d) over theta_d by each of its estimators; the "
+         "line "
+         "is theta_r = theta. (b) and (c): jump of l_c max and percolation of the overloaded grains, filled "
+         "for "
+         "the first threshold, open for the last; bars reach to the frame before. (d): onset of dilation, "
+         "filled "
+         "by the volume, open by the centre of mass; bars are the range in which the strain is at its "
+         "minimum "
+         "within noise. (e) Tilt and velocity of the surface layer over the time since failure: " +
+         label + ", seed " + std::to_string(shown.scenario.seed) + ".";
+}
+
+/// Whole degrees, a degree and more beside all angles at rest.
+void set_range(Figure& figure) {
+  double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
+  for (const Table& table : figure.tables) {
+    const auto [low, high] = std::ranges::minmax(table.columns[1].values);
+    lowest = std::min(lowest, low);
+    highest = std::max(highest, high);
+  }
+  set_variable(figure, "lowest", std::floor(lowest) - 1.0);
+  set_variable(figure, "highest", std::ceil(highest) + 1.0);
+}
+
+/// A row of observables with its tilt above those of all rows before it.
+std::size_t row_of_failure(const std::vector<ObservableRow>& rows) {
+  const auto tilt = [](const ObservableRow& row) { return at(row, Observable::tilt); };
+  return static_cast<std::size_t>(std::ranges::max_element(rows, {}, tilt) - rows.begin());
+}
+
+}  // namespace
+
+Table flow_trace(const FigureRun& run) {
+  const RunStatics& statics = run.file.header().statics;
+  const double unit = std::sqrt(statics.gravity * statics.mean_diameter);
+  Table table{"trace",
+              {{"time", "s", "time since failure", {}},
+               {"theta", "deg", "tilt", {}},
+               {"velocity", "sqrt(g D)", "mean velocity of the surface layer since the row before", {}}}};
+  const std::vector<ObservableRow> rows = run.file.all_observables();
+  const double failure = at(rows[row_of_failure(rows)], Observable::time);
+  for (std::size_t k = 1; k < rows.size(); ++k) {
+    const double time = at(rows[k], Observable::time);
+    const double interval = time - at(rows[k - 1], Observable::time);
+    if (time < failure - seconds_before_failure || interval <= 0.0) continue;
+    const double moved =
+        at(rows[k], Observable::surface_displacement) - at(rows[k - 1], Observable::surface_displacement);
+    table.columns[0].values.push_back(time - failure);
+    table.columns[1].values.push_back(degrees(at(rows[k], Observable::tilt)));
+    table.columns[2].values.push_back(moved / interval / unit);
+  }
+  return table;
+}
+
+std::optional<Figure> dynamic_angle_figure(std::span<const RunGroup> groups) {
+  Figure figure;
+  figure.name = "dynamic-angle";
+  figure.title = "Angle at rest over theta_c and theta_d";
+  figure.wide = true;
+  figure.height_over_width = 0.55;
+  const FigureRun* shown = nullptr;
+  std::string shown_label;
+  for (const RunGroup& group : groups) {
+    const RunChoice runs = runs_at_rest(group);
+    if (runs.empty()) continue;
+    add_group_table(figure, group, runs, columns_of(runs));
+    if (shown != nullptr) continue;
+    shown = runs.front();
+    set_variable(figure, "factors", std::string(1, '"').append(factors_text(*shown)) + '"');
+    shown_label = group.label;
+  }
+  if (shown == nullptr) return std::nullopt;
+  set_range(figure);
+  figure.caption = caption_of(figure.runs.size(), *shown, shown_label);
+  figure.tables.push_back(flow_trace(*shown));
+  return figure;
+}
+
+}  // namespace talus

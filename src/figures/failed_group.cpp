@@ -1,0 +1,33 @@
+#include "figures/failed_group.h"
+
+#include <cmath>
+
+#include "core/trigonometry.h"
+#include "figures/run_means.h"
+#include "maps/frame_choice.h"
+#include "session/scenario_text.h"
+
+namespace talus {
+
+std::optional<FailedGroup> first_failed_group(std::span<const RunGroup> groups) {
+  for (const RunGroup& group : groups)
+    if (RunChoice runs = failed_runs(group); !runs.empty()) return FailedGroup{&group, std::move(runs)};
+  return std::nullopt;
+}
+
+std::string first_run_text(const FailedGroup& failed) {
+  return failed.group->label + ", seed " + std::to_string(failed.first().scenario.seed);
+}
+
+std::size_t repose_frame(const FigureRun& run) {
+  return frame_at_repose(run.file.frame_tilts(), theta_c_of(run));
+}
+
+std::string rounded_text(double value, int decimals) {
+  const double ten_to = std::pow(10.0, decimals);
+  return short_text(std::round(value * ten_to) / ten_to + 0.0);  // no "-0"
+}
+
+std::string angle_text(double tilt) { return rounded_text(degrees(tilt), 2); }
+
+}  // namespace talus

@@ -1,0 +1,86 @@
+#include <algorithm>
+#include <cmath>
+
+#include "core/trigonometry.h"
+#include "figures/contact_figures.h"
+#include "figures/group_table.h"
+#include "figures/overload_figures.h"
+#include "figures/run_means.h"
+#include "session/scenario_text.h"
+#include "session/study_statistics.h"
+
+namespace talus {
+namespace {
+
+constexpr double angles[] = {0.0, 10.0, 15.0};  // deg, as in the paper
+
+/// Those of the runs that stand at `tilt`, rad, and the frame of each that is nearest to it.
+struct FramesAtAngle {
+  RunChoice runs;
+  std::vector<std::size_t> frames;
+};
+FramesAtAngle frames_at_angle(const RunChoice& runs, double tilt) {
+  FramesAtAngle result;
+  for (const FigureRun* run : runs)
+    if (stands_at(*run, tilt)) {
+      result.runs.push_back(run);
+      result.frames.push_back(frame_nearest(*run, tilt));
+    }
+  return result;
+}
+
+/// gamma, and its density at each angle that at least half of the runs reach.
+std::vector<Column> density_columns(const RunChoice& runs) {
+  Column gamma{"gamma", "1", "middle of the bin", {}};
+  const auto edges = values<double>(runs.front()->analysis, "gamma/edge");
+  for (std::size_t b = 0; b + 1 < edges.size(); ++b) gamma.values.push_back(0.5 * (edges[b] + edges[b + 1]));
+  std::vector<Column> columns = {std::move(gamma)};
+  for (const double angle : angles) {
+    const auto [at_angle, frames] = frames_at_angle(runs, radians(angle));
+    const std::string text = short_text(angle);
+    const std::string meaning = std::string("probability density of gamma at ").append(text).append(" deg, ");
+    Column mean{"density_" + text, "1", meaning + runs_text(at_angle.size()), {}};
+    if (2 * at_angle.size() >= runs.size()) {
+      for (Column& column : row_means(at_angle, frames, "gamma/density", std::move(mean)))
+        columns.push_back(std::move(column));
+    } else {
+      mean.values.assign(edges.size() - 1, std::nan(""));
+      columns.push_back(std::move(mean));
+    }
+  }
+  return columns;
+}
+
+double mean_gamma_c(const RunChoice& runs) {
+  std::vector<double> all;
+  for (const FigureRun* run : runs) all.push_back(values<double>(run->analysis, "gamma_c")[0]);
+  return mean_error(all).mean;
+}
+
+}  // namespace
+
+std::optional<Figure> gamma_density_figure(std::span<const RunGroup> groups) {
+  Figure figure;
+  figure.name = "fig08-stress-ratio-density";
+  figure.title = "Distribution of the stress ratio of grains (paper, Fig. 8)";
+  figure.caption =
+      "Probability density of the stress ratio gamma = q/p of the grains that carry something, periodic "
+      "beds, at "
+      "theta = 0, 10 and 15 deg; vertical lines: Gamma_c = sin(theta_c), the threshold that the paper "
+      "prints, "
+      "and 2 Gamma_c, each the mean over the runs. Means over the runs of a bed, of which at least half "
+      "stand "
+      "at an angle that is shown.";
+  for (const RunGroup& group : groups) {
+    const RunChoice runs = runs_with_threshold(group);
+    if (!group.periodic() || runs.empty()) continue;
+    add_group_table(figure, group, runs, density_columns(runs));
+    set_variable(figure, "gamma_c_" + std::to_string(figure.tables.size()), mean_gamma_c(runs));
+  }
+  if (figure.tables.empty()) return std::nullopt;
+  figure.height_over_width = 0.7 * static_cast<double>(figure.tables.size());
+  set_key(figure, std::size(angles), 8);
+  return figure;
+}
+
+}  // namespace talus

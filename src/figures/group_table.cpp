@@ -1,0 +1,116 @@
+#include "figures/group_table.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include "figures/run_means.h"
+#include "session/scenario_text.h"
+
+namespace talus {
+namespace {
+
+constexpr std::size_t symbols_of_a_curve = 16;
+
+template <typename Condition>
+RunChoice choose(const RunGroup& group, const Condition& condition) {
+  RunChoice choice;
+  for (const FigureRun& run : group.runs)
+    if (condition(run)) choice.push_back(&run);
+  return choice;
+}
+
+/// "pbc-l-200-d-deposition.friction-0.15" of "PBC, L = 200 D, deposition.friction = 0.15".
+std::string file_part(std::string_view label) {
+  std::string part;
+  for (const char c : label) {
+    const bool kept = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '.' || c == '_';
+    if (kept) part += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    if (!kept && !part.empty() && part.back() != '-') part += '-';
+  }
+  return part;
+}
+
+/// Of the tables whose first column is one, deg.
+double largest_tilt(const Figure& figure) {
+  double largest = 0.0;
+  for (const Table& table : figure.tables)
+    if (const Column& first = table.columns.front(); first.name == "theta")
+      for (const double tilt : first.values) largest = std::max(largest, tilt);
+  return largest;
+}
+
+/// Letters of the longest label of a group, at least those of other entries of keys.
+std::size_t longest_label(const Figure& figure) {
+  std::size_t longest = 20;
+  for (const auto& [name, value] : figure.variables)
+    if (name.starts_with("label_")) longest = std::max(longest, value.size());
+  return longest;
+}
+
+}  // namespace
+
+RunChoice all_runs(const RunGroup& group) {
+  return choose(group, [](const FigureRun&) { return true; });
+}
+
+RunChoice runs_with_threshold(const RunGroup& group) {
+  return choose(group, [](const FigureRun& run) { return run.analysis.sizes.at('F') > 0; });
+}
+
+RunChoice failed_runs(const RunGroup& group) {
+  return choose(group, [](const FigureRun& run) { return !std::isnan(theta_c_of(run)); });
+}
+
+void set_variable(Figure& figure, const std::string& name, const std::string& value) {
+  const auto found = std::ranges::find(figure.variables, name, &std::pair<std::string, std::string>::first);
+  if (found != figure.variables.end())
+    found->second = value;
+  else
+    figure.variables.emplace_back(name, value);
+}
+
+void set_variable(Figure& figure, const std::string& name, double value) {
+  set_variable(figure, name, std::isnan(value) ? "NaN" : short_text(value));
+}
+
+std::string gnuplot_quoted(std::string_view text) {
+  std::string quoted = "'";
+  for (const char c : text) {
+    if (std::string_view("_^{}@&~\\").find(c) != std::string_view::npos) quoted += '\\';
+    if (c == '\'') quoted += '\'';
+    quoted += c;
+  }
+  return quoted + "'";
+}
+
+std::string gnuplot_string(std::string_view text) { return std::string(1, '"').append(text).append(1, '"'); }
+
+std::string runs_text(std::size_t count) { return std::to_string(count) + (count == 1 ? " run" : " runs"); }
+
+void add_group_table(Figure& figure, const RunGroup& group, const RunChoice& runs,
+                     std::vector<Column> columns) {
+  const std::size_t rows = columns.front().values.size();
+  figure.tables.push_back({file_part(group.label), std::move(columns)});
+  for (const FigureRun* run : runs) figure.runs.push_back(run->path);
+  const std::size_t groups = figure.tables.size();
+  const std::string g = std::to_string(groups);
+  set_variable(figure, "groups", static_cast<double>(groups));
+  set_variable(figure, "data_" + g, gnuplot_string(file_of(figure, figure.tables.back())));
+  set_variable(figure, "label_" + g, gnuplot_quoted(group.label + " (" + runs_text(runs.size()) + ")"));
+  set_variable(figure, "every_" + g,
+               static_cast<double>(std::max<std::size_t>(1, rows / symbols_of_a_curve)));
+  set_variable(figure, "theta_max", largest_tilt(figure));
+  set_key(figure, groups + 1, longest_label(figure));
+}
+
+void set_key(Figure& figure, std::size_t entries, std::size_t longest) {
+  set_variable(figure, "key_entries", static_cast<double>(entries));
+  set_variable(figure, "key_longest", static_cast<double>(longest));
+}
+
+void set_more_keys(Figure& figure, std::size_t more) {
+  set_key(figure, figure.tables.size() + more, longest_label(figure));
+}
+
+}  // namespace talus

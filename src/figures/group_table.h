@@ -1,0 +1,48 @@
+#pragma once
+/// A figure with one table for each group of runs, and what its script has to know of them.
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "figures/figure.h"
+#include "figures/run_group.h"
+
+namespace talus {
+
+/// Runs of a group that a figure is made from.
+using RunChoice = std::vector<const FigureRun*>;
+
+/// All runs of a group; those that have overloaded grains, which need a threshold; those that have failed.
+RunChoice all_runs(const RunGroup& group);
+RunChoice runs_with_threshold(const RunGroup& group);
+RunChoice failed_runs(const RunGroup& group);
+
+/// Adds the table of a group, called after its label, before any other table. The script knows its file as
+/// data_g, with label_g for the key and every_g, rows from one symbol to the next; `groups` is their number,
+/// and theta_max the largest tilt (deg) of their columns "theta". The key has room for the labels and one
+/// entry more.
+void add_group_table(Figure& figure, const RunGroup& group, const RunChoice& runs,
+                     std::vector<Column> columns);
+
+/// The key above the panels (style.gp) has the labels of the groups and `more` short entries; or, in place of
+/// these, `entries` of up to `longest` letters.
+void set_more_keys(Figure& figure, std::size_t more);
+void set_key(Figure& figure, std::size_t entries, std::size_t longest);
+
+/// Sets a variable of the script, or replaces it.
+void set_variable(Figure& figure, const std::string& name, const std::string& value);
+void set_variable(Figure& figure, const std::string& name, double value);
+
+/// A text for gnuplot, in quotes; what its enhanced text would take for a command stands for itself.
+std::string gnuplot_quoted(std::string_view text);
+
+/// A text that means itself or is enhanced text already, in quotes.
+std::string gnuplot_string(std::string_view text);
+
+/// "4 runs", "1 run".
+std::string runs_text(std::size_t count);
+
+}  // namespace talus

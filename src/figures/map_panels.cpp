@@ -1,0 +1,220 @@
+#include "figures/map_panels.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "core/trigonometry.h"
+#include "figures/failed_group.h"
+#include "figures/run_means.h"
+#include "maps/maps.h"
+#include "stress/overload.h"
+
+namespace talus {
+namespace {
+
+constexpr double paper_tilts[] = {0.0, 5.0, 10.0, 15.0};  // deg
+
+// Of the layout, in a figure 17.8 cm wide; its script has them as variables.
+constexpr double figure_width = 17.8;               // cm
+constexpr double label_width = 1.9;                 // cm, for the angles left of the panels
+constexpr double column_gap = 0.3;                  // cm
+constexpr double legend_height = 1.3;               // cm
+constexpr double largest_height_over_width = 1.25;  // a page, with its caption
+
+/// The frames of the panels.
+struct Panels {
+  FrameChoice choice;
+  std::vector<Frame> frames;
+  MapExtent extent;
+};
+
+Panels read_panels(const FigureRun& run) {
+  Panels panels;
+  panels.choice = panel_frames(run.file.frame_tilts(), theta_c_of(run));
+  for (const std::size_t k : panels.choice) {
+    panels.frames.push_back(run.file.frame(k));
+    extend(panels.extent, panels.frames.back(), run.file.header().statics);
+  }
+  return panels;
+}
+
+/// Share with gamma from this value on of the grains that carry something.
+double share_from(const Frame& frame, const RunStatics& statics, double gamma) {
+  return count_overloaded(frame, statics, gamma).fraction();
+}
+
+/// The angles of the panels, deg.
+std::string listed(const Panels& panels, const char* separator) {
+  std::string text;
+  for (const Frame& frame : panels.frames)
+    text.append(text.empty() ? "" : separator).append(angle_text(frame.tilt));
+  return text;
+}
+
+/// What both captions end with.
+std::string bed_text(const FailedGroup& failed, const Panels& panels) {
+  const double theta_c = theta_c_of(failed.first());
+  std::string text = "; " + first_run_text(failed) + ". From top to bottom theta = " + listed(panels, ", ") +
+                     " deg, the last of them the frame before failure at theta_c = " + angle_text(theta_c) +
+                     " deg";
+  std::string beyond;
+  for (const double tilt : paper_tilts)
+    if (radians(tilt) >= theta_c) beyond.append(beyond.empty() ? "" : " and ").append(rounded_text(tilt, 0));
+  if (!beyond.empty()) text += "; the paper's " + beyond + " deg lies beyond it and is left out";
+  return text +
+         ". The bed is shown in its own frame, with the direction of gravity; hatched grains are the floor.";
+}
+
+/// cm, of so many side by side.
+double panel_width_of(std::size_t columns) {
+  const auto count = static_cast<double>(columns);
+  return (figure_width - label_width - (count - 1.0) * column_gap) / count;
+}
+
+/// The map of a panel, to be printed at that resolution (dpi).
+FigureMap panel_map(const std::string& number, FrameView view, std::size_t columns, double resolution) {
+  return {"panel" + number, std::move(view),
+          panel_width_of(columns) / figure_width * resolution / map_resolution};
+}
+
+/// A figure with the layout of the panels, `columns` of them side by side, each with a line of text above.
+Figure panel_figure(const FailedGroup& failed, const Panels& panels, std::size_t columns,
+                    double text_height) {
+  const RunStatics& statics = failed.first().file.header().statics;
+  const double aspect = statics.length / (panels.extent.y_max - panels.extent.y_min);
+  const double panel_width = panel_width_of(columns);
+  const double row = panel_width / aspect + text_height;
+  const double height = static_cast<double>(panels.frames.size()) * row + legend_height;
+
+  Figure figure;
+  figure.runs = {failed.first().path};
+  figure.wide = true;
+  figure.height_over_width = std::min(height / figure_width, largest_height_over_width);
+  set_variable(figure, "tilts", gnuplot_quoted(listed(panels, " ")));
+  set_variable(figure, "aspect", aspect);
+  set_variable(figure, "bed_length", statics.length / statics.mean_diameter);
+  set_variable(figure, "walls", statics.periodic ? 0.0 : 1.0);
+  set_variable(figure, "label_width", label_width);
+  set_variable(figure, "column_gap", column_gap);
+  set_variable(figure, "text_height", text_height);
+  set_variable(figure, "legend_height", legend_height);
+  return figure;
+}
+
+Column tilt_column(const Panels& panels) {
+  Column column{"theta", "deg", "tilt of the panel", {}};
+  for (const Frame& frame : panels.frames) column.values.push_back(degrees(frame.tilt));
+  return column;
+}
+
+/// Of each panel, what there is to say of one threshold.
+std::vector<Column> threshold_columns(const Analysis& analysis, const Panels& panels, std::size_t f) {
+  const std::string factor = rounded_text(values<double>(analysis, "threshold_factor")[f], 3);
+  const std::string name = std::string("_").append(factor);
+  const std::string of = std::string(", threshold ").append(factor).append(" Gamma_c");
+  std::vector<Column> columns = {
+      {"p_o" + name, "1", "overloaded grains over those that carry something" + of, {}},
+      {"largest_share" + name, "1", "share of the overloaded grains in their largest cluster" + of, {}},
+      {"spans_depth" + name,
+       "1",
+       "1 where a cluster reaches from the floor to the surface, else 0" + of,
+       {}}};
+  for (const std::size_t k : panels.choice) {
+    columns[0].values.push_back(row<double>(analysis, "overloaded/fraction", k)[f]);
+    columns[1].values.push_back(row<double>(analysis, "clusters/largest_share", k)[f]);
+    columns[2].values.push_back(row<Index>(analysis, "clusters/spans_depth", k)[f]);
+  }
+  return columns;
+}
+
+}  // namespace
+
+FrameChoice panel_frames(const std::vector<double>& tilts, double theta_c) {
+  std::vector<std::string> entries = {"repose"};
+  for (const double tilt : paper_tilts)
+    if (radians(tilt) < theta_c) entries.push_back(rounded_text(tilt, 0));
+  FrameChoice choice = frames_at(tilts, entries, theta_c);
+  const std::size_t last = frame_at_repose(tilts, theta_c);
+  std::erase_if(choice, [&](std::size_t frame) { return frame > last; });  // the nearest may lie beyond
+  return choice;
+}
+
+std::vector<double> gamma_shades(const Frame& frame, const RunStatics& statics, double gamma_c) {
+  std::vector<double> shades;
+  for (Index i = 0; i < statics.free_count; ++i) shades.push_back(gamma_shade(frame.gamma[i], gamma_c));
+  return shades;
+}
+
+std::vector<double> overload_shades(const Frame& frame, const RunStatics& statics, double threshold) {
+  std::vector<double> shades;
+  for (Index i = 0; i < statics.free_count; ++i)
+    shades.push_back(is_overloaded(frame.gamma[i], threshold) ? 1.0 : 0.0);
+  return shades;
+}
+
+std::optional<Figure> gamma_maps(std::span<const RunGroup> groups) {
+  const auto failed = first_failed_group(groups);
+  if (!failed) return std::nullopt;
+  const RunStatics& statics = failed->first().file.header().statics;
+  const double gamma_c = values<double>(failed->first().analysis, "gamma_c")[0];
+  const Panels panels = read_panels(failed->first());
+  Figure figure = panel_figure(*failed, panels, 1, 0.2);
+  figure.name = "fig10-stress-ratio-maps";
+  figure.title = "Maps of the stress ratio of each grain (paper, Fig. 10)";
+  figure.caption = "Stress ratio gamma of each grain: white below " + rounded_text(white_below, 2) +
+                   ", black from 2 Gamma_c = " + rounded_text(2.0 * gamma_c, 3) + " on, linear gray between" +
+                   bed_text(*failed, panels);
+  set_variable(figure, "gamma_c", gamma_c);
+  set_variable(figure, "white_below", white_below);
+  Column mean{"gamma_mean", "1", "mean gamma of the free grains that carry something", {}};
+  Column white{"white", "1", "share of these grains that are white", {}};
+  Column black{"black", "1", "share of them that are black", {}};
+  for (std::size_t k = 0; k < panels.frames.size(); ++k) {
+    const Frame& frame = panels.frames[k];
+    figure.maps.push_back(
+        panel_map(std::to_string(k + 1),
+                  bare_map(frame, statics, gamma_shades(frame, statics, gamma_c), panels.extent), 1, 300.0));
+    mean.values.push_back(row<double>(failed->first().analysis, "gamma/mean", panels.choice[k])[0]);
+    white.values.push_back(1.0 - share_from(frame, statics, white_below));
+    black.values.push_back(share_from(frame, statics, 2.0 * gamma_c));
+  }
+  figure.tables = {{"", {tilt_column(panels), mean, white, black}}};
+  return figure;
+}
+
+std::optional<Figure> overload_maps(std::span<const RunGroup> groups) {
+  const auto failed = first_failed_group(groups);
+  if (!failed) return std::nullopt;
+  const RunStatics& statics = failed->first().file.header().statics;
+  const Analysis& analysis = failed->first().analysis;
+  const auto thresholds = values<double>(analysis, "threshold");
+  const Panels panels = read_panels(failed->first());
+  Figure figure = panel_figure(*failed, panels, thresholds.size(), 0.5);
+  figure.name = "fig13-overloaded-maps";
+  figure.title = "Maps of the overloaded grains (paper, Fig. 13)";
+  figure.caption =
+      "Overloaded grains in black, each column for another threshold of gamma" + bed_text(*failed, panels);
+  figure.tables = {{"", {tilt_column(panels)}}};
+  std::string factors, limits;
+  for (std::size_t f = 0; f < thresholds.size(); ++f) {
+    factors += " " + rounded_text(values<double>(analysis, "threshold_factor")[f], 3);
+    limits += " " + rounded_text(thresholds[f], 3);
+    for (Column& column : threshold_columns(analysis, panels, f))
+      figure.tables[0].columns.push_back(std::move(column));
+    for (std::size_t k = 0; k < panels.frames.size(); ++k) {
+      const Frame& frame = panels.frames[k];
+      const std::string number = std::to_string(f + 1) + "-" + std::to_string(k + 1);
+      figure.maps.push_back(panel_map(
+          number, bare_map(frame, statics, overload_shades(frame, statics, thresholds[f]), panels.extent),
+          thresholds.size(), 400.0));
+      set_variable(figure, "p_o_" + std::to_string(f + 1) + "_" + std::to_string(k + 1),
+                   row<double>(analysis, "overloaded/fraction", panels.choice[k])[f]);
+    }
+  }
+  set_variable(figure, "factors", gnuplot_quoted(factors));
+  set_variable(figure, "thresholds", gnuplot_quoted(limits));
+  return figure;
+}
+
+}  // namespace talus

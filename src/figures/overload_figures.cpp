@@ -1,0 +1,123 @@
+#include "figures/overload_figures.h"
+
+#include <algorithm>
+
+#include "figures/group_table.h"
+#include "figures/paper_values.h"
+#include "figures/run_means.h"
+#include "session/scenario_text.h"
+
+namespace talus {
+namespace {
+
+/// The value of a data set "T F" of a run.
+double threshold_value(const FigureRun& run, std::string_view name, std::size_t frame, std::size_t f) {
+  return row<double>(run.analysis, name, frame)[f];
+}
+
+/// Factors of the thresholds over Gamma_c, as text: those of all runs are the same.
+std::vector<std::string> factors_of(const FigureRun& run) {
+  std::vector<std::string> factors;
+  for (const double factor : values<double>(run.analysis, "threshold_factor"))
+    factors.push_back(short_text(factor));
+  return factors;
+}
+
+/// "Gamma_c" and "2 Gamma_c" in enhanced text.
+std::string threshold_label(const std::string& factor) {
+  return std::string("'{/:Italic γ} ≥ ").append(factor == "1" ? "" : factor + " ").append("Γ_c'");
+}
+
+/// A data set "T F" in units of `unit(run)`, as a quantity of threshold f.
+template <typename Unit>
+Quantity quantity_of(const std::string& name, const std::string& unit_text, const std::string& meaning,
+                     std::string_view data_set, const std::string& factor, std::size_t f, Unit unit) {
+  return {name + "_" + factor, unit_text,
+          std::string(meaning).append(" for gamma >= ").append(factor).append(" Gamma_c"),
+          [=](const FigureRun& run, std::size_t frame) {
+            return threshold_value(run, data_set, frame, f) / unit(run);
+          }};
+}
+
+double one(const FigureRun&) { return 1.0; }
+double mean_diameter(const FigureRun& run) { return run.file.header().statics.mean_diameter; }
+
+/// Adds the tables of periodic beds with thresholds; `quantities(factor, f)` are those of threshold f.
+template <typename Quantities>
+void add_periodic_groups(Figure& figure, std::span<const RunGroup> groups, const Quantities& quantities) {
+  for (const RunGroup& group : groups) {
+    const RunChoice runs = runs_with_threshold(group);
+    if (!group.periodic() || runs.empty()) continue;
+    const std::vector<std::string> factors = factors_of(*runs.front());
+    std::vector<Quantity> all;
+    for (std::size_t f = 0; f < factors.size(); ++f) {
+      for (Quantity& quantity : quantities(factors[f], f)) all.push_back(std::move(quantity));
+      set_variable(figure, "factor_" + std::to_string(f + 1), gnuplot_string(factors[f]));
+      set_variable(figure, "threshold_" + std::to_string(f + 1), threshold_label(factors[f]));
+    }
+    set_variable(figure, "thresholds", static_cast<double>(factors.size()));
+    add_group_table(figure, group, runs, means_over_runs(runs, all));
+  }
+}
+
+/// The paper's values of a quantity, beside its angles.
+Column paper_column(const std::string& name, const std::string& unit, const std::string& meaning,
+                    const paper::Values& values) {
+  return {name, unit, meaning, {values.start, values.theta_d, values.theta_c}};
+}
+
+constexpr std::string_view paper_text =
+    " Crosses: the paper's values at 0, theta_d = 15 deg and theta_c = 21 deg, in each panel.";
+
+}  // namespace
+
+std::optional<Figure> overloaded_fraction_figure(std::span<const RunGroup> groups) {
+  Figure figure;
+  figure.name = "fig09-overloaded-fraction";
+  figure.title = "Overloaded fraction over tilt (paper, Fig. 9)";
+  figure.wide = true;
+  figure.height_over_width = 0.42;
+  figure.caption =
+      "Fraction p_o of overloaded grains among those that carry something over the tilt theta, for each "
+      "threshold: gamma >= Gamma_c = sin(theta_c) as printed in the paper, and multiples of it.";
+  figure.caption.append(paper_text).append(" ").append(means_caption);
+  add_periodic_groups(figure, groups, [](const std::string& factor, std::size_t f) {
+    return std::vector{quantity_of("p_o", "1", "overloaded fraction", "overloaded/fraction", factor, f, one)};
+  });
+  if (figure.tables.empty()) return std::nullopt;
+  figure.tables.push_back({"paper",
+                           {paper_column("theta", "deg", "tilt", paper::tilt),
+                            paper_column("p_o", "1", "overloaded fraction", paper::overloaded_fraction)}});
+  return figure;
+}
+
+std::optional<Figure> length_figure(std::span<const RunGroup> groups) {
+  Figure figure;
+  figure.name = "fig12-coarse-graining-length";
+  figure.title = "Coarse-graining length of overloaded grains over tilt (paper, Fig. 12)";
+  figure.wide = true;
+  figure.height_over_width = 0.7;
+  figure.caption =
+      "Mean (a) and largest (b) coarse-graining length l_c, a diameter, of the overloaded grains over the "
+      "tilt "
+      "theta; a column for each threshold. Dashed line: the cut at which the search for l_c ends.";
+  figure.caption.append(paper_text).append(" ").append(means_caption);
+  add_periodic_groups(figure, groups, [](const std::string& factor, std::size_t f) {
+    return std::vector{quantity_of("mean", "D", "mean l_c", "lc/mean", factor, f, mean_diameter),
+                       quantity_of("max", "D", "largest l_c", "lc/max", factor, f, mean_diameter)};
+  });
+  if (figure.tables.empty()) return std::nullopt;
+  set_more_keys(figure, 2);
+  double cut = 0.0;
+  for (const RunGroup& group : groups)
+    for (const FigureRun* run : group.periodic() ? runs_with_threshold(group) : RunChoice{})
+      cut = std::max(cut, values<double>(run->analysis, "lc/cut")[0] / mean_diameter(*run));
+  set_variable(figure, "cut", cut);
+  figure.tables.push_back({"paper",
+                           {paper_column("theta", "deg", "tilt", paper::tilt),
+                            paper_column("mean", "D", "mean l_c", paper::mean_length),
+                            paper_column("max", "D", "largest l_c", paper::largest_length)}});
+  return figure;
+}
+
+}  // namespace talus

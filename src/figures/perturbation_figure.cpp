@@ -1,0 +1,122 @@
+#include "figures/perturbation_figure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/trigonometry.h"
+#include "session/perturbation_threshold.h"
+#include "session/scenario_text.h"
+
+namespace talus {
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+double theta_c(const FigureRun& run) { return degrees(values<double>(run.analysis, "theta_c").front()); }
+
+/// The trial of a strength; no value where there is none.
+const Trial* trial_of(const PerturbedState& state, double strength) {
+  const auto found = std::ranges::find(state.trials, strength, &Trial::strength);
+  return found == state.trials.end() ? nullptr : &*found;
+}
+
+void append_state(Table& table, const FigureRun& run, const PerturbedState& state) {
+  const Threshold threshold = threshold_of(state.trials);
+  const bool searched = threshold.held && state.trials.size() > 1;
+  const Trial* without = searched ? trial_of(state, threshold.without) : nullptr;
+  const Trial* with = searched ? trial_of(state, threshold.with) : nullptr;
+  const double row[] = {static_cast<double>(run.scenario.seed),
+                        state.tilt,
+                        theta_c(run),
+                        theta_c(run) - state.tilt,
+                        threshold.held ? 1.0 : 0.0,
+                        threshold.without,
+                        std::isinf(threshold.with) ? none : threshold.with,
+                        without != nullptr ? without->energy : 0.0,
+                        with != nullptr  ? with->energy
+                        : threshold.held ? none
+                                         : 0.0,
+                        without != nullptr ? without->moved : none,
+                        with != nullptr ? with->moved : none,
+                        threshold.monotone ? 1.0 : 0.0,
+                        static_cast<double>(state.trials.size())};
+  for (std::size_t k = 0; k < table.columns.size(); ++k) table.columns[k].values.push_back(row[k]);
+}
+
+/// theta_c - theta_d, deg, as the mean over the runs that have it; NaN where none has.
+double mean_distance(const RunGroup& group, std::string_view estimator) {
+  double sum = 0.0;
+  int count = 0;
+  for (const FigureRun& run : group.runs) {
+    const auto& sets = run.analysis.data_sets;
+    const auto found = sets.find(estimator);
+    if (found == sets.end()) continue;
+    const double distance = theta_c(run) - degrees(std::get<std::vector<double>>(found->second).front());
+    if (std::isnan(distance)) continue;
+    sum += distance;
+    ++count;
+  }
+  return count > 0 ? sum / count : none;
+}
+
+std::string number_text(double value) { return std::isnan(value) ? "NaN" : short_text(value); }
+
+std::string caption_of(const RunGroup& group, const SurfacePatch& patch) {
+  return "Velocity, and kinetic energy, of the weakest push that starts an avalanche, over the distance to "
+         "the angle of repose; " +
+         group.label + ", " + std::to_string(group.runs.size()) +
+         (group.runs.size() == 1 ? " run" : " runs") + ". The grains of a patch of " + patch_text(patch) +
+         " D at the free surface are pushed downslope, in copies of the bed at rest. Bars go from the "
+         "largest push of a bisection that started no avalanche to the smallest that did. Open triangles up: "
+         "no "
+         "avalanche up to the largest push; triangles down: beds that the weakest push set off. Lines: "
+         "theta_d as the mean distance over the runs, by the jump of l_c max and by the end of the range in "
+         "which the volume strain is not above its minimum by more than its noise.";
+}
+
+}  // namespace
+
+Table perturbation_states(const RunGroup& group, std::span<const PerturbationTable> tables) {
+  Table table;
+  const auto column = [&table](const char* name, const char* unit, const char* meaning) {
+    table.columns.push_back({name, unit, meaning, {}});
+  };
+  column("seed", "1", "seed of the run");
+  column("theta", "deg", "tilt of the state");
+  column("theta_c", "deg", "angle of repose of the run");
+  column("distance", "deg", "theta_c - theta");
+  column("holds", "1", "1 where the bed comes to rest at this tilt by itself, else 0");
+  column("v_without", "sqrt(g D)", "largest push of the bisection that started no avalanche; 0: none");
+  column("v_with", "sqrt(g D)", "smallest that did; NaN: none did; 0: no push was needed");
+  column("energy_without", "m g D",
+         "kinetic energy given by the first; m is the mass of a disk of diameter D");
+  column("energy_with", "m g D", "the same of the second");
+  column("moved_without", "1", "free grains that the first moved by more than D");
+  column("moved_with", "1", "the same of the second, when the avalanche counted as one");
+  column("monotone", "1", "0 where a weaker push started an avalanche, or a stronger one did not");
+  column("trials", "1", "number of trials, the one without a push included");
+  for (std::size_t r = 0; r < group.runs.size(); ++r)
+    for (const PerturbedState& state : tables[r].states) append_state(table, group.runs[r], state);
+  return table;
+}
+
+Figure perturbation_figure(const RunGroup& group, std::span<const PerturbationTable> tables) {
+  Figure figure;
+  figure.name = "perturb";
+  figure.title = "Weakest push that starts an avalanche";
+  figure.caption = caption_of(group, tables.front().plan.patch);
+  for (const FigureRun& run : group.runs) figure.runs.push_back(run.path);
+  figure.wide = true;
+  figure.height_over_width = 0.4;
+  figure.tables = {perturbation_states(group, tables)};
+  std::string seeds;
+  for (const FigureRun& run : group.runs)
+    seeds.append(seeds.empty() ? "" : " ").append(std::to_string(run.scenario.seed));
+  figure.variables = {{"seeds", "\"" + seeds + "\""},
+                      {"theta_d_lc", number_text(mean_distance(group, "theta_d/lc_jump"))},
+                      {"theta_d_dilation", number_text(mean_distance(group, "theta_d/dilation_high"))}};
+  return figure;
+}
+
+}  // namespace talus

@@ -1,0 +1,85 @@
+#include "figures/run_group.h"
+
+#include <algorithm>
+
+#include "core/errors.h"
+#include "session/scenario_keys.h"
+#include "session/scenario_text.h"
+
+namespace talus {
+namespace {
+
+/// The scenario with all that does not shape a result at its default: runs of one group have the same.
+/// How far a run went, and what was kept of it, does not; a tolerance of the solver may.
+Scenario essence(Scenario scenario) {
+  const Scenario plain;
+  scenario.seed = plain.seed;
+  scenario.output = plain.output;
+  scenario.tilt.end_angle = plain.tilt.end_angle;
+  scenario.tilt.after_failure = plain.tilt.after_failure;
+  scenario.tilt.lowering_rate = plain.tilt.lowering_rate;
+  scenario.deposition.max_time = plain.deposition.max_time;
+  if (scenario.bed.boundary == BedBoundary::periodic)
+    scenario.contact.wall_friction = plain.contact.wall_friction;
+  return scenario;
+}
+
+std::string bed_label(const Scenario& scenario) {
+  return std::string(scenario.bed.boundary == BedBoundary::periodic ? "PBC" : "WBC")
+      .append(", L = ")
+      .append(short_text(scenario.bed.length))
+      .append(" D");
+}
+
+std::string value_text(const ScenarioValue& value) {
+  if (const auto* number = std::get_if<double>(&value)) return short_text(*number);
+  if (const auto* text = std::get_if<std::string>(&value)) return *text;
+  return toml_text(value);
+}
+
+Scenario essence_of(const RunGroup& group) { return essence(group.runs.front().scenario); }
+
+/// Adds to the labels of groups that share one the keys in which they differ.
+void tell_apart(std::vector<RunGroup>& groups) {
+  std::vector<std::string> additions(groups.size());
+  for (const ScenarioKey& key : scenario_keys())
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+      const ScenarioValue value = key.get(essence_of(groups[g]));
+      const auto differs = [&](const RunGroup& other) {
+        return other.label == groups[g].label && key.get(essence_of(other)) != value;
+      };
+      if (std::ranges::any_of(groups, differs))
+        additions[g].append(", ").append(full_name(key)).append(" = ").append(value_text(value));
+    }
+  for (std::size_t g = 0; g < groups.size(); ++g) groups[g].label += additions[g];
+}
+
+void sort_by_seed(RunGroup& group) {
+  const auto seed = [](const FigureRun& run) { return run.scenario.seed; };
+  std::ranges::sort(group.runs, {}, seed);
+  const auto twice = std::ranges::adjacent_find(group.runs, {}, seed);
+  if (twice != group.runs.end())
+    throw Error(ExitCode::bad_data,
+                twice->path + " and " + std::next(twice)->path +
+                    " are the same run: scenario and seed are the same; give one of them");
+}
+
+}  // namespace
+
+std::vector<RunGroup> group_runs(std::vector<FigureRun> runs) {
+  std::vector<RunGroup> groups;
+  for (FigureRun& run : runs) {
+    const Scenario wanted = essence(run.scenario);
+    auto group = std::ranges::find(groups, wanted, essence_of);
+    if (group == groups.end()) group = groups.insert(group, RunGroup{bed_label(run.scenario), {}});
+    group->runs.push_back(std::move(run));
+  }
+  tell_apart(groups);
+  std::ranges::for_each(groups, sort_by_seed);
+  std::ranges::stable_sort(groups, {}, [](const RunGroup& group) {
+    return group.periodic() ? 0.0 : group.runs.front().scenario.bed.length;
+  });
+  return groups;
+}
+
+}  // namespace talus

@@ -1,0 +1,63 @@
+#pragma once
+/// Means over the runs of a group at the same tilt, as columns of figures.
+
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "figures/figure.h"
+#include "figures/run_group.h"
+
+namespace talus {
+
+/// Frame `frame` of run `run`.
+struct Sample {
+  std::size_t run = 0;
+  std::size_t frame = 0;
+};
+
+/// The tilts at which at least half of some runs have a frame, and which frames these are.
+struct CommonTilts {
+  std::vector<double> tilts;                 ///< rad, ascending
+  std::vector<std::vector<Sample>> samples;  ///< of each tilt, by run
+};
+
+/// `tilts`: those of the frames of each run, rad, ascending. Tilts within 1e-6 rad of each other are the
+/// same.
+CommonTilts common_tilts(std::span<const std::vector<double>> tilts);
+
+/// Columns theta, in deg, and n, the number of runs behind a row.
+std::vector<Column> tilt_columns(const CommonTilts& common);
+
+/// The column `mean` with the means over runs of `values`, one for each frame of each run, and NAME_error
+/// with their standard errors. Values that are NaN do not count; one value has no error.
+std::vector<Column> mean_columns(const CommonTilts& common, std::span<const std::vector<double>> values,
+                                 Column mean);
+
+/// What captions say of such means.
+inline constexpr const char* means_caption =
+    "Means over the runs of each group at the same tilt, while at least half of them have not failed; error "
+    "bars are standard errors over the runs, none for a single run.";
+
+/// theta_c of a run, rad; NaN where the slope has not failed.
+double theta_c_of(const FigureRun& run);
+
+/// The frame whose tilt is nearest to `tilt`, rad.
+std::size_t frame_nearest(const FigureRun& run, double tilt);
+
+/// Whether the slope was tilted up to `tilt`, rad, before it failed.
+bool stands_at(const FigureRun& run, double tilt);
+
+/// A quantity of each frame of a run; what is not there is NaN.
+struct Quantity {
+  std::string name, unit, meaning;  ///< as Column has them
+  std::function<double(const FigureRun& run, std::size_t frame)> value;
+};
+
+/// theta, n, and the mean and error of each quantity, over the frames of the runs up to the theta_c of each.
+std::vector<Column> means_over_runs(std::span<const FigureRun* const> runs,
+                                    std::span<const Quantity> quantities);
+
+}  // namespace talus

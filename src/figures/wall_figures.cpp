@@ -1,0 +1,208 @@
+#include "figures/wall_figures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "analysis/wall_fit.h"
+#include "core/trigonometry.h"
+#include "figures/failed_group.h"
+#include "figures/run_means.h"
+#include "session/scenario_text.h"
+#include "session/study_statistics.h"
+
+namespace talus {
+namespace {
+
+constexpr double paper_k = 2.5;  // k_L - k_0 (paper, Fig. 7)
+constexpr double window = 0.5;   // deg before theta_c
+
+/// M g / (2 L), Pa: the mean of sigma_yy in the horizontal bed at rest.
+double mean_weight(const RunStatics& statics) {
+  const double mass = std::accumulate(statics.mass.begin(), statics.mass.begin() + statics.free_count, 0.0);
+  return mass * statics.gravity / (2.0 * statics.length);
+}
+
+/// Frames of the runs near one angle, and how it is called in the key.
+struct Angle {
+  std::string text;
+  std::vector<std::size_t> frames;
+};
+
+/// 0 and 10 deg, where all runs still stand, and the last frame before failure.
+std::vector<Angle> angles_of(const RunChoice& runs) {
+  std::vector<Angle> angles;
+  for (const double tilt : {0.0, 10.0})
+    if (std::ranges::all_of(runs, [&](const FigureRun* run) { return stands_at(*run, radians(tilt)); })) {
+      angles.push_back({"{/:Italic θ} = " + short_text(tilt) + "°", {}});
+      for (const FigureRun* run : runs) angles.back().frames.push_back(frame_nearest(*run, radians(tilt)));
+    }
+  angles.push_back({"{/:Italic θ_c}", {}});
+  for (const FigureRun* run : runs) angles.back().frames.push_back(repose_frame(*run));
+  return angles;
+}
+
+/// The middle of each section, in D.
+Column section_column(const FigureRun& run) {
+  Column x{"x", "D", "middle of the section, from the upper wall downslope", {}};
+  const auto edges = values<double>(run.analysis, "sections/edge");
+  for (std::size_t s = 0; s + 1 < edges.size(); ++s)
+    x.values.push_back(0.5 * (edges[s] + edges[s + 1]) / run.file.header().statics.mean_diameter);
+  return x;
+}
+
+/// Mean and standard error over the runs of sigma_xx of each section, at frames[r] of run r.
+std::vector<Column> section_stresses(const RunChoice& runs, const std::vector<std::size_t>& frames,
+                                     const std::string& name) {
+  Column mean{name, "M g / (2 L)", "mean sigma_xx of the section", {}};
+  Column error{name + "_error", mean.unit, "its standard error over the runs", {}};
+  for (std::size_t s = 0; s < row_width(runs.front()->analysis, "sections/sigma_xx"); ++s) {
+    std::vector<double> stresses;
+    for (std::size_t r = 0; r < runs.size(); ++r)
+      stresses.push_back(row<double>(runs[r]->analysis, "sections/sigma_xx", frames[r])[s] /
+                         mean_weight(runs[r]->file.header().statics));
+    const MeanError result = mean_error(stresses);
+    mean.values.push_back(result.mean);
+    error.values.push_back(result.error);
+  }
+  return {std::move(mean), std::move(error)};
+}
+
+/// What Fig. 7 shows of one group.
+struct WallGroup {
+  MeanError ratio;      ///< over the runs
+  double spread = 0.0;  ///< rms over the runs of the standard deviation in the window
+  double depth = 0.0;   ///< mean height V / L before failure, D
+};
+
+double mean_depth(const FigureRun& run) {
+  const RunStatics& statics = run.file.header().statics;
+  return values<double>(run.analysis, "packing/volume")[repose_frame(run)] / statics.length /
+         statics.mean_diameter;
+}
+
+WallGroup wall_group(const RunChoice& runs, std::vector<WallPoint>& points) {
+  WallGroup result;
+  std::vector<double> ratios;
+  const double n = static_cast<double>(runs.size());
+  double squares = 0.0;
+  for (const FigureRun* run : runs) {
+    const RatioAtFailure ratio = ratio_at_failure(run->file.observables(), theta_c_of(*run), window);
+    ratios.push_back(ratio.mean);
+    squares += ratio.spread * ratio.spread / n;
+    result.depth += mean_depth(*run) / n;
+    points.push_back({mean_depth(*run) / run->scenario.bed.length, ratio.mean});
+  }
+  result.ratio = mean_error(ratios);
+  result.spread = std::sqrt(squares);
+  return result;
+}
+
+Table empty_wall_table() {
+  return {"",
+          {{"L", "D", "length of the bed", {}},
+           {"n", "1", "runs behind the row", {}},
+           {"ratio",
+            "1",
+            "(sigma_T / sigma_N) / tan(theta), mean over the last 0.5 deg before theta_c and over runs",
+            {}},
+           {"ratio_error", "1", "its standard error over the runs", {}},
+           {"ratio_spread", "1", "standard deviation within these 0.5 deg, rms over the runs", {}},
+           {"bar", "1", "what the error bar shows: ratio_error, or ratio_spread for a single run", {}},
+           {"H", "D", "mean height V / L of the bed before failure", {}}}};
+}
+
+void add_row(Table& table, const std::vector<double>& row) {
+  for (std::size_t c = 0; c < row.size(); ++c) table.columns[c].values.push_back(row[c]);
+}
+
+std::string plus_minus(const WallFit& fit) {
+  return rounded_text(fit.k, 2) + (std::isnan(fit.error) ? "" : " ± " + rounded_text(fit.error, 2));
+}
+
+}  // namespace
+
+std::optional<Figure> wall_stress_figure(std::span<const RunGroup> groups) {
+  const auto shortest = std::ranges::find_if(groups, [](const RunGroup& group) {
+    return !group.periodic() && !failed_runs(group).empty();  // groups come by ascending length
+  });
+  if (shortest == groups.end()) return std::nullopt;
+  const RunChoice runs = failed_runs(*shortest);
+  Figure figure;
+  figure.name = "fig06-wall-stress";
+  figure.title = "Stress sigma_xx along a bed between walls (paper, Fig. 6)";
+  figure.caption =
+      "Normal stress sigma_xx of sections along the bed over their distance x from the upper wall, " +
+      shortest->label +
+      ", in units of M g / (2 L), the mean of sigma_yy in the horizontal bed (M: mass of "
+      "the grains); theta_c: last frame before failure. Means over " +
+      runs_text(runs.size()) + ", error bars: standard errors over them, none for a single run.";
+  Table table{"", {section_column(*runs.front())}};
+  const std::vector<Angle> angles = angles_of(runs);
+  for (std::size_t a = 0; a < angles.size(); ++a) {
+    const std::string k = std::to_string(a + 1);
+    for (Column& column : section_stresses(runs, angles[a].frames, "sigma_xx_" + k))
+      table.columns.push_back(std::move(column));
+    set_variable(figure, "angle_" + k, gnuplot_string(angles[a].text));
+  }
+  for (const FigureRun* run : runs) figure.runs.push_back(run->path);
+  set_variable(figure, "angles", static_cast<double>(angles.size()));
+  set_variable(figure, "bed", gnuplot_quoted(shortest->label + " (" + runs_text(runs.size()) + ")"));
+  set_variable(figure, "length", runs.front()->scenario.bed.length);
+  figure.tables = {std::move(table)};
+  return figure;
+}
+
+RatioAtFailure ratio_at_failure(std::span<const ObservableRow> rows, double theta_c, double width) {
+  std::vector<double> ratios;
+  for (const ObservableRow& row : rows) {
+    const double tilt = at(row, Observable::tilt);
+    if (tilt > 0.0 && tilt <= theta_c && tilt > theta_c - radians(width))
+      ratios.push_back(at(row, Observable::sigma_t_over_n) * cosine(tilt) / sine(tilt));
+  }
+  const MeanError result = mean_error(ratios);
+  return {result.mean, result.error * std::sqrt(static_cast<double>(result.count))};
+}
+
+std::optional<Figure> wall_ratio_figure(std::span<const RunGroup> groups) {
+  Figure figure;
+  figure.name = "fig07-wall-ratio";
+  figure.title = "Shear stress at failure over the length between walls (paper, Fig. 7)";
+  Table table = empty_wall_table();
+  std::vector<WallPoint> points;
+  std::vector<double> depths;
+  for (const RunGroup& group : groups) {
+    const RunChoice runs = failed_runs(group);
+    if (group.periodic() || runs.empty()) continue;
+    const WallGroup wall = wall_group(runs, points);
+    depths.push_back(wall.depth);
+    add_row(table,
+            {runs.front()->scenario.bed.length, static_cast<double>(runs.size()), wall.ratio.mean,
+             wall.ratio.error, wall.spread, runs.size() > 1 ? wall.ratio.error : wall.spread, wall.depth});
+    for (const FigureRun* run : runs) figure.runs.push_back(run->path);
+  }
+  if (points.empty()) return std::nullopt;
+  const WallFit fit = fit_wall_law(points);
+  const double depth = mean_error(depths).mean;
+  figure.caption =
+      "(sigma_T / sigma_N) / tan(theta) of beds between walls over their length L, mean over the last 0.5 "
+      "deg "
+      "before theta_c and over the runs of each length (" +
+      runs_text(points.size()) +
+      " in all). Error bars: standard error over the runs; for a single run the standard deviation within "
+      "the "
+      "0.5 deg. Lines: 1 - (k_L - k_0)/3 H/L (paper, Eq. 14), fitted to all runs by least squares, k_L - k_0 "
+      "= " +
+      plus_minus(fit) +
+      " (standard error), and with the paper's 2.5. H is the mean height V/L of each bed before "
+      "failure, as in the paper's integral over the depth; the lines have their mean, H = " +
+      rounded_text(depth, 1) + " D.";
+  set_variable(figure, "k", fit.k);
+  set_variable(figure, "k_text", gnuplot_quoted(plus_minus(fit)));
+  set_variable(figure, "k_paper", paper_k);
+  set_variable(figure, "depth", depth);
+  figure.tables = {std::move(table)};
+  return figure;
+}
+
+}  // namespace talus

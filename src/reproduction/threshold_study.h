@@ -1,0 +1,70 @@
+#pragma once
+/// Which reading of the paper's definitions, and which preparation of the bed, comes nearest to the paper's
+/// chain from the overloaded fraction to theta_d: one factor at a time (docs/reproduce.md).
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "reproduction/agreement.h"
+#include "reproduction/measured_values.h"
+
+namespace talus {
+
+/// An analysis of each run, beside the one that is stored in its file.
+struct StudyAnalysis {
+  std::string name;                   ///< "min_contacts=3"; empty for the stored one
+  std::vector<std::string> settings;  ///< "key=value" on the defaults
+};
+/// For beds of a depth (D): the paper's cut of l_c is 3/4 of it. Their order does not depend on it.
+std::vector<StudyAnalysis> study_analyses(double depth);
+
+/// A way to read the paper's definitions.
+struct Reading {
+  std::string threshold;  ///< "gamma >= Gamma_c"
+  std::string change;  ///< the one factor that differs from the first reading of this threshold; empty: none
+  std::size_t analysis = 0;  ///< index into study_analyses()
+  std::size_t factor = 0;    ///< index of the threshold
+  Population population = Population::carrying;
+};
+std::span<const Reading> readings();
+
+/// The chain of one preparation under one reading, each value over the seeds.
+struct ReadingResult {
+  std::size_t preparation = 0;
+  std::size_t reading = 0;
+  std::vector<Spread> values;         ///< of chain_values(), in their order
+  std::vector<Judgement> judgements;  ///< the same
+  int agreeing = 0;                   ///< values that agree: the score
+  int comparable = 0;                 ///< values that can be compared
+  /// Median over these of |ours - paper| / paper, infinite where a value does not occur: half of the chain is
+  /// at least as near. NaN where nothing can be compared.
+  double deviation = 0.0;
+};
+
+/// `runs`: the values of each seed under the reading.
+ReadingResult judge_reading(std::size_t preparation, std::size_t reading,
+                            std::span<const MeasuredValues> runs, double depth);
+
+/// What follows from all results together.
+struct StudyConclusion {
+  std::vector<std::size_t> best;  ///< results with the highest score; of these, with the smallest deviation
+  std::optional<std::size_t> least_deviation;  ///< the result with the smallest deviation of all
+  bool complete = false;                       ///< a best one agrees in all that can be compared
+  /// Of the chain: values that no result brings within tolerance, and the result that comes nearest; none
+  /// where it occurs in no result.
+  struct Missed {
+    std::size_t value = 0;
+    std::optional<std::size_t> nearest;
+  };
+  std::vector<Missed> missed;
+  /// Mean score over preparations of each reading, and over readings of each preparation; NaN where there is
+  /// no result.
+  std::vector<double> score_of_reading;
+  std::vector<double> score_of_preparation;
+};
+StudyConclusion conclude(std::span<const ReadingResult> results);
+
+}  // namespace talus

@@ -1,0 +1,105 @@
+#include "session/perturbation_table.h"
+
+#include <array>
+#include <charconv>
+#include <sstream>
+
+#include "core/errors.h"
+#include "session/scenario_text.h"
+
+namespace talus {
+namespace {
+
+constexpr std::string_view head =
+    "tilt_deg,velocity_over_sqrt_gD,energy_over_mgD,end,time_over_sqrt_D_over_g,moved,displacement_over_D";
+constexpr std::size_t column_count = 7;
+
+std::string plan_line(const PerturbationTable& table) {
+  return "# talus perturb --from " + short_text(table.plan.first) + " --every " +
+         short_text(table.plan.every) + " --patch " + patch_text(table.plan.patch) +
+         (table.complete ? ": complete" : ": under way");
+}
+
+bool read_number(std::string_view text, auto& number) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc() && end == text.data() + text.size();
+}
+
+bool read_end(std::string_view text, TrialEnd& end) {
+  for (const TrialEnd known : {TrialEnd::rest, TrialEnd::avalanche, TrialEnd::undecided})
+    if (text == name_of(known)) {
+      end = known;
+      return true;
+    }
+  return false;
+}
+
+bool read_row(const std::string& line, double& tilt, Trial& trial) {
+  std::array<std::string, column_count> cells;
+  std::istringstream text(line);
+  for (std::string& cell : cells)
+    if (!std::getline(text, cell, ',')) return false;
+  return read_number(cells[0], tilt) && read_number(cells[1], trial.strength) &&
+         read_number(cells[2], trial.energy) && read_end(cells[3], trial.end) &&
+         read_number(cells[4], trial.time) && read_number(cells[5], trial.moved) &&
+         read_number(cells[6], trial.displacement) && text.peek() == EOF;
+}
+
+void append_row(std::string& text, double tilt, const Trial& trial) {
+  text.append(short_text(tilt)).append(",").append(short_text(trial.strength)).append(",");
+  text.append(short_text(trial.energy)).append(",").append(name_of(trial.end)).append(",");
+  text.append(short_text(trial.time)).append(",").append(std::to_string(trial.moved)).append(",");
+  text.append(short_text(trial.displacement)).append("\n");
+}
+
+}  // namespace
+
+std::string patch_text(const SurfacePatch& patch) {
+  return short_text(patch.width) + "x" + short_text(patch.depth);
+}
+
+std::optional<SurfacePatch> parse_patch(const std::string& text) {
+  const std::size_t cross = text.find('x');
+  SurfacePatch patch;
+  if (cross == std::string::npos || !read_number(std::string_view(text).substr(0, cross), patch.width) ||
+      !read_number(std::string_view(text).substr(cross + 1), patch.depth))
+    return std::nullopt;
+  const bool usable = patch.width > 0.0 && patch.width < 1e6 && patch.depth > 0.0 && patch.depth < 1e6;
+  return usable ? std::optional(patch) : std::nullopt;
+}
+
+std::string perturbation_csv(const PerturbationTable& table) {
+  std::string text = plan_line(table).append("\n").append(head).append("\n");
+  for (const PerturbedState& state : table.states)
+    for (const Trial& trial : state.trials) append_row(text, state.tilt, trial);
+  return text;
+}
+
+PerturbationTable parse_perturbation_csv(const std::string& text, const std::string& name,
+                                         const PerturbationPlan& plan) {
+  PerturbationTable table{plan, false, {}};
+  const std::string under_way = plan_line(table);
+  table.complete = true;
+  std::istringstream lines(text);
+  std::string line;
+  std::getline(lines, line);
+  if (line != plan_line(table) && line != under_way)
+    throw Error(ExitCode::bad_data, name + " begins with '" + printable(line, 120) + "', expected '" +
+                                        under_way + "': it was made in another way; give another folder");
+  table.complete = line != under_way;
+  std::getline(lines, line);
+  bool whole = line == head;
+  double tilt = 0.0;
+  Trial trial;
+  while (whole && std::getline(lines, line)) {
+    whole = read_row(line, tilt, trial);
+    if (table.states.empty() || table.states.back().tilt != tilt) table.states.push_back({tilt, {}});
+    table.states.back().trials.push_back(trial);
+  }
+  if (!whole)
+    throw Error(ExitCode::bad_data, name + ": unexpected line '" + printable(line, 120) +
+                                        "'; remove the file, and what it held is computed again");
+  return table;
+}
+
+}  // namespace talus

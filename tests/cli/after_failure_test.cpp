@@ -1,0 +1,96 @@
+/// Runs that go on after failure: what is told of them, and what the other commands make of their files.
+
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <thread>
+
+#include "process.h"
+
+namespace talus::test {
+namespace {
+
+/// A small bed that is tilted fast: it fails and comes to rest again within some seconds.
+const char* const lowered_bed =
+    "seed = 2\n[bed]\nlength = 20\ndepth = 6\n[deposition]\nrest_velocity = 0.05\n"
+    "[tilt]\nrate = 20\nstep = 0.02\nafter_failure = \"lower\"\nlowering_rate = 5\n"
+    "[output]\nframe_every = 1\nobservable_every = 0.2\n";
+
+class AfterFailure : public testing::Test {
+ protected:
+  AfterFailure() { write_file(folder_, "bed.toml", lowered_bed); }
+
+  Outcome talus(const std::vector<std::string>& arguments) { return run_talus(arguments, folder_.path()); }
+  std::string info(const std::string& run, const std::string& key) {
+    return json_value(talus({"info", run, "--json"}).out, key);
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(AfterFailure, the_angle_at_rest_is_told) {
+  const Outcome run = talus({"run", "bed.toml", "-o", "bed.h5"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_NE(run.out.find("theta_r = "), std::string::npos) << run.out;
+  const std::string theta_r = info("bed.h5", "theta_r");
+  ASSERT_NE(theta_r, "null");
+  EXPECT_LT(std::stod(theta_r), std::stod(info("bed.h5", "theta_c")));
+  EXPECT_EQ(theta_r, info("bed.h5", "tilt_deg")) << "a periodic bed has no other slope";
+  EXPECT_GT(std::stoi(info("bed.h5", "frames_after_failure")), 0);
+  EXPECT_GT(std::stod(info("bed.h5", "tilt_last_deg")), std::stod(info("bed.h5", "theta_c")))
+      << "the last frame of the tilt is that of failure";
+  const std::string text = talus({"info", "bed.h5"}).out;
+  EXPECT_NE(text.find("theta_r"), std::string::npos) << text;
+}
+
+TEST_F(AfterFailure, a_flow_that_does_not_stop_is_told) {
+  const Outcome run = talus({"run", "bed.toml", "-o", "bed.h5", "--set", "tilt.after_failure=hold", "--set",
+                             "deposition.max_time=2"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_NE(run.out.find("had not stopped"), std::string::npos) << run.out;
+  EXPECT_EQ(info("bed.h5", "theta_r"), "null");
+}
+
+TEST_F(AfterFailure, the_other_commands_see_the_tilt_alone) {
+  ASSERT_EQ(talus({"run", "bed.toml", "-o", "flow.h5"}).exit_code, 0);
+  ASSERT_EQ(talus({"run", "bed.toml", "-o", "stop.h5", "--set", "tilt.after_failure=stop"}).exit_code, 0);
+  EXPECT_EQ(info("flow.h5", "frames"), info("stop.h5", "frames"));
+  EXPECT_EQ(info("flow.h5", "theta_c"), info("stop.h5", "theta_c"));
+  EXPECT_EQ(info("stop.h5", "theta_r"), "null");
+  EXPECT_EQ(talus({"info", "stop.h5"}).out.find("theta_r"), std::string::npos);
+  const auto table = [this](const std::string& run) {
+    const std::string text = talus({"analyze", run}).out;
+    return text.substr(text.find('\n'));  // without its name
+  };
+  const std::string stopped = table("stop.h5");
+  EXPECT_NE(stopped.find("theta_d by"), std::string::npos) << stopped;
+  EXPECT_EQ(table("flow.h5"), stopped);
+  EXPECT_EQ(table("flow.h5"), stopped) << "read from the file";
+  ASSERT_EQ(talus({"render", "flow.h5", "--map", "gamma", "--at", "repose", "-o", "flow"}).exit_code, 0);
+  ASSERT_EQ(talus({"render", "stop.h5", "--map", "gamma", "--at", "repose", "-o", "stop"}).exit_code, 0);
+  const auto only_file = [this](const char* name) {
+    return std::filesystem::directory_iterator(folder_.path() / name)->path().filename();
+  };
+  EXPECT_EQ(only_file("flow"), only_file("stop"));
+}
+
+TEST_F(AfterFailure, a_flow_that_was_stopped_is_resumed_to_the_same_bits) {
+  ASSERT_EQ(talus({"run", "bed.toml", "-o", "whole.h5"}).exit_code, 0);
+  int stops_in_flow = 0;
+  for (int attempt = 0; attempt < 200; ++attempt) {
+    const pid_t process = start_talus({"run", "bed.toml", "-o", "parts.h5", "--resume"}, folder_.path());
+    std::this_thread::sleep_for(std::chrono::milliseconds(60 + 20 * attempt));
+    kill(process, SIGTERM);
+    if (wait_for(process) == 0) break;
+    if (std::filesystem::exists(folder_.path() / "parts.h5.run/manifest") &&
+        info("parts.h5", "theta_c") != "null")
+      ++stops_in_flow;
+  }
+  EXPECT_GT(stops_in_flow, 0) << "the flow was never interrupted: nothing was tested";
+  ASSERT_EQ(talus({"run", "bed.toml", "-o", "parts.h5", "--resume"}).exit_code, 0);
+  for (const char* key : {"state_hash", "theta_r", "frames", "frames_after_failure", "steps"})
+    EXPECT_EQ(info("parts.h5", key), info("whole.h5", key)) << key;
+}
+
+}  // namespace
+}  // namespace talus::test

@@ -1,0 +1,164 @@
+/// `talus figures`: the files that it makes of a tiny bed, and what it refuses.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+
+#include "process.h"
+
+namespace talus::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string content(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+void expect_parts(const std::string& text, const std::vector<std::string>& parts) {
+  for (const std::string& part : parts) EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
+}
+
+/// A folder with the run of a bed of 32 grains that stands at 1.5 deg: 4 frames.
+class Figures : public testing::Test {
+ protected:
+  Figures() {
+    write_file(folder_, "bed.toml",
+               "[bed]\nlength = 10\ndepth = 4\n[tilt]\nend_angle = 1.5\n[output]\nframe_every = 0.5\n");
+    EXPECT_EQ(run_talus({"run", "bed.toml", "-q"}, folder_.path()).exit_code, 0);
+  }
+
+  Outcome figures(std::vector<std::string> more = {}) const {
+    more.insert(more.begin(), {"figures", "bed.h5", "-o", "out"});
+    return run_talus(more, folder_.path());
+  }
+  fs::path out(const std::string& name) const { return folder_.path() / "out" / name; }
+  std::vector<std::string> names() const {
+    std::vector<std::string> all;
+    for (const auto& entry : fs::directory_iterator(folder_.path() / "out"))
+      all.push_back(entry.path().filename().string());
+    std::ranges::sort(all);
+    return all;
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(Figures, are_files_of_each_kind) {
+  const Outcome outcome = figures({"--only", "4,fig09-overloaded-fraction", "--set", "gamma_c=0.3"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  expect_parts(outcome.out, {"fig04-shear-stress ", "fig09-overloaded-fraction ", "2 figures in out"});
+  EXPECT_EQ(names(), (std::vector<std::string>{
+                         "fig04-shear-stress-pbc-l-10-d.csv", "fig04-shear-stress.gp",
+                         "fig04-shear-stress.json", "fig04-shear-stress.pdf", "fig04-shear-stress.png",
+                         "fig04-shear-stress.svg", "fig09-overloaded-fraction-paper.csv",
+                         "fig09-overloaded-fraction-pbc-l-10-d.csv", "fig09-overloaded-fraction.gp",
+                         "fig09-overloaded-fraction.json", "fig09-overloaded-fraction.pdf",
+                         "fig09-overloaded-fraction.png", "fig09-overloaded-fraction.svg"}))
+      << "and nothing is left of making them";
+  EXPECT_TRUE(content(out("fig04-shear-stress.pdf")).starts_with("%PDF-"));
+  EXPECT_TRUE(content(out("fig04-shear-stress.png")).starts_with("\x89PNG\r\n"));
+  expect_parts(content(out("fig04-shear-stress.svg")), {"<svg", "</svg>"});
+  EXPECT_TRUE(
+      content(out("fig04-shear-stress-pbc-l-10-d.csv")).starts_with("theta,n,ratio,ratio_error\n0,1,"));
+  expect_parts(
+      content(out("fig04-shear-stress.json")),
+      {"\"command\": \"talus figures bed.h5 -o out --only 4,fig09-overloaded-fraction --set gamma_c=0.3\"",
+       "\"gamma_c\": \"0.3\"", "\"seed\": 1"});
+}
+
+TEST_F(Figures, are_drawn_again_by_their_script) {
+  ASSERT_EQ(figures({"--only", "5", "--columns", "2"}).exit_code, 0);
+  const std::string before = content(out("fig05-stress-ratio.png"));
+  for (const char* ending : {".pdf", ".svg", ".png"})
+    fs::remove(out(std::string("fig05-stress-ratio") + ending));
+  const std::string command = "cd " + folder_.path("out") + " && gnuplot fig05-stress-ratio.gp";
+  EXPECT_EQ(std::system(command.c_str()), 0);
+  EXPECT_EQ(content(out("fig05-stress-ratio.png")), before);
+  EXPECT_TRUE(fs::exists(out("fig05-stress-ratio.pdf")) && fs::exists(out("fig05-stress-ratio.svg")));
+  EXPECT_EQ(before.substr(16, 4), std::string("\0\0\x08\x36", 4)) << "17.8 cm at 300 dpi are 2102 px";
+}
+
+TEST_F(Figures, that_need_a_failure_are_left_out_of_a_bed_that_stands) {
+  const Outcome outcome = figures();
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  expect_parts(outcome.err, {"left out: fig07-wall-ratio needs a bed between walls that has failed",
+                             "left out: fig09-overloaded-fraction needs a periodic bed with a threshold"});
+  expect_parts(outcome.out, {"fig04-shear-stress", "fig05-stress-ratio", "fig14-volume-strain"});
+  const Outcome none = figures({"--only", "9", "--overwrite"});
+  EXPECT_EQ(none.exit_code, 65);
+  expect_parts(none.err, {"no figure can be made of these runs"});
+}
+
+TEST_F(Figures, that_exist_are_replaced_only_on_request) {
+  ASSERT_EQ(figures({"--only", "4"}).exit_code, 0);
+  write_file(folder_, "out/fig04-shear-stress.json", "mine");
+  const Outcome again = figures({"--only", "4"});
+  EXPECT_EQ(again.exit_code, 73);
+  expect_parts(again.err, {"exists; give --overwrite"});
+  EXPECT_EQ(content(out("fig04-shear-stress.json")), "mine");
+  EXPECT_EQ(figures({"--only", "4", "--overwrite"}).exit_code, 0);
+  EXPECT_NE(content(out("fig04-shear-stress.json")), "mine");
+}
+
+TEST_F(Figures, with_unknown_names_are_refused_with_the_nearest) {
+  const Outcome outcome = figures({"--only", "fig09-overloaded-friction"});
+  EXPECT_EQ(outcome.exit_code, 64);
+  expect_parts(outcome.err, {"--only fig09-overloaded-friction: there is no such figure; did you mean "
+                             "fig09-overloaded-fraction?"});
+  EXPECT_EQ(figures({"--only", "3"}).exit_code, 64);
+  EXPECT_FALSE(fs::exists(out("")));
+}
+
+TEST_F(Figures, of_one_run_twice_are_refused) {
+  const Outcome outcome = run_talus({"figures", "bed.h5", "./bed.h5", "-o", "out"}, folder_.path());
+  EXPECT_EQ(outcome.exit_code, 65);
+  expect_parts(outcome.err, {"bed.h5 and ./bed.h5 are the same run"});
+}
+
+TEST_F(Figures, cannot_be_made_where_no_folder_can) {
+  write_file(folder_, "out", "a file");
+  const Outcome outcome = figures({"--only", "4"});
+  EXPECT_EQ(outcome.exit_code, 73) << outcome.err;
+  expect_parts(outcome.err, {"out"});
+}
+
+/// A value of PATH, for as long as it lives.
+class Path {
+ public:
+  explicit Path(const std::string& value) : before_(getenv("PATH")) { setenv("PATH", value.c_str(), 1); }
+  ~Path() { setenv("PATH", before_.c_str(), 1); }
+  Path(const Path&) = delete;
+  Path& operator=(const Path&) = delete;
+
+ private:
+  std::string before_;
+};
+
+TEST_F(Figures, need_gnuplot_before_anything_is_done) {
+  const Path path(folder_.path().string());
+  const auto written = fs::last_write_time(folder_.path("bed.h5"));
+  const Outcome outcome = figures();
+  EXPECT_EQ(outcome.exit_code, 69);
+  expect_parts(outcome.err, {"gnuplot is not installed", "apt-get install gnuplot-nox"});
+  EXPECT_EQ(fs::last_write_time(folder_.path("bed.h5")), written) << "no analysis was stored";
+  EXPECT_FALSE(fs::exists(out("")));
+}
+
+TEST_F(Figures, pass_on_what_gnuplot_says) {
+  write_file(folder_, "gnuplot",
+             "#!/bin/sh\n[ \"$1\" = --version ] && exit 0\necho 'line 7: no such thing' >&2\nexit 1\n");
+  fs::permissions(folder_.path("gnuplot"), fs::perms::owner_all);
+  const Path path(folder_.path().string() + ":/bin:/usr/bin");
+  const Outcome outcome = figures({"--only", "4"});
+  EXPECT_EQ(outcome.exit_code, 74);
+  expect_parts(outcome.err, {"fig04-shear-stress.gp: gnuplot gave up: line 7: no such thing"});
+  EXPECT_TRUE(names().empty()) << "nothing half-made is left";
+}
+
+}  // namespace
+}  // namespace talus::test

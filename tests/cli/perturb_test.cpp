@@ -1,0 +1,146 @@
+/// `talus perturb` on a tiny bed: its runs, tables and figure, stops and resumption.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <csignal>
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+#include "process.h"
+
+namespace talus::test {
+namespace {
+
+/// A bed of 40 grains that is tilted to 20 deg in a second, and stands.
+const char* const tiny_bed = "[bed]\nlength = 10\ndepth = 4\n[tilt]\nend_angle = 20\n";
+
+std::vector<std::string> perturb(const std::string& folder, const std::vector<std::string>& more = {}) {
+  std::vector<std::string> words = {"perturb", "bed.toml", "-o", folder,    "--from",
+                                    "8",       "--every",  "5",  "--patch", "4x1"};
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+std::string text_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+std::string hash_of(const std::string& run, const TemporaryFolder& folder) {
+  return json_value(run_talus({"info", run, "--json"}, folder.path()).out, "state_hash");
+}
+
+TEST(Perturb, leaves_the_run_as_it_is_without) {
+  const TemporaryFolder folder;
+  write_file(folder, "bed.toml", tiny_bed);
+  ASSERT_EQ(run_talus({"run", "bed.toml", "--seed", "2", "-o", "plain.h5"}, folder.path()).exit_code, 0);
+  const Outcome outcome = run_talus(perturb("p", {"--seed", "2"}), folder.path());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(hash_of("plain.h5", folder), "");
+  EXPECT_EQ(hash_of("p/seed-2.h5", folder), hash_of("plain.h5", folder));
+  const std::string table = text_of(folder.path("p/seed-2.csv"));
+  for (const char* part : {"4x1: complete\n", "\n8,0,0,rest,", "\n13,0,0,rest,", "\n18,0,0,rest,", "\n18,5,"})
+    EXPECT_NE(table.find(part), std::string::npos) << part << "\n" << table;
+}
+
+TEST(Perturb, reports_its_seeds_and_computes_none_again) {
+  const TemporaryFolder folder;
+  write_file(folder, "bed.toml", tiny_bed);
+  const Outcome first = run_talus(perturb("p", {"--seeds", "1-2"}), folder.path());
+  ASSERT_EQ(first.exit_code, 0) << first.err;
+  EXPECT_EQ(first.out, text_of(folder.path("p/perturb.md")));
+  EXPECT_NE(first.out.find("6 states of 2 runs"), std::string::npos) << first.out;
+  const std::string rows = text_of(folder.path("p/perturb.csv"));
+  EXPECT_EQ(std::ranges::count(rows, '\n'), 7) << rows;
+  const auto written = std::filesystem::last_write_time(folder.path("p/seed-1.csv"));
+  const Outcome again = run_talus(perturb("p", {"--seeds", "1-2"}), folder.path());
+  EXPECT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_EQ(again.out, first.out);
+  EXPECT_EQ(std::filesystem::last_write_time(folder.path("p/seed-1.csv")), written);
+}
+
+TEST(Perturb, draws_its_figure_where_there_is_a_gnuplot) {
+  const TemporaryFolder folder;
+  write_file(folder, "bed.toml", tiny_bed);
+  const Outcome outcome = run_talus(perturb("p", {"--seeds", "1"}), folder.path());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const bool drawn = std::filesystem::exists(folder.path("p/perturb.pdf"));
+  EXPECT_NE(drawn, outcome.err.find("the figure is left out") != std::string::npos) << outcome.err;
+  EXPECT_EQ(drawn, std::filesystem::exists(folder.path("p/perturb.png")));
+}
+
+class InterruptedPerturb : public testing::TestWithParam<int> {};
+
+TEST_P(InterruptedPerturb, goes_on_to_the_same_table) {
+  const TemporaryFolder folder;
+  write_file(folder, "bed.toml", tiny_bed);
+  ASSERT_EQ(run_talus(perturb("whole", {"--seed", "1"}), folder.path()).exit_code, 0);
+  int stops = 0;
+  int code = -1;
+  for (int attempt = 0; attempt < 100 && code != 0; ++attempt) {
+    const pid_t process = start_talus(perturb("parts", {"--seed", "1"}), folder.path());
+    std::this_thread::sleep_for(std::chrono::milliseconds(200 + 50 * attempt));
+    kill(process, GetParam());
+    code = wait_for(process);
+    // A signal may come before the program waits for it.
+    EXPECT_TRUE(code == 0 || code == -1 || (code == 75 && GetParam() != SIGKILL)) << code;
+    if (code != 0) ++stops;
+  }
+  EXPECT_EQ(code, 0);
+  EXPECT_GT(stops, 0) << "it was never interrupted: nothing was tested";
+  EXPECT_EQ(hash_of("parts/seed-1.h5", folder), hash_of("whole/seed-1.h5", folder));
+  EXPECT_EQ(text_of(folder.path("parts/seed-1.csv")), text_of(folder.path("whole/seed-1.csv")));
+}
+
+INSTANTIATE_TEST_SUITE_P(Signals, InterruptedPerturb, testing::Values(SIGTERM, SIGKILL));
+
+TEST(Perturb, that_is_stopped_stops_its_seeds) {
+  const TemporaryFolder folder;
+  write_file(folder, "bed.toml", "[bed]\nlength = 50\ndepth = 20\n");
+  const pid_t process = start_talus(perturb("p", {"--seeds", "1-2"}), folder.path());
+  for (int wait = 0; wait < 1000 && !std::filesystem::exists(folder.path("p/seed-1.csv")); ++wait)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  kill(process, SIGINT);
+  EXPECT_EQ(wait_for(process), 75);
+  EXPECT_FALSE(std::filesystem::exists(folder.path("p/perturb.md")));
+}
+
+TEST(Perturb, of_a_bad_form_leaves_with_64_before_anything_runs) {
+  const TemporaryFolder folder;
+  write_file(folder, "bed.toml", tiny_bed);
+  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+           {"perturb", "bed.toml"},
+           {"perturb", "bed.toml", "-o", "p", "--patch", "10"},
+           {"perturb", "bed.toml", "-o", "p", "--patch", "0x2"},
+           {"perturb", "bed.toml", "-o", "p", "--every", "0"},
+           {"perturb", "bed.toml", "-o", "p", "--seeds", "4-1"},
+           {"perturb", "bed.toml", "-o", "p", "--seeds", "1", "--seed", "1"}})
+    EXPECT_EQ(run_talus(words, folder.path()).exit_code, 64) << words.back();
+  EXPECT_EQ(run_talus({"perturb", "bed.toml", "-o", "p", "--set", "tilt.stp=1"}, folder.path()).exit_code,
+            65);
+  EXPECT_FALSE(std::filesystem::exists(folder.path("p")));
+}
+
+TEST(Perturb, does_not_mix_plans_or_scenarios_in_a_folder) {
+  const TemporaryFolder folder;
+  write_file(folder, "bed.toml", tiny_bed);
+  ASSERT_EQ(run_talus(perturb("p", {"--seed", "1"}), folder.path()).exit_code, 0);
+  const Outcome plan = run_talus({"perturb", "bed.toml", "-o", "p", "--seeds", "1"}, folder.path());
+  EXPECT_EQ(plan.exit_code, 65);
+  EXPECT_NE(plan.err.find("p/seed-1.csv"), std::string::npos) << plan.err;
+  const Outcome scenario =
+      run_talus(perturb("p", {"--seed", "1", "--set", "contact.friction=0.3"}), folder.path());
+  EXPECT_EQ(scenario.exit_code, 65);
+  EXPECT_NE(scenario.err.find("another scenario"), std::string::npos) << scenario.err;
+  std::filesystem::remove(folder.path("p/seed-1.csv"));
+  const Outcome missing = run_talus(perturb("p", {"--seed", "1"}), folder.path());
+  EXPECT_EQ(missing.exit_code, 65);
+  EXPECT_NE(missing.err.find("no table beside it"), std::string::npos) << missing.err;
+}
+
+}  // namespace
+}  // namespace talus::test

@@ -1,0 +1,48 @@
+/// A whole `talus reproduce --quick`: minutes.
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "process.h"
+
+namespace talus::test {
+namespace {
+
+std::string text_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+TEST(QuickReproduction, writes_a_whole_report_and_keeps_all_of_it) {
+  const TemporaryFolder folder;
+  const std::vector<std::string> command = {"reproduce", "--quick", "-o", "quick"};
+  const Outcome first = run_talus(command, folder.path());
+  ASSERT_EQ(first.exit_code, 0) << first.err;
+  const std::string page = text_of(folder.path("quick/report.html"));
+  const std::string report = text_of(folder.path("quick/report.md"));
+  for (const char* part : {"Talus beside the paper", "Settling the threshold", "data:image/png;base64,"})
+    EXPECT_NE(page.find(part), std::string::npos) << part;
+  EXPECT_NE(report.find("| walls, L = 150 D |"), std::string::npos);
+  EXPECT_EQ(report.find("0 of 1"), std::string::npos) << "a bed is missing\n" << report;
+  EXPECT_EQ(page.find("src=\"figures"), std::string::npos) << "the page needs files beside it";
+
+  const auto drawn =
+      std::filesystem::last_write_time(folder.path("quick/figures/fig12-coarse-graining-length.png"));
+  const auto run = std::filesystem::last_write_time(folder.path("quick/runs/pbc/seed-1.h5"));
+  const auto kept = std::filesystem::last_write_time(folder.path("quick/study/pbc/seed-1/averaging=1.csv"));
+  const Outcome second = run_talus(command, folder.path());
+  ASSERT_EQ(second.exit_code, 0) << second.err;
+  EXPECT_EQ(std::filesystem::last_write_time(folder.path("quick/figures/fig12-coarse-graining-length.png")),
+            drawn);
+  EXPECT_EQ(std::filesystem::last_write_time(folder.path("quick/runs/pbc/seed-1.h5")), run);
+  EXPECT_EQ(std::filesystem::last_write_time(folder.path("quick/study/pbc/seed-1/averaging=1.csv")), kept);
+  EXPECT_EQ(text_of(folder.path("quick/report.html")), page);
+  EXPECT_EQ(second.out, first.out);
+}
+
+}  // namespace
+}  // namespace talus::test

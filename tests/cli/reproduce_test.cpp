@@ -1,0 +1,84 @@
+/// `talus reproduce` before its first run is complete: arguments, stops, folders of something else. A whole
+/// one takes minutes: reproduce_slow_test.cpp.
+
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+#include "process.h"
+
+namespace talus::test {
+namespace {
+
+const char* const first_run = "quick/runs/wbc-50/seed-1.h5";
+
+pid_t start_quick(const TemporaryFolder& folder) {
+  const pid_t process = start_talus({"reproduce", "--quick", "-o", "quick", "--jobs", "1"}, folder.path());
+  const std::string manifest = folder.path(std::string(first_run) + ".run/manifest");
+  for (int wait = 0; wait < 1000 && !std::filesystem::exists(manifest); ++wait)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  return process;
+}
+
+int steps_of_first_run(const TemporaryFolder& folder) {
+  const std::string info = run_talus({"info", first_run, "--json"}, folder.path()).out;
+  return std::stoi(std::string("0").append(json_value(info, "steps")));
+}
+
+TEST(Reproduce, of_a_bad_form_leaves_with_64_before_anything_is_written) {
+  const TemporaryFolder folder;
+  for (const std::vector<std::string>& bad :
+       {std::vector<std::string>{"--jobs", "0"}, {"--seeds", "2-1"}, {"--seeds", "x"}, {"slope.toml"}}) {
+    std::vector<std::string> arguments = {"reproduce", "--quick", "-o", "quick"};
+    arguments.insert(arguments.end(), bad.begin(), bad.end());
+    EXPECT_EQ(run_talus(arguments, folder.path()).exit_code, 64) << bad.front();
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder.path("quick")));
+}
+
+TEST(Reproduce, that_is_stopped_leaves_with_75_and_goes_on_where_it_was) {
+  const TemporaryFolder folder;
+  const pid_t first = start_quick(folder);
+  std::this_thread::sleep_for(std::chrono::seconds(1));
+  kill(first, SIGINT);
+  EXPECT_EQ(wait_for(first), 75);
+  const int steps = steps_of_first_run(folder);
+  EXPECT_GT(steps, 1);
+  const pid_t second = start_quick(folder);
+  std::this_thread::sleep_for(std::chrono::seconds(1));
+  kill(second, SIGTERM);
+  EXPECT_EQ(wait_for(second), 75);
+  EXPECT_GE(steps_of_first_run(folder), steps) << "it began again";
+  EXPECT_FALSE(std::filesystem::exists(folder.path("quick/report.html")));
+}
+
+TEST(Reproduce, writes_the_scenarios_that_a_user_can_run) {
+  const TemporaryFolder folder;
+  const pid_t process = start_quick(folder);
+  kill(process, SIGTERM);
+  EXPECT_EQ(wait_for(process), 75);
+  std::ifstream source(TALUS_SOURCE_DIR "/assets/scenarios/paper-wbc-300.toml");
+  std::ifstream written(folder.path("quick/scenarios/paper-wbc-300.toml"));
+  std::stringstream expected, found;
+  expected << source.rdbuf();
+  found << written.rdbuf();
+  EXPECT_FALSE(expected.str().empty());
+  EXPECT_EQ(found.str(), expected.str());
+  EXPECT_EQ(run_talus({"check", "quick/scenarios/paper-pbc.toml"}, folder.path()).exit_code, 0);
+}
+
+TEST(Reproduce, refuses_a_folder_with_another_run_in_it) {
+  const TemporaryFolder folder;
+  write_file(folder, "bed.toml", "[bed]\nlength = 10\ndepth = 4\n[tilt]\nend_angle = 0.5\n");
+  std::filesystem::create_directories(folder.path("quick/runs/wbc-50"));
+  ASSERT_EQ(run_talus({"run", "bed.toml", "-o", first_run}, folder.path()).exit_code, 0);
+  const Outcome outcome = run_talus({"reproduce", "--quick", "-o", "quick"}, folder.path());
+  EXPECT_EQ(outcome.exit_code, 65);
+  EXPECT_NE(outcome.err.find(first_run), std::string::npos) << outcome.err;
+}
+
+}  // namespace
+}  // namespace talus::test

@@ -1,0 +1,163 @@
+/// What follows failure: a flow that stops when its tilt is lowered, or when its surface has relaxed.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "core/trigonometry.h"
+#include "dynamics/failure.h"
+#include "session/session.h"
+#include "stress/free_surface.h"
+
+namespace talus {
+namespace {
+
+/// A small bed that is tilted fast, and fails within a second of its time.
+Scenario bed(AfterFailure after_failure, BedBoundary boundary) {
+  Scenario scenario;
+  scenario.bed.length = 20.0;
+  scenario.bed.depth = 6.0;
+  scenario.bed.boundary = boundary;
+  scenario.deposition.rest_velocity = 0.05;
+  scenario.tilt.rate = 20.0;
+  scenario.tilt.step = 0.02;
+  scenario.tilt.after_failure = after_failure;
+  scenario.tilt.lowering_rate = 20.0;
+  scenario.output.frame_every = 1.0;
+  scenario.output.observable_every = 0.2;
+  return scenario;
+}
+
+void advance_to_end(Session& session) {
+  while (session.phase() != Phase::done) session.advance();
+}
+
+Session to_failure(const Scenario& scenario) {
+  Session session(scenario);
+  while (session.phase() == Phase::deposition || session.phase() == Phase::tilt) session.advance();
+  return session;
+}
+
+bool at_rest(const Session& session) {
+  const Scenario& scenario = session.scenario();
+  return rms_velocity(session.world().grains) <=
+         scenario.deposition.rest_velocity * session.world().gravity * time_step(scenario);
+}
+
+TEST(Avalanche, failure_ends_the_run_unless_told) {
+  const Session session = to_failure(bed(AfterFailure::stop, BedBoundary::periodic));
+  EXPECT_EQ(session.phase(), Phase::done);
+  EXPECT_TRUE(session.angle_of_repose());
+  EXPECT_FALSE(session.angle_at_rest());
+}
+
+TEST(Avalanche, stops_when_the_tilt_is_lowered) {
+  Scenario scenario = bed(AfterFailure::lower, BedBoundary::periodic);
+  scenario.tilt.end_angle = 60.0;  // failure comes first
+  Session session = to_failure(scenario);
+  ASSERT_EQ(session.phase(), Phase::flow);
+  const double highest = session.world().tilt;
+  EXPECT_FALSE(at_rest(session));
+  EXPECT_FALSE(session.angle_at_rest());
+  session.advance();
+  EXPECT_NEAR(highest - session.world().tilt, radians(20.0) * 1e-3, 1e-12) << "lowering_rate * h";
+  advance_to_end(session);
+  EXPECT_TRUE(at_rest(session));
+  ASSERT_TRUE(session.angle_at_rest());
+  EXPECT_EQ(*session.angle_at_rest(), session.world().tilt) << "the only slope of a periodic bed";
+  EXPECT_LT(*session.angle_at_rest(), *session.angle_of_repose());
+  EXPECT_GT(*session.angle_at_rest(), 0.0);
+}
+
+// The same failure, lowered more slowly: the flow has more time to follow the tilt.
+TEST(Avalanche, lags_behind_a_tilt_that_falls_faster) {
+  Scenario scenario = bed(AfterFailure::lower, BedBoundary::periodic);
+  Session fast = to_failure(scenario);
+  scenario.tilt.lowering_rate = 5.0;
+  Session slow = to_failure(scenario);
+  EXPECT_EQ(state_hash(fast.world()), state_hash(slow.world()));
+  advance_to_end(fast);
+  advance_to_end(slow);
+  ASSERT_TRUE(fast.angle_at_rest() && slow.angle_at_rest());
+  EXPECT_GT(*slow.angle_at_rest(), *fast.angle_at_rest());
+}
+
+TEST(Avalanche, that_has_not_stopped_at_0_deg_has_no_angle_at_rest) {
+  Scenario scenario = bed(AfterFailure::lower, BedBoundary::periodic);
+  scenario.tilt.lowering_rate = 100.0;
+  scenario.deposition.rest_velocity = 1e-9;
+  Session session = to_failure(bed(AfterFailure::lower, BedBoundary::periodic));
+  Session impatient(scenario, session.checkpoint(0.0));
+  advance_to_end(impatient);
+  EXPECT_EQ(impatient.world().tilt, 0.0);
+  EXPECT_FALSE(impatient.angle_at_rest());
+}
+
+TEST(Avalanche, that_is_held_where_nothing_stops_it_ends_after_max_time) {
+  Scenario scenario = bed(AfterFailure::hold, BedBoundary::periodic);
+  scenario.deposition.max_time = 0.5;
+  Session before = to_failure(bed(AfterFailure::hold, BedBoundary::periodic));
+  Session session(scenario, before.checkpoint(0.0));
+  const double failed_at = session.world().time;
+  const double tilt = session.world().tilt;
+  advance_to_end(session);
+  EXPECT_EQ(session.world().tilt, tilt);
+  EXPECT_NEAR(session.world().time - failed_at, 0.5, 1.5e-3);
+  EXPECT_FALSE(session.angle_at_rest());
+}
+
+TEST(Avalanche, relaxes_its_surface_between_walls) {
+  Session session = to_failure(bed(AfterFailure::hold, BedBoundary::walls));
+  ASSERT_EQ(session.phase(), Phase::flow);
+  const double tilt = session.world().tilt;
+  advance_to_end(session);
+  EXPECT_EQ(session.world().tilt, tilt);
+  ASSERT_TRUE(session.angle_at_rest());
+  const double inclination =
+      surface_inclination(session.world().grains, session.world().boundary, 0.1 * 0.01);
+  EXPECT_GT(inclination, 0.0) << "what flowed down lies higher there";
+  EXPECT_EQ(*session.angle_at_rest(), tilt - inclination);
+}
+
+TEST(Avalanche, records_frames_and_rows_until_it_has_stopped) {
+  Session session = to_failure(bed(AfterFailure::lower, BedBoundary::periodic));
+  session.clear_segment();
+  const double highest = session.world().tilt;
+  const std::int64_t failed_at = session.world().step;
+  advance_to_end(session);
+  const auto steps = session.world().step - failed_at;
+  const Segment& segment = session.segment();
+  EXPECT_EQ(segment.steps.size(), static_cast<std::size_t>(steps));
+  EXPECT_NEAR(static_cast<double>(segment.observables.size()), static_cast<double>(steps) / 10.0, 2.0);
+  EXPECT_NEAR(static_cast<double>(segment.frames.size()), static_cast<double>(steps) / 50.0, 2.0);
+  for (const StepRow& row : segment.steps) EXPECT_EQ(at(row, StepField::phase), 3.0);
+  for (const Frame& frame : segment.frames) EXPECT_LT(frame.tilt, highest);
+  EXPECT_EQ(segment.frames.back().step, session.world().step);
+  EXPECT_EQ(at(segment.observables.back(), Observable::step), static_cast<double>(session.world().step));
+}
+
+TEST(Avalanche, is_resumed_to_the_same_bits) {
+  const Scenario scenario = bed(AfterFailure::lower, BedBoundary::periodic);
+  Session whole = to_failure(scenario);
+  std::optional<Session> parts;
+  parts.emplace(scenario, whole.checkpoint(0.0));
+  for (int k = 1; whole.phase() != Phase::done; ++k) {
+    whole.advance();
+    parts->advance();
+    if (k % 17 == 0) {
+      const Checkpoint checkpoint = parts->checkpoint(0.0);
+      parts.emplace(scenario, checkpoint);
+    }
+  }
+  EXPECT_EQ(parts->phase(), Phase::done);
+  EXPECT_EQ(state_hash(parts->world()), state_hash(whole.world()));
+  EXPECT_EQ(parts->angle_at_rest(), whole.angle_at_rest());
+  EXPECT_EQ(parts->solver_record().unconverged_flow, whole.solver_record().unconverged_flow);
+  // Of the end too.
+  const Session again(scenario, whole.checkpoint(0.0));
+  EXPECT_EQ(again.angle_at_rest(), whole.angle_at_rest());
+}
+
+}  // namespace
+}  // namespace talus

@@ -1,0 +1,58 @@
+/// Every figure has its script, every script its figure, and names say the same everywhere.
+
+#include "figures/catalogue.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <string>
+
+#include "figures/scripts.h"
+
+namespace talus {
+namespace {
+
+/// Scripts that no figure of the catalogue has: what all begin with, and the figure of `talus perturb`.
+const std::set<std::string_view> others = {"style", "perturb"};
+
+TEST(Catalogue, EachFigureHasItsScript) {
+  for (const FigureRecipe& recipe : figure_catalogue()) {
+    EXPECT_NO_THROW(figure_script(recipe.name)) << recipe.name;
+    EXPECT_FALSE(recipe.title.empty() || recipe.needs.empty()) << recipe.name;
+  }
+}
+
+TEST(Catalogue, EachScriptHasItsFigure) {
+  for (const std::string_view script : figure_scripts())
+    EXPECT_TRUE(others.contains(script) || std::ranges::find(figure_catalogue(), script,
+                                                             &FigureRecipe::name) != figure_catalogue().end())
+        << script;
+}
+
+TEST(Catalogue, NamesAreUniqueAndThePapersFiguresComeFirst) {
+  std::set<std::string_view> names;
+  bool of_the_paper = true;
+  for (const FigureRecipe& recipe : figure_catalogue()) {
+    EXPECT_TRUE(names.insert(recipe.name).second) << recipe.name;
+    const bool numbered = recipe.name.starts_with("fig");
+    EXPECT_TRUE(of_the_paper || !numbered) << recipe.name;
+    of_the_paper = numbered;
+  }
+}
+
+TEST(Catalogue, NoFigureIsMadeOfNoRuns) {
+  for (const FigureRecipe& recipe : figure_catalogue()) EXPECT_FALSE(recipe.make({})) << recipe.name;
+}
+
+TEST(Catalogue, IsThatOfItsPage) {
+  std::ifstream file(std::string(TALUS_SOURCE_DIR) + "/docs/figures.md");
+  const std::string page{std::istreambuf_iterator<char>(file), {}};
+  for (const FigureRecipe& recipe : figure_catalogue())
+    EXPECT_NE(page.find("| `" + std::string(recipe.name) + "` |"), std::string::npos) << recipe.name;
+}
+
+}  // namespace
+}  // namespace talus

@@ -1,0 +1,91 @@
+#include "figures/contact_figures.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/trigonometry.h"
+#include "figures/failed_group.h"
+#include "unit/io/example_run.h"
+
+namespace talus {
+namespace {
+
+constexpr std::size_t bins = 2;
+constexpr const char* density = "contacts/direction_density";
+
+/// A run that fails at theta_c (deg), with two bins of directions, all of density `level` in its first frame
+/// and of 3 `level` in the others.
+FigureRun run_with(const std::string& folder, double theta_c, double level) {
+  FigureRun run{folder, RunFile::open(folder), {}, {}};
+  const std::size_t frames = run.file.frame_count();
+  run.analysis = make_analysis({{'T', frames}, {'N', 1}, {'F', 1}, {'X', 1}, {'B', bins}});
+  values<double>(run.analysis, "theta_c")[0] = radians(theta_c);
+  for (std::size_t k = 0; k < frames; ++k)
+    for (double& value : row<double>(run.analysis, density, k)) value = k == 0 ? level : 3.0 * level;
+  const double edges[] = {0.0, 0.5 * pi, pi};
+  std::ranges::copy(edges, values<double>(run.analysis, "contacts/direction_edge").begin());
+  return run;
+}
+
+class ContactFigures : public ::testing::Test {
+ protected:
+  test::TemporaryFolder folder;
+  std::vector<RunGroup> groups;
+
+  void SetUp() override {
+    const std::string path = folder.path("run.h5");
+    { example::store_with_commits(path, 4); }
+    groups.resize(2);
+    groups[0].label = "never fails";
+    groups[0].runs.push_back(run_with(path, std::nan(""), 1.0));
+    groups[1].label = "fails";
+    for (const double theta_c : {std::nan(""), 80.0, 80.0})
+      groups[1].runs.push_back(run_with(path, theta_c, static_cast<double>(groups[1].runs.size())));
+  }
+};
+
+TEST_F(ContactFigures, AreOfTheFirstGroupThatHasFailed) {
+  const auto failed = first_failed_group(groups);
+  ASSERT_TRUE(failed);
+  EXPECT_EQ(failed->group, &groups[1]);
+  EXPECT_EQ(failed->runs, (RunChoice{&groups[1].runs[1], &groups[1].runs[2]}));
+  EXPECT_FALSE(first_failed_group(std::span(groups).first(1)));
+  EXPECT_FALSE(contact_directions(std::span(groups).first(1)));
+}
+
+TEST_F(ContactFigures, HaveMeansAndErrorsOverTheRuns) {
+  const RunChoice runs = {&groups[1].runs[1], &groups[1].runs[2]};
+  const std::vector<std::size_t> frames = {0, 1};
+  const std::vector<Column> columns = row_means(runs, frames, density, {"density", "1/rad", "", {}});
+  ASSERT_EQ(columns.size(), 2u);
+  EXPECT_EQ(columns[0].values, (std::vector<double>{3.5, 3.5})) << "of 1 and 6";
+  EXPECT_EQ(columns[1].name, "density_error");
+  EXPECT_DOUBLE_EQ(columns[1].values[0], 2.5) << "half their difference";
+}
+
+TEST_F(ContactFigures, CompareTheFirstFrameWithTheLastBeforeFailure) {
+  const auto figure = contact_directions(groups);
+  ASSERT_TRUE(figure);
+  EXPECT_EQ(figure->runs.size(), 2u);
+  const auto column = [&](const std::string& name) {
+    for (const Column& each : figure->tables[0].columns)
+      if (each.name == name) return each.values;
+    ADD_FAILURE() << name;
+    return std::vector<double>{};
+  };
+  EXPECT_EQ(column("density_start"), (std::vector<double>{1.5, 1.5}));
+  EXPECT_EQ(column("density_repose"), (std::vector<double>{4.5, 4.5}));
+  EXPECT_EQ(column("direction_from"), (std::vector<double>{0.0, 90.0}));
+  EXPECT_EQ(column("direction_to"), (std::vector<double>{90.0, 180.0}));
+}
+
+TEST(RoundedText, HasAtMostSoManyDecimals) {
+  EXPECT_EQ(rounded_text(13.2501, 2), "13.25");
+  EXPECT_EQ(rounded_text(5.000001, 2), "5");
+  EXPECT_EQ(rounded_text(-1e-9, 2), "0");
+  EXPECT_EQ(angle_text(radians(13.25)), "13.25");
+}
+
+}  // namespace
+}  // namespace talus

@@ -1,0 +1,181 @@
+/// The tables behind the paper's curves, of hand-made analyses.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "figures/catalogue.h"
+#include "figures/group_table.h"
+#include "figures/overload_figures.h"
+#include "figures/packing_stress_figures.h"
+#include "figures/volume_strain_figure.h"
+#include "figures/wall_figures.h"
+#include "unit/figures/example_figure_run.h"
+
+namespace talus {
+namespace {
+
+const std::vector<double>& column(const Table& table, const std::string& name) {
+  for (const Column& each : table.columns)
+    if (each.name == name) return each.values;
+  throw std::out_of_range(name);
+}
+
+std::string variable(const Figure& figure, const std::string& name) {
+  for (const auto& [key, value] : figure.variables)
+    if (key == name) return value;
+  return "not there";
+}
+
+/// A periodic group of three runs: two that fail after all three frames, and one that has not failed.
+class Curves : public ::testing::Test {
+ protected:
+  Curves() {
+    example::store_with_commits(path_, 4);
+    groups_.resize(1);
+    groups_[0].label = "PBC, a_b";
+    for (const double theta_c : {80.0, 80.0, std::nan("")})
+      groups_[0].runs.push_back(example::figure_run(path_, groups_[0].runs.size() + 1, theta_c));
+  }
+
+  /// Run r has r + 1 times `first`, growing by `step` from element to element.
+  void fill(const char* name, double first, double step) {
+    for (std::size_t r = 0; r < groups_[0].runs.size(); ++r) {
+      Analysis& analysis = groups_[0].runs[r].analysis;
+      if (!analysis.data_sets.contains(std::string_view(name))) continue;
+      const auto all = values<double>(analysis, name);
+      for (std::size_t k = 0; k < all.size(); ++k)
+        all[k] = static_cast<double>(r + 1) * first + static_cast<double>(k) * step;
+    }
+  }
+
+  test::TemporaryFolder folder_;
+  std::string path_ = folder_.path("run.h5");
+  std::vector<RunGroup> groups_;
+};
+
+TEST_F(Curves, OfThePackingAreMeansOverAllRuns) {
+  fill("packing/stress_ratio", 0.1, 0.01);
+  const auto figure = stress_ratio_figure(groups_);
+  ASSERT_TRUE(figure);
+  ASSERT_EQ(figure->tables.size(), 1u);
+  EXPECT_EQ(figure->tables[0].name, "pbc-a_b");
+  EXPECT_EQ(figure->runs.size(), 3u);
+  EXPECT_EQ(column(figure->tables[0], "n"), (std::vector<double>{3.0, 3.0, 3.0}));
+  EXPECT_NEAR(column(figure->tables[0], "ratio")[1], 0.21, 1e-15);
+  EXPECT_NEAR(column(figure->tables[0], "ratio_error")[1], 0.1 / std::sqrt(3.0), 1e-15);
+  EXPECT_EQ(variable(*figure, "label_1"), "'PBC, a\\_b (3 runs)'") << "no subscript in the key";
+  EXPECT_EQ(variable(*figure, "data_1"), "\"fig05-stress-ratio-pbc-a_b.csv\"");
+}
+
+TEST_F(Curves, EndAtTheFailureOfEachRun) {
+  const std::vector<double> tilts = groups_[0].runs[0].file.frame_tilts();
+  values<double>(groups_[0].runs[0].analysis, "theta_c")[0] = 0.5 * (tilts[1] + tilts[2]);
+  const auto figure = stress_ratio_figure(groups_);
+  EXPECT_EQ(column(figure->tables[0], "n"), (std::vector<double>{3.0, 3.0, 2.0}));
+}
+
+TEST_F(Curves, OfOverloadedGrainsNeedAThreshold) {
+  fill("overloaded/fraction", 0.2, 0.05);  // elements: frame, threshold
+  const auto figure = overloaded_fraction_figure(groups_);
+  ASSERT_TRUE(figure);
+  EXPECT_EQ(figure->runs.size(), 2u) << "the third has none";
+  EXPECT_EQ(variable(*figure, "thresholds"), "2");
+  EXPECT_NEAR(column(figure->tables[0], "p_o_1")[1], 0.4, 1e-15) << "mean of 0.3 and 0.5";
+  EXPECT_NEAR(column(figure->tables[0], "p_o_2")[1], 0.45, 1e-15);
+  EXPECT_EQ(column(figure->tables[1], "p_o"), (std::vector<double>{0.30, 0.45, 0.60})) << "the paper";
+  groups_[0].runs.erase(groups_[0].runs.begin(), groups_[0].runs.begin() + 2);
+  EXPECT_FALSE(overloaded_fraction_figure(groups_));
+  EXPECT_FALSE(length_figure(groups_));
+}
+
+TEST_F(Curves, OfLengthsAreInDiameters) {
+  const double diameter = groups_[0].runs[0].file.header().statics.mean_diameter;
+  fill("lc/mean", 2.0 * diameter, 0.0);
+  fill("lc/max", 10.0 * diameter, 0.0);
+  fill("lc/cut", 15.0 * diameter, 0.0);
+  values<double>(groups_[0].runs[0].analysis, "lc/cut")[0] = 40.0 * diameter;
+  const auto figure = length_figure(groups_);
+  EXPECT_NEAR(column(figure->tables[0], "mean_1")[0], 3.0, 1e-12);
+  EXPECT_NEAR(column(figure->tables[0], "max_2")[2], 15.0, 1e-12);
+  EXPECT_NEAR(std::stod(variable(*figure, "cut")), 40.0, 1e-12) << "the largest of the runs";
+}
+
+TEST_F(Curves, OfGammaAreThoseOfRunsThatStandAtTheAngle) {
+  fill("gamma/density", 1.0, 0.0);
+  const auto figure = gamma_density_figure(groups_);
+  EXPECT_EQ(column(figure->tables[0], "density_0"), (std::vector<double>{1.5, 1.5}));
+  for (FigureRun& run : groups_[0].runs) values<double>(run.analysis, "theta_c")[0] = radians(5.0);
+  EXPECT_TRUE(std::isnan(column(gamma_density_figure(groups_)->tables[0], "density_10")[0]));
+}
+
+TEST_F(Curves, OfTheVolumeHaveThetaDByEachEstimator) {
+  fill("theta_d/lc_jump", radians(10.0), radians(1.0));
+  fill("theta_d/dilation", radians(5.0), 0.0);
+  const auto figure = volume_strain_figure(groups_);
+  ASSERT_EQ(figure->tables.size(), 2u);
+  const Table& table = figure->tables[1];
+  EXPECT_EQ(table.name, "theta_d-pbc-a_b");
+  EXPECT_EQ(column(table, "n"), (std::vector<double>{3.0, 3.0, 0.0, 0.0, 2.0, 2.0}));
+  EXPECT_NEAR(column(table, "theta_d")[0], 10.0, 1e-12) << "dilation, mean of 5, 10, 15";
+  EXPECT_NEAR(column(table, "theta_d")[5], 15.0, 1e-12) << "jump at Gamma_c, mean of 10 and 20";
+  EXPECT_NEAR(column(table, "theta_d")[4], 16.0, 1e-12) << "at 2 Gamma_c, of 11 and 21";
+  EXPECT_NEAR(column(table, "theta_d_error")[5], 5.0, 1e-12);
+  EXPECT_TRUE(std::isnan(column(table, "theta_d")[2])) << "no percolation";
+}
+
+TEST_F(Curves, AreCalledAsInTheCatalogue) {
+  for (const std::string_view name :
+       {"fig04-shear-stress", "fig05-stress-ratio", "fig08-stress-ratio-density", "fig09-overloaded-fraction",
+        "fig12-coarse-graining-length", "fig14-volume-strain"}) {
+    const auto recipe = std::ranges::find(figure_catalogue(), name, &FigureRecipe::name);
+    ASSERT_NE(recipe, figure_catalogue().end()) << name;
+    const auto figure = recipe->make(groups_);
+    ASSERT_TRUE(figure) << name;
+    EXPECT_EQ(figure->name, name);
+    EXPECT_EQ(figure->title, recipe->title);
+  }
+}
+
+TEST_F(Curves, OfPeriodicBedsLeaveOutWalls) {
+  groups_[0].runs[0].scenario.bed.boundary = BedBoundary::walls;
+  EXPECT_FALSE(overloaded_fraction_figure(groups_));
+  EXPECT_FALSE(volume_strain_figure(groups_));
+  EXPECT_TRUE(stress_ratio_figure(groups_));
+}
+
+TEST_F(Curves, OfWallsAreThoseOfTheShortestBed) {
+  EXPECT_FALSE(wall_stress_figure(groups_)) << "a periodic bed";
+  groups_[0].runs[0].scenario.bed.boundary = BedBoundary::walls;
+  fill("sections/sigma_xx", 100.0, 0.0);
+  const RunStatics& statics = groups_[0].runs[0].file.header().statics;
+  double mass = 0.0;
+  for (Index i = 0; i < statics.free_count; ++i) mass += statics.mass[i];
+  const auto figure = wall_stress_figure(groups_);
+  ASSERT_TRUE(figure);
+  EXPECT_EQ(figure->runs.size(), 2u) << "those that have failed";
+  EXPECT_NEAR(column(figure->tables[0], "sigma_xx_1")[0],
+              150.0 * 2.0 * statics.length / (mass * statics.gravity), 1e-12);
+}
+
+TEST(RatioAtFailure, IsOfTheLastRowsBeforeIt) {
+  std::vector<ObservableRow> rows(6);
+  const double ratios[] = {9.0, 9.0, 0.4, 0.6, 0.8, 9.0};
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const double tilt = radians(19.0 + 0.25 * static_cast<double>(k));
+    at(rows[k], Observable::tilt) = tilt;
+    at(rows[k], Observable::sigma_t_over_n) = ratios[k] * sine(tilt) / cosine(tilt);
+  }
+  const RatioAtFailure ratio = ratio_at_failure(rows, radians(20.1), 0.75);
+  EXPECT_NEAR(ratio.mean, 0.6, 1e-12) << "19.5, 19.75 and 20 deg";
+  EXPECT_NEAR(ratio.spread, 0.2, 1e-12);
+}
+
+TEST(GnuplotQuoted, StandsForItself) {
+  EXPECT_EQ(gnuplot_quoted("a_b^{c}@d's"), "'a\\_b\\^\\{c\\}\\@d''s'");
+  EXPECT_EQ(gnuplot_string("θ_c"), "\"θ_c\"");
+}
+
+}  // namespace
+}  // namespace talus

@@ -1,0 +1,70 @@
+#include "figures/neighbourhoods_figure.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "unit/analysis/packings.h"
+
+namespace talus {
+namespace {
+
+constexpr float none = std::numeric_limits<float>::quiet_NaN();
+
+/// Grains at heights 0.5 ... 7.5 in the middle of a bed 10 m long: those with the ids 2 ... 5 are in its
+/// middle half. Two floor grains.
+test::Packing column_of_grains() {
+  test::Packing packing = test::empty_packing(10.0, true);
+  for (int i = 0; i < 8; ++i) test::add_grain(packing, 5.0, 0.5 + i);
+  test::add_floor_grain(packing, 4.5, -0.5);
+  test::add_floor_grain(packing, 5.5, -0.5);
+  return packing;
+}
+
+TEST(TypicalGrain, IsNearestToTheMeansAtAllThresholds) {
+  const test::Packing packing = column_of_grains();
+  const std::vector<float> lengths = {4, 4, 4, 5, 4.4f, 3, 4, 4, none, none,   // first threshold, mean 4
+                                      2, 2, 4, 2, 2.1f, 2, 2, 2, none, none};  // second, mean 2
+  const std::vector<double> means = {4.0, 2.0};
+  EXPECT_EQ(typical_grain(packing.frame, packing.statics, lengths, means), 4);
+  const std::vector<float> first(lengths.begin(), lengths.begin() + 10);
+  EXPECT_EQ(typical_grain(packing.frame, packing.statics, first, std::vector<double>{4.0}), 2);
+}
+
+TEST(TypicalGrain, IsOverloadedAndOfEqualOnesTheFirst) {
+  const test::Packing packing = column_of_grains();
+  const std::vector<double> means = {4.0};
+  const std::vector<float> lengths = {4, 4, none, 5, 3, none, 4, 4, none, none};
+  EXPECT_EQ(typical_grain(packing.frame, packing.statics, lengths, means), 3);
+  const std::vector<float> nobody = {4, 4, none, none, none, none, 4, 4, none, none};
+  EXPECT_EQ(typical_grain(packing.frame, packing.statics, nobody, means), std::nullopt);
+}
+
+TEST(TypicalGrain, IsAwayFromWalls) {
+  test::Packing packing = column_of_grains();
+  packing.frame.x[3] = 9.0;
+  const std::vector<double> means = {4.0};
+  const std::vector<float> lengths = {none, none, none, 4, 5, none, none, none, none, none};
+  EXPECT_EQ(typical_grain(packing.frame, packing.statics, lengths, means), 3) << "periodic";
+  packing.statics.periodic = false;
+  EXPECT_EQ(typical_grain(packing.frame, packing.statics, lengths, means), 4);
+}
+
+TEST(GrainsAround, AreSeenFromTheGrainAcrossThePeriodicEdge) {
+  test::Packing packing = test::empty_packing(20.0, true);
+  packing.statics.mean_diameter = 2.0;
+  test::add_grain(packing, 19.0, 5.0, 0.9);
+  test::add_grain(packing, 1.0, 6.0, 1.1);   // 2 to the right
+  test::add_grain(packing, 15.0, 8.0, 1.0);  // exactly 5 away
+  test::add_grain(packing, 15.0, 8.1, 1.0);
+  test::add_floor_grain(packing, 19.0, 4.0);
+  packing.frame.gamma = {0.1, 0.2, 0.3, 0.4, 0.5};
+  const Table table = grains_around(packing.frame, packing.statics, 0, 5.0);
+  EXPECT_EQ(table.columns[0].values, (std::vector<double>{0, 1, -2}));
+  EXPECT_EQ(table.columns[1].values, (std::vector<double>{0, 0.5, 1.5}));
+  EXPECT_EQ(table.columns[2].values, (std::vector<double>{0.45, 0.55, 0.5}));
+  EXPECT_EQ(table.columns[3].values, (std::vector<double>{0.1, 0.2, 0.3}));
+}
+
+}  // namespace
+}  // namespace talus
