@@ -1,5 +1,5 @@
 #pragma once
-/// The one-parameter law of the shear stress of a bed between walls (paper, Eq. 14).
+/// The one-parameter law of the shear stress of a bed between walls (paper, Eq. 15).
 
 #include <span>
 

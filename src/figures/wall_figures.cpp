@@ -191,7 +191,7 @@ std::optional<Figure> wall_ratio_figure(std::span<const RunGroup> groups) {
       runs_text(points.size()) +
       " in all). Error bars: standard error over the runs; for a single run the standard deviation within "
       "the "
-      "0.5 deg. Lines: 1 - (k_L - k_0)/3 H/L (paper, Eq. 14), fitted to all runs by least squares, k_L - k_0 "
+      "0.5 deg. Lines: 1 - (k_L - k_0)/3 H/L (paper, Eq. 15), fitted to all runs by least squares, k_L - k_0 "
       "= " +
       plus_minus(fit) +
       " (standard error), and with the paper's 2.5. H is the mean height V/L of each bed before "

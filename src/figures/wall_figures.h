@@ -20,7 +20,7 @@ struct RatioAtFailure {
 };
 RatioAtFailure ratio_at_failure(std::span<const ObservableRow> rows, double theta_c, double window);
 
-/// That ratio over L, of all beds between walls, with the law of Eq. 14 (paper, Fig. 7).
+/// That ratio over L, of all beds between walls, with the law of Eq. 15 (paper, Fig. 7).
 std::optional<Figure> wall_ratio_figure(std::span<const RunGroup> groups);
 
 }  // namespace talus

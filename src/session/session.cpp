@@ -120,7 +120,7 @@ void Session::advance_deposition() {
                     std::to_string(report_.rms_velocity / (world_.gravity * time_step(scenario_))) +
                     " g h, rest asks for deposition.rest_velocity = " +
                     std::to_string(scenario_.deposition.rest_velocity) +
-                    " g h; allow more time, or set solver.tolerance lower");
+                    " g h; allow more time, or set solver.moving_tolerance or solver.tolerance lower");
 }
 
 void Session::begin_tilt() {
