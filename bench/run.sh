@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Builds the benchmarks and writes every result to bench/results/: bench/run.sh [PART...]
-# Parts: solver, scale, siconos, siconos_si, siconos_dense, paper; all of them with no argument.
+# Parts: solver, scale, siconos, siconos_si, siconos_dense, paper, render; all of them with no argument.
 set -euo pipefail
 
 cd -- "$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")/.."
@@ -109,13 +109,25 @@ paper() {
   keep paper.md
 }
 
+render() {
+  local mesa
+  mesa=$(dpkg-query -W -f '${Version}' libosmesa6 2>/dev/null || echo unknown)
+  {
+    heading "Pictures of discs" "LP_NUM_THREADS=2 bench/render_peers.py $build"
+    echo "Mesa: $mesa, cairo: $(pkg-config --modversion cairo)"
+    echo
+    LP_NUM_THREADS=2 /usr/bin/python3 bench/render_peers.py "$build"
+  } >"$results/render.md.part"
+  keep render.md
+}
+
 parts=("$@")
-((${#parts[@]} > 0)) || parts=(solver scale siconos siconos_si siconos_dense paper)
+((${#parts[@]} > 0)) || parts=(solver scale siconos siconos_si siconos_dense paper render)
 build
 mkdir -p "$results"
 for part in "${parts[@]}"; do
   case $part in
-    solver | scale | siconos | siconos_si | siconos_dense | paper) "$part" ;;
+    solver | scale | siconos | siconos_si | siconos_dense | paper | render) "$part" ;;
     *) printf 'bench/run.sh: error: no part "%s"; they are listed at the top of this file\n' "$part" >&2 && exit 64 ;;
   esac
   printf '%s: done after %d s\n' "$part" "$SECONDS"

@@ -1,7 +1,11 @@
 #pragma once
-/// Rendering contexts: one file per kind (context_<kind>.cpp), and the renderer draws alike in all of them.
+/// Rendering contexts: one file per kind (context_<kind>.cpp), and the renderer draws the same bits in all of
+/// them.
 
+#include <functional>
 #include <memory>
+#include <optional>
+#include <string_view>
 
 namespace talus {
 
@@ -14,8 +18,26 @@ class Context {
   virtual Function function(const char* name) const = 0;
 };
 
-/// A context in memory that needs neither display nor driver. Throws Error(unavailable) where libOSMesa is
-/// not installed or refuses.
+enum class ContextKind {
+  osmesa,  ///< in memory: neither display nor driver
+  egl,     ///< without a surface: no display, Mesa's driver in software; OSMesa ends with Mesa 25.0
+};
+
+/// "osmesa", "egl".
+std::string_view context_name(ContextKind kind);
+/// The kind of a name; none for "auto". Throws Error(usage) with the names that there are.
+std::optional<ContextKind> context_kind(std::string_view name);
+
+/// Each throws Error(unavailable) where its library is not installed, or refuses.
 std::unique_ptr<Context> make_osmesa_context();
+std::unique_ptr<Context> make_egl_context();
+
+/// A context of that kind; without one, OSMesa, and EGL where OSMesa is unavailable.
+/// Throws Error(unavailable) with what is missing, of each kind that was tried.
+std::unique_ptr<Context> make_context(std::optional<ContextKind> kind);
+
+using ContextMaker = std::function<std::unique_ptr<Context>()>;
+/// What make_context does without a kind.
+std::unique_ptr<Context> first_context(const ContextMaker& first, const ContextMaker& second);
 
 }  // namespace talus

@@ -34,8 +34,8 @@ OSMesa open_library() {
   setenv("MESA_SHADER_CACHE_DISABLE", "true", 0);
   void* library = dlopen(library_name, RTLD_NOW | RTLD_LOCAL);  // never closed: Mesa keeps thread-local state
   if (!library)
-    throw Error(ExitCode::unavailable, std::string("no rendering context: cannot load ") + library_name +
-                                           " (" + dlerror() + "); apt-get install libosmesa6");
+    throw Error(ExitCode::unavailable, std::string("no OSMesa context: cannot load ") + library_name + " (" +
+                                           dlerror() + "); apt-get install libosmesa6");
   OSMesa mesa;
   find(library, "OSMesaCreateContextAttribs", mesa.create);
   find(library, "OSMesaMakeCurrent", mesa.make_current);
@@ -67,10 +67,9 @@ class OSMesaContextOwner final : public Context {
     // The renderer draws into a framebuffer of its own, but a context becomes current only with a buffer.
     if (!context_ || !mesa_.make_current(context_, dummy_.data(), GL_UNSIGNED_BYTE, 1, 1)) {
       if (context_) mesa_.destroy(context_);
-      throw Error(ExitCode::unavailable,
-                  "no rendering context: OSMesa refuses an OpenGL 3.3 core context; Talus needs libosmesa6 "
-                  "of Mesa 20 "
-                  "to 25.0");
+      throw Error(
+          ExitCode::unavailable,
+          "no OSMesa context: OSMesa refuses OpenGL 3.3 core; Talus needs libosmesa6 of Mesa 20 to 25.0");
     }
   }
   ~OSMesaContextOwner() override { mesa_.destroy(context_); }

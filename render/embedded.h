@@ -1,13 +1,14 @@
 #pragma once
-/// Files built into the binary: the GLSL of shaders/ and the font of the pictures.
+/// Files built into the binary: the GLSL of shaders/, the font and the colour maps of the pictures.
 
 #include <span>
 
 namespace talus::embedded {
 
-extern const std::span<const unsigned char> disc_vert, disc_frag;
+extern const std::span<const unsigned char> disc_vert, disc_frag, hatched_disc_frag;
 extern const std::span<const unsigned char> glyph_vert, glyph_frag;
-extern const std::span<const unsigned char> segment_vert, segment_frag;
-extern const std::span<const unsigned char> font;  ///< DejaVu Sans, TrueType
+extern const std::span<const unsigned char> line_vert, line_frag;
+extern const std::span<const unsigned char> font;              ///< DejaVu Sans, TrueType
+extern const std::span<const unsigned char> viridis, cividis;  ///< text: lines "red green blue"
 
 }  // namespace talus::embedded

@@ -11,9 +11,10 @@
 namespace talus {
 namespace {
 
-constexpr auto special_code_points = std::to_array<char32_t>(
-    {U'°', U'±', U'²', U'·', U'×', U'Γ', U'Δ', U'Σ', U'α', U'γ', U'η', U'θ', U'μ', U'ν',
-     U'ρ', U'σ', U'τ', U'φ', U'–', U'…', U'ℓ', U'−', U'≈', U'≤', U'≥', U'⟨', U'⟩'});
+constexpr auto special_code_points =
+    std::to_array<char32_t>({U'°', U'±', U'²', U'³', U'·', U'¹', U'×', U'Γ', U'Δ', U'Σ', U'α', U'γ', U'η',
+                             U'θ', U'μ', U'ν', U'ρ', U'σ', U'τ', U'φ', U'–', U'…', U'⁰', U'⁴', U'⁵', U'⁶',
+                             U'⁷', U'⁸', U'⁹', U'⁻', U'ℓ', U'→', U'−', U'√', U'≈', U'≤', U'≥', U'⟨', U'⟩'});
 constexpr char32_t first_ascii = 32, last_ascii = 126;
 constexpr std::size_t ascii_count = last_ascii - first_ascii + 1;
 

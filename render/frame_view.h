@@ -2,47 +2,100 @@
 /// What the renderer draws: a picture, never the physics. A leaf: it includes nothing of the simulation.
 /// Texts are UTF-8; "_c" sets c as a subscript.
 
+#include <limits>
 #include <string>
 #include <vector>
 
+#include "render/colour.h"
+
 namespace talus {
 
-/// A disc in metres. Shade 0 is white, 1 is black.
+/// A disc in metres, with a rim inside its edge. Hatched: 1 for what is not a free grain, the floor; lines in
+/// the colour of the rim are then drawn over the fill.
 struct Disc {
   float x = 0.0f;
   float y = 0.0f;
   float radius = 0.0f;
-  float shade = 0.0f;
-  float hatched = 0.0f;  ///< 1 for what is not a free grain: the floor; its shade is then not shown
+  Colour fill = white;
+  Colour rim = black;
+  float hatched = 0.0f;
 };
 
-/// A labelled tick on the gray bar, at a shade.
+/// A straight line with round ends, in metres. Drawn above the discs, and never thinner than can be seen.
+struct Line {
+  float x0 = 0.0f, y0 = 0.0f;
+  float x1 = 0.0f, y1 = 0.0f;
+  float half_width = 0.0f;
+  Colour colour = black;
+};
+
+/// A labelled tick, at a share of the length of its bar.
 struct BarTick {
-  double shade = 0.0;
+  double share = 0.0;
   std::string label;
 };
 
-/// A disc of the legend.
+/// A gray or colour bar.
+struct Bar {
+  std::string title;            ///< "γ = q/p"
+  std::vector<Colour> colours;  ///< from left to right, evenly spaced, two or more
+  std::vector<BarTick> ticks;   ///< by ascending share
+};
+
+/// A disc or a line of the legend.
 struct Swatch {
-  double shade = 0.0;
+  enum class Kind { disc, line };
+  Kind kind = Kind::disc;
+  Colour fill = white;  ///< of a line: its colour
+  Colour rim = black;   ///< of a disc
+  double width = 0.25;  ///< of a line, in units of the height of the swatch
   std::string label;
+};
+
+/// The legend of one layer of a map: a bar, or swatches, or both.
+struct Legend {
+  std::vector<Bar> bars;
+  std::vector<Swatch> swatches;
+};
+
+/// A tick of an axis, at a value.
+struct AxisTick {
+  double value = 0.0;
+  std::string label;
+};
+
+/// A curve under the map, with a mark where the frame is.
+struct Trace {
+  std::string title;         ///< "Γ = Q/P", set above its frame
+  std::vector<double> x, y;  ///< of equal length, x ascending; NaN in y breaks the line
+  double x_min = 0.0, x_max = 1.0, y_min = 0.0, y_max = 1.0;
+  std::vector<AxisTick> x_ticks, y_ticks;
+  std::string x_title;                                      ///< "θ in °"
+  double mark = 0.0;                                        ///< x of the frame shown
+  double event = std::numeric_limits<double>::quiet_NaN();  ///< x of a dashed line: failure; NaN: none
+  std::string event_label;                                  ///< "θ_c"
 };
 
 /// One map of the bed with its furniture. Coordinates are those of the bed's frame, in metres.
 struct FrameView {
   std::vector<Disc> discs;  ///< in drawing order; copies across a periodic edge included
-  double x_min = 0.0, x_max = 0.0, y_min = 0.0, y_max = 0.0;  ///< what is shown; discs are cut at its edges
-  bool furniture = true;           ///< false: the bed alone fills the picture; what follows is not drawn
-  bool walls = false;              ///< side walls are drawn as lines, instead of a cut at the periodic edge
-  bool floor_line = false;         ///< the lower edge is a smooth floor, drawn as a line
-  double tilt = 0.0;               ///< rad, for the gravity arrow: gravity points along (sin tilt, -cos tilt)
-  std::string title;               ///< left of the caption line: what is shown
-  std::string caption;             ///< right of it: angle and its distance to failure
-  double scale_length = 0.0;       ///< m
-  std::string scale_label;         ///< "10 D"
-  std::string bar_title;           ///< "γ = q/p"; no bar where there are no ticks
-  std::vector<BarTick> bar_ticks;  ///< by ascending shade
-  std::vector<Swatch> swatches;    ///< the legend of a map with few shades
+  std::vector<Line> lines;  ///< above them
+  double x_min = 0.0, x_max = 0.0, y_min = 0.0, y_max = 0.0;  ///< what is shown; all is cut at its edges
+  double turn = 0.0;  ///< rad: the bed is drawn turned clockwise by it, so that it slopes down to the right
+  double turn_max = 0.0;        ///< rad, >= turn >= 0: the picture has room for all turns up to this one
+  bool coloured = false;        ///< a picture in colour, even where all that it shows is gray
+  bool transparent = false;     ///< nothing behind the discs, instead of white
+  bool furniture = true;        ///< false: the bed alone fills the picture; what follows is not drawn
+  bool left_wall = false;       ///< a wall stands at x_min, and is drawn as a line
+  bool right_wall = false;      ///< the same at x_max
+  bool floor_line = false;      ///< y_min is a smooth floor, drawn as a line
+  double tilt = 0.0;            ///< rad, for the gravity arrow: gravity points along (sin tilt, -cos tilt)
+  std::string title;            ///< left of the caption line: what is shown
+  std::string caption;          ///< right of it: angle and its distance to failure
+  double scale_length = 0.0;    ///< m
+  std::string scale_label;      ///< "10 D"; neither scale bar nor arrow where it is empty
+  std::vector<Legend> legends;  ///< of the layers, below the bed
+  std::vector<Trace> traces;    ///< below the legends, one below the other
 };
 
 }  // namespace talus

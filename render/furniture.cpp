@@ -3,27 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/furniture_shapes.h"
+#include "render/furniture_traces.h"
+
 namespace talus {
 namespace {
-
-/// A plain rectangle whose shade runs from left to right.
-void add_area(Furniture& furniture, const Box& box, double shade_left, double shade_right) {
-  const auto corner = [](double x, double y, double shade) {
-    return FurnitureVertex{static_cast<float>(x), static_cast<float>(y), -1.0f, 0.0f,
-                           static_cast<float>(shade)};
-  };
-  const FurnitureVertex a = corner(box.x, box.y, shade_left), b = corner(box.right(), box.y, shade_right);
-  const FurnitureVertex c = corner(box.x, box.bottom(), shade_left),
-                        d = corner(box.right(), box.bottom(), shade_right);
-  furniture.triangles.insert(furniture.triangles.end(), {a, b, c, c, b, d});
-}
-
-void add_frame(Furniture& furniture, const Box& box, double line) {
-  add_area(furniture, {box.x - line, box.y - line, box.width + 2.0 * line, line}, 1.0, 1.0);
-  add_area(furniture, {box.x - line, box.bottom(), box.width + 2.0 * line, line}, 1.0, 1.0);
-  add_area(furniture, {box.x - line, box.y, line, box.height}, 1.0, 1.0);
-  add_area(furniture, {box.right(), box.y, line, box.height}, 1.0, 1.0);
-}
 
 void add_text(Furniture& furniture, const PlacedText& text, double em, const Font& font,
               const GlyphAtlas& atlas) {
@@ -35,57 +19,84 @@ void add_text(Furniture& furniture, const PlacedText& text, double em, const Fon
     stbtt_aligned_quad quad;
     stbtt_GetPackedQuad(glyphs.data(), atlas.size, atlas.size, static_cast<int>(glyph.code), &x, &y, &quad,
                         0);
-    const FurnitureVertex a{quad.x0, quad.y0, quad.s0, quad.t0, 1.0f},
-        b{quad.x1, quad.y0, quad.s1, quad.t0, 1.0f};
-    const FurnitureVertex c{quad.x0, quad.y1, quad.s0, quad.t1, 1.0f},
-        d{quad.x1, quad.y1, quad.s1, quad.t1, 1.0f};
+    const FurnitureVertex a{quad.x0, quad.y0, quad.s0, quad.t0, black},
+        b{quad.x1, quad.y0, quad.s1, quad.t0, black};
+    const FurnitureVertex c{quad.x0, quad.y1, quad.s0, quad.t1, black},
+        d{quad.x1, quad.y1, quad.s1, quad.t1, black};
     furniture.triangles.insert(furniture.triangles.end(), {a, b, c, c, b, d});
   }
 }
 
-void add_bar(Furniture& furniture, const Layout& layout, double line) {
-  if (layout.bar.width == 0.0) return;
-  add_frame(furniture, layout.bar, line);
-  add_area(furniture, layout.bar, 0.0, 1.0);
-  const double length = std::round(0.3 * layout.em);
-  for (double tick : layout.ticks)
-    add_area(furniture, {std::round(tick - 0.5 * line), layout.bar.bottom(), line, length}, 1.0, 1.0);
+void add_bar(Furniture& furniture, const PlacedBar& bar, double em, double line) {
+  add_frame(furniture, bar.box, line);
+  const std::size_t pieces = bar.colours.size() - 1;
+  const double width = bar.box.width / static_cast<double>(pieces);
+  for (std::size_t k = 0; k < pieces; ++k)
+    add_gradient(furniture, {bar.box.x + static_cast<double>(k) * width, bar.box.y, width, bar.box.height},
+                 bar.colours[k], bar.colours[k + 1]);
+  const double length = std::round(0.3 * em);
+  for (double tick : bar.ticks)
+    add_area(furniture, {std::round(tick - 0.5 * line), bar.box.bottom(), line, length}, black);
+}
+
+void add_swatch(Furniture& furniture, const PlacedSwatch& placed) {
+  const Box& box = placed.box;
+  const auto middle = static_cast<float>(-box.y - 0.5 * box.height);
+  const Swatch& swatch = placed.swatch;
+  if (swatch.kind == Swatch::Kind::disc) {
+    furniture.discs.push_back({static_cast<float>(box.x + 0.5 * box.width), middle,
+                               static_cast<float>(0.5 * box.width), swatch.fill, swatch.rim, 0.0f});
+    return;
+  }
+  const double half = 0.5 * swatch.width * box.height;
+  furniture.lines.push_back({static_cast<float>(box.x + half), middle, static_cast<float>(box.right() - half),
+                             middle, static_cast<float>(half), swatch.fill});
 }
 
 void add_scale_bar(Furniture& furniture, const Box& box, double line) {
+  if (box.width == 0.0) return;
   const double x = std::round(box.x), y = std::round(box.y);
-  add_area(furniture, {x, y + std::round(0.5 * (box.height - line)), box.width, line}, 1.0, 1.0);
-  add_area(furniture, {x, y, line, box.height}, 1.0, 1.0);
-  add_area(furniture, {x + box.width - line, y, line, box.height}, 1.0, 1.0);
+  add_area(furniture, {x, y + std::round(0.5 * (box.height - line)), box.width, line}, black);
+  add_area(furniture, {x, y, line, box.height}, black);
+  add_area(furniture, {x + box.width - line, y, line, box.height}, black);
 }
 
-/// An arrow of the length of its box, about the box's centre, along gravity (sin tilt, -cos tilt).
-void add_arrow(Furniture& furniture, const Box& box, double tilt, double line) {
+/// An arrow of the length of its box, about the box's centre, in the direction (x, y), y downwards.
+void add_arrow(Furniture& furniture, const Box& box, double along_x, double along_y, double line) {
+  if (box.width == 0.0) return;
   const double x = box.x + 0.5 * box.width, y = box.y + 0.5 * box.height;
   const double reach = 0.5 * box.width - line;
-  const double along_x = std::sin(tilt), along_y = std::cos(tilt);  // pixels count downwards
   const double tip_x = x + reach * along_x, tip_y = y + reach * along_y;
   const double head = 0.5 * reach;
-  const auto segment = [&](double from_x, double from_y) {
-    furniture.segments.push_back({static_cast<float>(from_x), static_cast<float>(from_y),
-                                  static_cast<float>(tip_x), static_cast<float>(tip_y),
-                                  static_cast<float>(0.75 * line), 1.0f});
-  };
-  segment(x - reach * along_x, y - reach * along_y);
+  const double half_width = 0.75 * line;
+  add_line(furniture, {x - reach * along_x, y - reach * along_y}, {tip_x, tip_y}, half_width, black);
   for (double side : {-0.5, 0.5})
-    segment(tip_x - head * (along_x - side * along_y), tip_y - head * (along_y + side * along_x));
+    add_line(furniture,
+             {tip_x - head * (along_x - side * along_y), tip_y - head * (along_y + side * along_x)},
+             {tip_x, tip_y}, half_width, black);
 }
 
-/// Walls and floor, drawn just outside the bed.
-void add_edges(Furniture& furniture, const FrameView& view, const Box& bed, double line) {
-  const double width = 2.0 * line;
-  if (view.walls) {
-    add_area(furniture, {bed.x - width, bed.y, width, bed.height}, 1.0, 1.0);
-    add_area(furniture, {bed.right(), bed.y, width, bed.height}, 1.0, 1.0);
-  }
-  const double beyond = view.walls ? width : 0.0;
+/// Walls and floor of a bed in its own frame, just outside of it, on whole pixels.
+void add_upright_edges(Furniture& furniture, const FrameView& view, const Box& bed, double width) {
+  const double left = view.left_wall ? width : 0.0, right = view.right_wall ? width : 0.0;
+  if (view.left_wall) add_area(furniture, {bed.x - width, bed.y, width, bed.height}, black);
+  if (view.right_wall) add_area(furniture, {bed.right(), bed.y, width, bed.height}, black);
   if (view.floor_line)
-    add_area(furniture, {bed.x - beyond, bed.bottom(), bed.width + 2.0 * beyond, width}, 1.0, 1.0);
+    add_area(furniture, {bed.x - left, bed.bottom(), bed.width + left + right, width}, black);
+}
+
+/// The same of one that is turned.
+void add_turned_edges(Furniture& furniture, const FrameView& view, const Window& bed, double width) {
+  const double out = 0.5 * width / bed.camera.scale;  // m
+  const double left = bed.x_min - (view.left_wall ? out : 0.0),
+               right = bed.x_max + (view.right_wall ? out : 0.0);
+  const double low = bed.y_min - (view.floor_line ? out : 0.0);
+  const auto edge = [&](double x0, double y0, double x1, double y1) {
+    add_line(furniture, bed.camera.project(x0, y0), bed.camera.project(x1, y1), 0.5 * width, black);
+  };
+  if (view.left_wall) edge(left, low, left, bed.y_max);
+  if (view.right_wall) edge(right, low, right, bed.y_max);
+  if (view.floor_line) edge(left, low, right, low);
 }
 
 }  // namespace
@@ -93,16 +104,17 @@ void add_edges(Furniture& furniture, const FrameView& view, const Box& bed, doub
 Furniture furnish(const FrameView& view, const Layout& layout, const Font& font, const GlyphAtlas& atlas) {
   Furniture furniture;
   const double line = std::max(1.0, std::round(layout.em / 12.0));  // px, whole: crisp
-  add_edges(furniture, view, layout.bed, line);
-  add_bar(furniture, layout, line);
+  if (view.turn_max == 0.0)
+    add_upright_edges(furniture, view, layout.bed.box, 2.0 * line);
+  else
+    add_turned_edges(furniture, view, layout.bed, 2.0 * line);
+  for (const PlacedBar& bar : layout.bars) add_bar(furniture, bar, layout.em, line);
   add_scale_bar(furniture, layout.scale_bar, line);
-  add_arrow(furniture, layout.arrow, view.tilt, line);
+  const double fall = view.tilt - view.turn;  // between gravity and straight down in the picture
+  add_arrow(furniture, layout.arrow, std::sin(fall), std::cos(fall), line);
+  for (const PlacedTrace& trace : layout.traces) add_trace(furniture, trace, layout.em, line);
   for (const PlacedText& text : layout.texts) add_text(furniture, text, layout.em, font, atlas);
-  for (const PlacedSwatch& swatch : layout.swatches)
-    furniture.swatches.push_back({static_cast<float>(swatch.box.x + 0.5 * swatch.box.width),
-                                  static_cast<float>(-swatch.box.y - 0.5 * swatch.box.height),
-                                  static_cast<float>(0.5 * swatch.box.width),
-                                  static_cast<float>(swatch.shade), 0.0f});
+  for (const PlacedSwatch& swatch : layout.swatches) add_swatch(furniture, swatch);
   return furniture;
 }
 

@@ -24,6 +24,7 @@
   X(PFNGLGETUNIFORMLOCATIONPROC, GetUniformLocation)           \
   X(PFNGLUNIFORM2FPROC, Uniform2f)                             \
   X(PFNGLUNIFORM3FPROC, Uniform3f)                             \
+  X(PFNGLUNIFORM4FPROC, Uniform4f)                             \
   X(PFNGLGENVERTEXARRAYSPROC, GenVertexArrays)                 \
   X(PFNGLBINDVERTEXARRAYPROC, BindVertexArray)                 \
   X(PFNGLDELETEVERTEXARRAYSPROC, DeleteVertexArrays)           \
@@ -48,7 +49,7 @@
   X(PFNGLSCISSORPROC, Scissor)                                 \
   X(PFNGLENABLEPROC, Enable)                                   \
   X(PFNGLDISABLEPROC, Disable)                                 \
-  X(PFNGLBLENDFUNCSEPARATEPROC, BlendFuncSeparate)             \
+  X(PFNGLBLENDFUNCPROC, BlendFunc)                             \
   X(PFNGLCLEARCOLORPROC, ClearColor)                           \
   X(PFNGLCLEARPROC, Clear)                                     \
   X(PFNGLDRAWARRAYSPROC, DrawArrays)                           \

@@ -44,24 +44,30 @@ GLuint make_program(const Gl& gl, const std::string& name, std::span<const unsig
   throw Error(ExitCode::unavailable, "shader program " + name + " does not link: " + log.c_str());
 }
 
-Batch make_batch(const Gl& gl, GLuint program, std::initializer_list<int> attributes, GLuint divisor) {
+Batch make_batch(const Gl& gl, GLuint program, std::initializer_list<Attribute> attributes, GLuint divisor) {
   Batch batch;
   batch.program = program;
   gl.GenVertexArrays(1, &batch.vertex_array);
   gl.GenBuffers(1, &batch.buffer);
   gl.BindVertexArray(batch.vertex_array);
   gl.BindBuffer(GL_ARRAY_BUFFER, batch.buffer);
+  const auto words = [](Attribute attribute) {  // of four bytes
+    return attribute == Attribute::colour ? 1 : static_cast<int>(attribute);
+  };
   int stride = 0;
-  for (int floats : attributes) stride += floats;
+  for (Attribute attribute : attributes) stride += 4 * words(attribute);
   GLuint index = 0;
   std::uintptr_t offset = 0;
-  for (int floats : attributes) {
+  for (Attribute attribute : attributes) {
     gl.EnableVertexAttribArray(index);
-    gl.VertexAttribPointer(index, floats, GL_FLOAT, GL_FALSE, stride * static_cast<GLsizei>(sizeof(float)),
-                           reinterpret_cast<const void*>(offset));
+    const auto* place = reinterpret_cast<const void*>(offset);
+    if (attribute == Attribute::colour)
+      gl.VertexAttribPointer(index, 4, GL_UNSIGNED_BYTE, GL_TRUE, stride, place);
+    else
+      gl.VertexAttribPointer(index, words(attribute), GL_FLOAT, GL_FALSE, stride, place);
     gl.VertexAttribDivisor(index, divisor);
     ++index;
-    offset += static_cast<std::uintptr_t>(floats) * sizeof(float);
+    offset += static_cast<std::uintptr_t>(4 * words(attribute));
   }
   return batch;
 }
@@ -73,12 +79,14 @@ void delete_batch(const Gl& gl, Batch& batch) {
   batch = {};
 }
 
-GLuint make_gray_texture(const Gl& gl, int width, int height, const unsigned char* pixels, GLint filter) {
+GLuint make_texture(const Gl& gl, int width, int height, int channels, const unsigned char* pixels,
+                    GLint filter) {
   GLuint texture = 0;
   gl.GenTextures(1, &texture);
   gl.BindTexture(GL_TEXTURE_2D, texture);
   gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  gl.TexImage2D(GL_TEXTURE_2D, 0, GL_R8, width, height, 0, GL_RED, GL_UNSIGNED_BYTE, pixels);
+  gl.TexImage2D(GL_TEXTURE_2D, 0, channels == 1 ? GL_R8 : GL_RGBA8, width, height, 0,
+                channels == 1 ? GL_RED : GL_RGBA, GL_UNSIGNED_BYTE, pixels);
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);

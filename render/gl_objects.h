@@ -20,8 +20,12 @@ struct Batch {
   GLuint buffer = 0;
 };
 
-/// `attributes` are the numbers of floats of the attributes 0, 1, ... in the order of the stream.
-Batch make_batch(const Gl& gl, GLuint program, std::initializer_list<int> attributes, GLuint divisor);
+/// What an attribute of the stream is: so many floats, or a colour of four bytes that the shader sees as 0
+/// ... 1.
+enum class Attribute { floats1 = 1, floats2 = 2, floats3 = 3, floats4 = 4, colour };
+
+/// `attributes` 0, 1, ... in the order of the stream.
+Batch make_batch(const Gl& gl, GLuint program, std::initializer_list<Attribute> attributes, GLuint divisor);
 void delete_batch(const Gl& gl, Batch& batch);
 
 /// Selects the batch for drawing and uploads its stream.
@@ -34,7 +38,8 @@ void fill_batch(const Gl& gl, const Batch& batch, std::span<const Vertex> vertic
                 GL_STREAM_DRAW);
 }
 
-/// An 8-bit texture of one channel, bound to GL_TEXTURE_2D; `pixels` may be null.
-GLuint make_gray_texture(const Gl& gl, int width, int height, const unsigned char* pixels, GLint filter);
+/// A texture of 8 bits for each of one or four channels, bound to GL_TEXTURE_2D; `pixels` may be null.
+GLuint make_texture(const Gl& gl, int width, int height, int channels, const unsigned char* pixels,
+                    GLint filter);
 
 }  // namespace talus

@@ -1,16 +1,26 @@
 #pragma once
 /// A picture in memory.
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace talus {
 
-/// 8-bit gray, rows from top to bottom, 0 black, 255 white.
+/// 8 bits for each channel, rows from top to bottom. One channel: gray, 0 black, 255 white; three: sRGB;
+/// four: sRGB and straight alpha.
 struct Image {
   int width = 0;
   int height = 0;
-  std::vector<std::uint8_t> gray;  ///< width * height
+  int channels = 1;
+  std::vector<std::uint8_t> pixels;  ///< width * height * channels
+
+  std::size_t row_bytes() const {
+    return static_cast<std::size_t>(width) * static_cast<std::size_t>(channels);
+  }
 };
+
+/// Images of one width and number of channels, one below the other. Throws Error(internal) where they differ.
+Image stacked(const std::vector<Image>& images);
 
 }  // namespace talus

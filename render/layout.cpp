@@ -5,127 +5,42 @@
 #include <optional>
 
 #include "core/errors.h"
+#include "render/layout_groups.h"
+#include "render/layout_traces.h"
 
 namespace talus {
 namespace {
 
 // In units of the font size.
-constexpr double line_height = text_ascent + text_descent;
 constexpr double margin = 0.8;
-constexpr double gap_between_groups = 2.0;
-constexpr double gap_in_group = 0.6;
-constexpr double bar_height = 0.9;
-constexpr double tick_length = 0.3;
-constexpr double shortest_bar = 12.0;
-constexpr double arrow_size = 2.4;
+constexpr double gap_between_rows = 0.3;
 
 constexpr double smallest_em = 6.0;  // px: below, nothing can be read
+constexpr double letters_per_width = 90.0;
 
-/// A part of the furniture, laid out at (0, 0).
-struct Group {
-  double width = 0.0, height = 0.0;
-  std::vector<PlacedText> texts;
-  Box bar;
-  std::vector<double> ticks;
-  std::vector<PlacedSwatch> swatches;
-  Box scale_bar;
-  Box arrow;
-};
-
-/// Places text with its upper left corner at (x, y).
-PlacedText place_text(const std::string& text, double x, double y, double em, const Font& font) {
-  return {{x, y, set_text(font, text, em).width, line_height * em}, text};
-}
-
-Group text_group(const std::string& text, double em, const Font& font) {
-  Group group;
-  if (text.empty()) return group;
-  group.texts.push_back(place_text(text, 0.0, 0.0, em, font));
-  group.width = group.texts[0].box.width;
-  group.height = line_height * em;
-  return group;
-}
-
-Group bar_group(const FrameView& view, double em, const Font& font) {
-  Group group;
-  std::vector<double> widths;
-  for (const BarTick& tick : view.bar_ticks) widths.push_back(set_text(font, tick.label, em).width);
-  double length = shortest_bar * em;
-  for (std::size_t k = 1; k < widths.size(); ++k)
-    length = std::max(length, (0.5 * (widths[k - 1] + widths[k]) + gap_in_group * em) /
-                                  (view.bar_ticks[k].shade - view.bar_ticks[k - 1].shade));
-  length = std::ceil(length);
-
-  const PlacedText title = place_text(view.bar_title, 0.0, 0.0, em, font);
-  double left = title.box.width + (view.bar_title.empty() ? 0.0 : gap_in_group * em);
-  for (std::size_t k = 0; k < widths.size(); ++k)
-    left = std::max(left, 0.5 * widths[k] - view.bar_ticks[k].shade * length);
-  left = std::ceil(left);
-  if (!view.bar_title.empty()) group.texts.push_back(title);
-  group.bar = {left, std::round(0.5 * (line_height - bar_height) * em), length, std::round(bar_height * em)};
-  group.width = group.bar.right();
-  const double labels_top = std::ceil(std::max(group.bar.bottom() + tick_length * em, line_height * em));
-  for (std::size_t k = 0; k < widths.size(); ++k) {
-    const double x = left + view.bar_ticks[k].shade * length;
-    group.ticks.push_back(x);
-    group.texts.push_back(place_text(view.bar_ticks[k].label, x - 0.5 * widths[k], labels_top, em, font));
-    group.width = std::max(group.width, group.texts.back().box.right());
+/// Puts groups from left to right, `last` at the right end, into as many rows as they need. Returns the lower
+/// edge, px.
+double add_rows(Layout& layout, const std::vector<Group>& groups, const Group& last, double y, double side) {
+  const double right = layout.width - side;
+  const double gap = gap_between_groups * layout.em;
+  double x = side, bottom = y;
+  const auto begin_row = [&] {
+    x = side;
+    y = std::ceil(bottom + gap_between_rows * layout.em);
+  };
+  for (const Group& group : groups) {
+    if (group.height == 0.0) continue;
+    if (x > side && x + group.width > right) begin_row();
+    add_group(layout, group, x, y);
+    x += group.width + gap;
+    bottom = std::max(bottom, y + group.height);
   }
-  group.height = labels_top + line_height * em;
-  return group;
-}
-
-Group swatch_group(const FrameView& view, double em, const Font& font) {
-  Group group;
-  group.height = line_height * em;
-  double x = 0.0;
-  for (const Swatch& swatch : view.swatches) {
-    const double side = 0.9 * em;
-    group.swatches.push_back({{x, 0.5 * (group.height - side), side, side}, swatch.shade});
-    group.texts.push_back(place_text(swatch.label, x + side + 0.5 * gap_in_group * em, 0.0, em, font));
-    group.width = group.texts.back().box.right();
-    x = group.width + gap_between_groups * em;
+  if (last.height > 0.0) {
+    if (x > side && x + last.width > right) begin_row();
+    add_group(layout, last, std::floor(right - last.width), y);
+    bottom = std::max(bottom, y + last.height);
   }
-  return group;
-}
-
-/// The scale bar with its label below, and the gravity arrow with its label.
-Group scale_group(const FrameView& view, double scale, double em, const Font& font) {
-  Group group;
-  const double length = std::round(view.scale_length * scale);
-  const double label = set_text(font, view.scale_label, em).width;
-  const double width = std::max(length, label);
-  const double bar = std::round(0.5 * em);
-  group.scale_bar = {0.5 * (width - length), 0.5 * (line_height * em - bar), length, bar};
-  group.texts.push_back(place_text(view.scale_label, 0.5 * (width - label), line_height * em, em, font));
-  const PlacedText gravity =
-      place_text("g", width + gap_between_groups * em, 0.5 * (arrow_size - line_height) * em, em, font);
-  group.texts.push_back(gravity);
-  group.arrow = {gravity.box.right() + 0.5 * gap_in_group * em, 0.0, arrow_size * em, arrow_size * em};
-  group.width = group.arrow.right();
-  group.height = std::max(2.0 * line_height, arrow_size) * em;
-  return group;
-}
-
-void add_group(Layout& layout, const Group& group, double x, double y) {
-  const auto moved = [&](Box box) { return Box{box.x + x, box.y + y, box.width, box.height}; };
-  for (const PlacedText& text : group.texts) layout.texts.push_back({moved(text.box), text.text});
-  for (const PlacedSwatch& swatch : group.swatches)
-    layout.swatches.push_back({moved(swatch.box), swatch.shade});
-  for (double tick : group.ticks) layout.ticks.push_back(tick + x);
-  if (group.bar.width > 0.0) layout.bar = moved(group.bar);
-  if (group.scale_bar.width > 0.0) layout.scale_bar = moved(group.scale_bar);
-  if (group.arrow.width > 0.0) layout.arrow = moved(group.arrow);
-}
-
-/// Puts two groups at the ends of one row, or below each other where they do not fit. Returns the lower edge.
-double add_row(Layout& layout, const Group& left, const Group& right, double y, double side) {
-  const double available = layout.width - 2.0 * side;
-  const bool one_row = left.width + gap_between_groups * layout.em + right.width <= available;
-  add_group(layout, left, side, y);
-  const double right_y = one_row || left.height == 0.0 ? y : y + std::ceil(left.height + 0.3 * layout.em);
-  add_group(layout, right, std::floor(layout.width - side - right.width), right_y);
-  return std::ceil(std::max(y + left.height, right_y + right.height));
+  return std::ceil(bottom);
 }
 
 /// The height, px, unless it is above largest_side.
@@ -138,17 +53,54 @@ int checked_height(int width, double height) {
   return static_cast<int>(height);
 }
 
+/// The largest a cos(turn) + b sin(turn) for turns from 0 to turn_max.
+double largest_extent(double a, double b, double turn_max) {
+  const double turn = std::clamp(std::atan2(b, a), 0.0, turn_max);
+  return a * std::cos(turn) + b * std::sin(turn);
+}
+
+/// The bed in a box of that width with its upper left corner at (x, y).
+Window place_bed(const FrameView& view, double x, double y, double width) {
+  const double length = view.x_max - view.x_min, depth = view.y_max - view.y_min;
+  const double seen_length = largest_extent(length, depth, view.turn_max);
+  const double seen_depth = view.turn_max > 0.0 ? largest_extent(depth, length, view.turn_max) : depth;
+  Window window;
+  window.x_min = view.x_min;
+  window.x_max = view.x_max;
+  window.y_min = view.y_min;
+  window.y_max = view.y_max;
+  Camera& camera = window.camera;
+  camera.scale = width / seen_length;
+  window.box = {x, y, width, std::ceil(seen_depth * camera.scale)};
+  if (view.turn_max == 0.0) {  // on the lower left corner: exact to the last bit
+    camera.origin_x = x - view.x_min * camera.scale;
+    camera.origin_y = window.box.bottom() + view.y_min * camera.scale;
+    return window;
+  }
+  camera.cosine = std::cos(view.turn);
+  camera.sine = std::sin(view.turn);
+  const Point centre = camera.project(0.5 * (view.x_min + view.x_max), 0.5 * (view.y_min + view.y_max));
+  camera.origin_x = x + 0.5 * window.box.width - centre.x;
+  camera.origin_y = y + 0.5 * window.box.height - centre.y;
+  return window;
+}
+
 /// A picture of the bed alone.
 Layout lay_out_bed(const FrameView& view, int width) {
   Layout layout;
   layout.width = width;
-  layout.camera.scale = width / (view.x_max - view.x_min);
-  const double height = std::ceil((view.y_max - view.y_min) * layout.camera.scale);
-  layout.height = checked_height(width, height);
-  layout.bed = {0.0, 0.0, static_cast<double>(width), height};
-  layout.camera.origin_x = -view.x_min * layout.camera.scale;
-  layout.camera.origin_y = height + view.y_min * layout.camera.scale;
+  layout.bed = place_bed(view, 0.0, 0.0, width);
+  layout.height = checked_height(width, layout.bed.box.height);
   return layout;
+}
+
+std::vector<Group> legend_groups(const std::vector<Legend>& legends, double em, const Font& font) {
+  std::vector<Group> groups;
+  for (const Legend& legend : legends) {
+    for (const Bar& bar : legend.bars) groups.push_back(bar_group(bar, em, font));
+    for (const Swatch& swatch : legend.swatches) groups.push_back(swatch_group(swatch, em, font));
+  }
+  return groups;
 }
 
 /// The layout in one font size, if everything fits its width.
@@ -158,33 +110,45 @@ std::optional<Layout> lay_out_with(const FrameView& view, int width, double em, 
   layout.em = em;
   const double side = std::ceil(margin * em);
   const double available = width - 2.0 * side;
-  layout.camera.scale = available / (view.x_max - view.x_min);
+  const double scale = place_bed(view, 0.0, 0.0, available).camera.scale;
 
   const Group title = text_group(view.title, em, font);
-  const Group caption = text_group(view.caption, em, font);
-  const Group legend = view.bar_ticks.empty() ? swatch_group(view, em, font) : bar_group(view, em, font);
-  const Group scale = scale_group(view, layout.camera.scale, em, font);
-  for (const Group* group : {&title, &caption, &legend, &scale})
+  // Where nothing below shows gravity, the caption does.
+  const bool arrow_above = view.scale_label.empty() && !view.caption.empty();
+  const Group caption =
+      arrow_above ? text_with_arrow_group(view.caption, em, font) : text_group(view.caption, em, font);
+  const Group scale_and_arrow = scale_group(view, scale, em, font);
+  const std::vector<Group> legends = legend_groups(view.legends, em, font);
+  for (const Group* group : {&title, &caption, &scale_and_arrow})
     if (group->width > available) return std::nullopt;
+  for (const Group& group : legends)
+    if (group.width > available) return std::nullopt;
 
-  const double bed_top = std::ceil(add_row(layout, title, caption, std::ceil(0.5 * em), side) + 0.4 * em);
-  layout.bed = {side, bed_top, available, std::ceil((view.y_max - view.y_min) * layout.camera.scale)};
-  layout.camera.origin_x = side - view.x_min * layout.camera.scale;
-  layout.camera.origin_y = layout.bed.bottom() + view.y_min * layout.camera.scale;
-  const double bottom = add_row(layout, legend, scale, std::ceil(layout.bed.bottom() + 0.6 * em), side);
-  layout.height = checked_height(width, std::ceil(bottom + 0.5 * em));
+  double y = std::ceil(0.5 * em);
+  if (title.height + caption.height > 0.0)
+    y = std::ceil(add_rows(layout, {title}, caption, y, side) + 0.4 * em);
+  layout.bed = place_bed(view, side, y, available);
+  y = layout.bed.box.bottom();
+  if (!legends.empty() || scale_and_arrow.height > 0.0)
+    y = add_rows(layout, legends, scale_and_arrow, std::ceil(y + 0.6 * em), side);
+  if (!view.traces.empty()) {
+    y = add_traces(layout, view.traces, side, width - side, std::ceil(y + 0.6 * em), font);
+    if (y < 0.0) return std::nullopt;
+  }
+  layout.height = checked_height(width, std::ceil(y + 0.5 * em));
   return layout;
 }
 
 }  // namespace
 
-Layout lay_out(const FrameView& view, int width, const Font& font) {
+Layout lay_out(const FrameView& view, int width, const Font& font, double largest_em) {
   if (width < smallest_width || width > largest_side)
     throw Error(ExitCode::usage, "width = " + std::to_string(width) + ": expected " +
                                      std::to_string(smallest_width) + " ... " + std::to_string(largest_side) +
                                      " px");
   if (!view.furniture) return lay_out_bed(view, width);
-  for (double em = std::max(10.0, std::round(width / 90.0)); em >= smallest_em; em -= 0.5)
+  const double wanted_em = std::max(10.0, std::round(width / letters_per_width));
+  for (double em = std::min(wanted_em, largest_em); em >= smallest_em; em -= 0.5)
     if (std::optional<Layout> layout = lay_out_with(view, width, em, font)) return *layout;
   throw Error(ExitCode::usage, "width = " + std::to_string(width) +
                                    ": caption and legend of this map do not fit; ask for a larger width");

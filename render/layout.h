@@ -2,6 +2,7 @@
 /// Where everything goes: from a view and a width to rectangles in pixels. Pure: no picture is needed to test
 /// it.
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -17,11 +18,29 @@ struct Box {
   double bottom() const { return y + height; }
 };
 
-/// From metres in the frame of the bed to pixels: (origin_x + scale x, origin_y - scale y).
+/// A place in a picture, px from the left and from the top.
+struct Point {
+  double x = 0.0, y = 0.0;
+};
+
+/// From metres in the frame of the bed to pixels: a turn clockwise, then a scale.
 struct Camera {
-  double scale = 0.0;     ///< px per m
-  double origin_x = 0.0;  ///< px from the left
+  double scale = 1.0;     ///< px per m
+  double origin_x = 0.0;  ///< where (0, 0) lies: px from the left
   double origin_y = 0.0;  ///< px from the top
+  double cosine = 1.0;    ///< of the turn
+  double sine = 0.0;
+
+  Point project(double x, double y) const {
+    return {origin_x + scale * (cosine * x + sine * y), origin_y - scale * (cosine * y - sine * x)};
+  }
+};
+
+/// A part of a picture that shows a part of a plane. What lies outside of either is not drawn.
+struct Window {
+  Camera camera;
+  Box box;                                                    ///< whole pixels
+  double x_min = 0.0, x_max = 0.0, y_min = 0.0, y_max = 0.0;  ///< m
 };
 
 struct PlacedText {
@@ -29,32 +48,47 @@ struct PlacedText {
   std::string text;
 };
 
+struct PlacedBar {
+  Box box;
+  std::vector<Colour> colours;
+  std::vector<double> ticks;  ///< x of the ticks below it
+};
+
 struct PlacedSwatch {
   Box box;
-  double shade = 0.0;
+  Swatch swatch;
+};
+
+/// A tick of a trace: where it is along its axis, px.
+struct PlacedTrace {
+  Box box;                                                  ///< its frame
+  std::vector<double> x_ticks, y_ticks;                     ///< px
+  std::vector<Point> curve;                                 ///< a point with NaN parts it
+  Point mark;                                               ///< NaN where the curve has no value there
+  double event = std::numeric_limits<double>::quiet_NaN();  ///< x of the dashed line
 };
 
 /// One picture. Boxes of what the view does not ask for are empty.
 struct Layout {
   int width = 0, height = 0;  ///< px
   double em = 0.0;            ///< font size, px
-  Camera camera;
-  Box bed;  ///< whole pixels; discs are cut here
+  Window bed;
   std::vector<PlacedText> texts;
-  Box bar;                    ///< the gray bar
-  std::vector<double> ticks;  ///< x of the ticks below it
+  std::vector<PlacedBar> bars;
   std::vector<PlacedSwatch> swatches;
   Box scale_bar;
   Box arrow;  ///< square; gravity turns about its centre
+  std::vector<PlacedTrace> traces;
 };
 
 /// Smallest and largest side of a picture, px.
 inline constexpr int smallest_width = 200;
 inline constexpr int largest_side = 16384;
 
-/// Lays out a picture `width` px wide: caption, bed, legend. The height follows from the aspect of the bed.
-/// The font grows with the width, and shrinks where a text would not fit. Throws Error(usage) where nothing
-/// legible fits, or where the picture is larger than largest_side.
-Layout lay_out(const FrameView& view, int width, const Font& font);
+/// Lays out a picture `width` px wide: caption, bed, legends, traces. The height follows from the aspect of
+/// the bed. The font grows with the width, up to `largest_em`, and shrinks where a text would not fit. Throws
+/// Error(usage) where nothing legible fits, or where the picture is larger than largest_side.
+Layout lay_out(const FrameView& view, int width, const Font& font,
+               double largest_em = std::numeric_limits<double>::infinity());
 
 }  // namespace talus

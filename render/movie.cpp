@@ -18,28 +18,55 @@ extern char** environ;
 namespace talus {
 namespace {
 
+/// Filters and encoder by the ending of the path.
+std::vector<std::string> encoder_arguments(const std::string& path, int channels) {
+  // Colours by one matrix that the file names, or players would guess another for small pictures than for
+  // large.
+  const std::string to_yuv = "scale=out_color_matrix=bt709:out_range=tv,format=yuv420p";
+  const std::vector<std::string> bt709 = {"-colorspace", "bt709", "-color_primaries", "bt709",
+                                          "-color_trc",  "bt709", "-color_range",     "tv"};
+  std::vector<std::string> arguments;
+  const auto add = [&](const std::vector<std::string>& more) {
+    arguments.insert(arguments.end(), more.begin(), more.end());
+  };
+  if (path.ends_with(".mp4")) {  // H.264 with shared chroma takes even sizes only
+    add({"-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2:0:0:white," + to_yuv, "-c:v", "libx264", "-preset", "veryfast",
+         "-crf", "20"});
+    add(bt709);
+    add({"-movflags", "+faststart", "-f", "mp4"});
+  } else if (path.ends_with(
+                 ".webm")) {  // "good" quality takes six times as long, for a file smaller by a tenth
+    add({"-vf", to_yuv, "-c:v", "libvpx-vp9", "-row-mt", "1", "-deadline", "realtime", "-cpu-used", "6",
+         "-crf", "32", "-b:v", "0"});
+    add(bt709);
+    add({"-f", "webm"});
+  } else if (path.ends_with(".gif") && channels == 1) {
+    // 64 fixed grays. A palette made from the frames would be the same one, after holding all of them in
+    // memory.
+    add({"-vf", "format=gray,lut=c0=round(val*63/255)*255/63", "-pix_fmt", "gray", "-f", "gif"});
+  } else if (path.ends_with(".gif")) {
+    // A palette for each frame: one for all of them would hold all in memory as well.
+    add({"-vf", "split[a][b];[a]palettegen=stats_mode=single[p];[b][p]paletteuse=dither=none:new=1", "-f",
+         "gif"});
+  } else {
+    throw Error(ExitCode::usage, path + ": expected a name that ends in .mp4, .webm or .gif");
+  }
+  return arguments;
+}
+
 std::vector<std::string> ffmpeg_arguments(const std::string& path, const std::string& output, int width,
-                                          int height, double fps) {
+                                          int height, int channels, double fps) {
+  if (channels != 1 && channels != 3)
+    throw Error(ExitCode::usage, path + ": movies are not transparent; leave the background white");
   std::vector<std::string> arguments = {"ffmpeg",       "-nostdin",
                                         "-hide_banner", "-loglevel",
                                         "error",        "-y",
                                         "-f",           "rawvideo",
-                                        "-pix_fmt",     "gray",
+                                        "-pix_fmt",     channels == 1 ? "gray" : "rgb24",
                                         "-s",           std::to_string(width) + "x" + std::to_string(height),
                                         "-r",           std::to_string(fps),
                                         "-i",           "pipe:0"};
-  const auto add = [&](std::initializer_list<const char*> more) {
-    arguments.insert(arguments.end(), more.begin(), more.end());
-  };
-  if (path.ends_with(".mp4"))  // H.264 with shared chroma takes even sizes only
-    add({"-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2:0:0:white,format=yuv420p", "-c:v", "libx264", "-preset",
-         "veryfast", "-crf", "20", "-movflags", "+faststart", "-f", "mp4"});
-  else if (path.ends_with(".gif"))
-    // 64 fixed grays. A palette made from the frames would be the same one, after holding all of them in
-    // memory.
-    add({"-vf", "format=gray,lut=c0=round(val*63/255)*255/63", "-pix_fmt", "gray", "-f", "gif"});
-  else
-    throw Error(ExitCode::usage, path + ": expected a name that ends in .mp4 or .gif");
+  for (std::string& argument : encoder_arguments(path, channels)) arguments.push_back(std::move(argument));
   arguments.push_back(output);
   return arguments;
 }
@@ -65,12 +92,17 @@ pid_t start(const std::vector<std::string>& arguments, int input, int messages) 
   return child;
 }
 
+std::string size_text(int width, int height, int channels) {
+  return std::to_string(width) + " x " + std::to_string(height) + " px in " + std::to_string(channels) +
+         " channels";
+}
+
 }  // namespace
 
-Movie::Movie(const std::string& path, int width, int height, double fps)
-    : path_(path), width_(width), height_(height), file_(path) {
+Movie::Movie(const std::string& path, int width, int height, int channels, double fps)
+    : path_(path), width_(width), height_(height), channels_(channels), file_(path) {
   const std::vector<std::string> arguments =
-      ffmpeg_arguments(path, file_.temporary_path(), width, height, fps);
+      ffmpeg_arguments(path, file_.temporary_path(), width, height, channels, fps);
   // A socket pair instead of a pipe: writing to it can be told not to raise SIGPIPE.
   std::array<int, 2> ends{};
   messages_ = std::tmpfile();
@@ -99,12 +131,11 @@ Movie::~Movie() {
 }
 
 void Movie::add(const Image& image) {
-  if (image.width != width_ || image.height != height_)
-    throw Error(ExitCode::internal, "a frame of " + std::to_string(image.width) + " x " +
-                                        std::to_string(image.height) + " px does not fit a movie of " +
-                                        std::to_string(width_) + " x " + std::to_string(height_) + " px");
-  const std::uint8_t* data = image.gray.data();
-  for (std::size_t left = image.gray.size(); left > 0;) {
+  if (image.width != width_ || image.height != height_ || image.channels != channels_)
+    throw Error(ExitCode::internal, "a frame of " + size_text(image.width, image.height, image.channels) +
+                                        " does not fit a movie of " + size_text(width_, height_, channels_));
+  const std::uint8_t* data = image.pixels.data();
+  for (std::size_t left = image.pixels.size(); left > 0;) {
     const ssize_t sent = send(pipe_, data, left, MSG_NOSIGNAL);
     if (sent < 0 && errno == EINTR) continue;
     if (sent < 0) fail();

@@ -11,13 +11,15 @@
 
 namespace talus {
 
-/// A movie under way: H.264 in a file that ends in .mp4, 64 grays in one that ends in .gif. The file appears
-/// under its name when finish returns; a movie that is not finished leaves nothing.
+/// A movie under way: H.264 in a file that ends in .mp4, VP9 in .webm; in .gif 64 grays, or of each frame in
+/// colour its 256 best colours. The file appears under its name when finish returns; a movie that is not
+/// finished leaves nothing.
 class Movie {
  public:
-  /// All frames have the size given; `fps` frames a second are shown.
-  /// Throws Error(usage) at another ending, Error(unavailable) without ffmpeg, Error(cannot_create).
-  Movie(const std::string& path, int width, int height, double fps);
+  /// All frames have the size and number of channels given, 1 or 3; `fps` frames a second are shown.
+  /// Throws Error(usage) at another ending or at four channels, for movies are not transparent;
+  /// Error(unavailable) without ffmpeg; Error(cannot_create).
+  Movie(const std::string& path, int width, int height, int channels, double fps);
   ~Movie();
   Movie(const Movie&) = delete;
   Movie& operator=(const Movie&) = delete;
@@ -31,7 +33,7 @@ class Movie {
   int close_and_wait();
 
   std::string path_;
-  int width_, height_;
+  int width_, height_, channels_;
   OutputFile file_;
   std::FILE* messages_ = nullptr;
   int pipe_ = -1;

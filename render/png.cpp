@@ -3,6 +3,7 @@
 #include <png.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <csetjmp>
 #include <new>
 
@@ -11,6 +12,8 @@
 
 namespace talus {
 namespace {
+
+using PngEntry = ::png_text;  // our function has that name
 
 void append(png_structp png, png_bytep data, std::size_t size) {
   auto* bytes = static_cast<std::vector<std::uint8_t>*>(png_get_io_ptr(png));
@@ -23,39 +26,89 @@ void append(png_structp png, png_bytep data, std::size_t size) {
 
 void no_flush(png_structp) {}
 
+[[noreturn]] void give_up(png_structp png, png_const_charp) { png_longjmp(png, 1); }
+void say_nothing(png_structp, png_const_charp) {}
+
+int colour_type(int channels) {
+  return channels == 1 ? PNG_COLOR_TYPE_GRAY : channels == 3 ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_RGB_ALPHA;
+}
+
+/// Rows without filter. Of gray maps, runs are all there is to find, and looking only for them is fastest; of
+/// colour, a run is a repeated pixel of several bytes, which takes the search for matches.
+void choose_compression(png_structp png, const Image& image) {
+  constexpr int largest_memory_level = 9;
+  png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_NONE);
+  png_set_compression_level(png, 1);
+  png_set_compression_mem_level(png, largest_memory_level);
+  png_set_compression_strategy(png, image.channels == 1 ? Z_RLE : Z_DEFAULT_STRATEGY);
+  png_set_compression_buffer_size(png, 1 << 16);
+}
+
 /// Returns false where libpng gives up: on jumping back, nothing here has a destructor.
-bool encode(png_structp png, png_infop info, const Image& image, std::vector<std::uint8_t>& bytes) {
+bool encode(png_structp png, png_infop info, const Image& image, std::vector<PngEntry>& texts,
+            std::vector<std::uint8_t>& bytes) {
   if (setjmp(png_jmpbuf(png))) return false;
   png_set_write_fn(png, &bytes, append, no_flush);
   png_set_IHDR(png, info, static_cast<png_uint_32>(image.width), static_cast<png_uint_32>(image.height), 8,
-               PNG_COLOR_TYPE_GRAY, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
+               colour_type(image.channels), PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
                PNG_FILTER_TYPE_DEFAULT);
-  png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_NONE);
-  png_set_compression_level(png, 1);
-  png_set_compression_strategy(png, Z_RLE);
+  choose_compression(png, image);
+  if (!texts.empty()) png_set_text(png, info, texts.data(), static_cast<int>(texts.size()));
   png_write_info(png, info);
-  for (int row = 0; row < image.height; ++row)
-    png_write_row(png,
-                  image.gray.data() + static_cast<std::size_t>(row) * static_cast<std::size_t>(image.width));
+  for (std::size_t row = 0; row < static_cast<std::size_t>(image.height); ++row)
+    png_write_row(png, image.pixels.data() + row * image.row_bytes());
   png_write_end(png, info);
   return true;
 }
 
+void check(const Image& image) {
+  if (image.width < 1 || image.height < 1 ||
+      (image.channels != 1 && image.channels != 3 && image.channels != 4) ||
+      image.pixels.size() != static_cast<std::size_t>(image.height) * image.row_bytes())
+    throw Error(ExitCode::internal, "an image of " + std::to_string(image.width) + " x " +
+                                        std::to_string(image.height) + " px with " +
+                                        std::to_string(image.channels) + " channels is no picture");
+}
+
+void check(const std::string& keyword, const std::string& text) {
+  const auto printable = [](char c) { return c >= ' ' && c <= '~'; };
+  if (keyword.empty() || keyword.size() > 79 || !std::ranges::all_of(keyword, printable) ||
+      !std::ranges::all_of(text, printable))
+    throw Error(ExitCode::internal, "a PNG cannot hold the text \"" + text + "\" as \"" + keyword + "\"");
+}
+
+/// As libpng takes texts; it does not change them.
+std::vector<PngEntry> texts_for_libpng(const PngTexts& texts) {
+  std::vector<PngEntry> result;
+  for (const auto& [keyword, text] : texts) {
+    check(keyword, text);
+    PngEntry entry{};
+    entry.compression = PNG_TEXT_COMPRESSION_NONE;
+    entry.key = const_cast<char*>(keyword.c_str());
+    entry.text = const_cast<char*>(text.c_str());
+    entry.text_length = text.size();
+    result.push_back(entry);
+  }
+  return result;
+}
+
 }  // namespace
 
-std::vector<std::uint8_t> encode_png(const Image& image) {
+std::vector<std::uint8_t> encode_png(const Image& image, const PngTexts& texts) {
+  check(image);
+  std::vector<PngEntry> entries = texts_for_libpng(texts);
   std::vector<std::uint8_t> bytes;
-  bytes.reserve(image.gray.size() / 2);
-  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+  bytes.reserve(image.pixels.size() / 2);
+  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, give_up, say_nothing);
   png_infop info = png ? png_create_info_struct(png) : nullptr;
-  const bool encoded = info && encode(png, info, image, bytes);
+  const bool encoded = info && encode(png, info, image, entries, bytes);
   png_destroy_write_struct(&png, &info);
   if (!encoded) throw std::bad_alloc();
   return bytes;
 }
 
-void write_png(const std::string& path, const Image& image) {
-  const std::vector<std::uint8_t> bytes = encode_png(image);
+void write_png(const std::string& path, const Image& image, const PngTexts& texts) {
+  const std::vector<std::uint8_t> bytes = encode_png(image, texts);
   OutputFile file(path);
   file.write(bytes);
   file.commit();

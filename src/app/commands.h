@@ -12,6 +12,7 @@ void add_info_command(CLI::App& app);
 void add_analyze_command(CLI::App& app);
 void add_render_command(CLI::App& app);
 void add_animate_command(CLI::App& app);
+void add_panel_command(CLI::App& app);
 void add_dump_command(CLI::App& app);
 void add_solve_command(CLI::App& app);
 void add_study_command(CLI::App& app);

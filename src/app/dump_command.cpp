@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "app/commands.h"
-#include "app/map_options.h"
+#include "app/output_files.h"
 #include "core/errors.h"
 #include "core/trigonometry.h"
 #include "maps/frame_choice.h"

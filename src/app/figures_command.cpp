@@ -8,10 +8,11 @@
 
 #include "app/command_line.h"
 #include "app/commands.h"
+#include "app/count_progress.h"
 #include "app/figure_files.h"
 #include "app/figure_runs.h"
 #include "app/gnuplot.h"
-#include "app/map_options.h"
+#include "app/output_files.h"
 #include "core/errors.h"
 #include "figures/catalogue.h"
 #include "session/scenario_suggestion.h"
@@ -99,9 +100,10 @@ void make(const FiguresArguments& arguments) {
   for (const Figure& figure : figures)
     for (const std::string& file : figure_files(figure))
       refuse_existing((folder / file).string(), arguments.overwrite);
+  CountProgress progress("figures", figures.size(), arguments.analysis.quiet);
   for (std::size_t k = 0; k < figures.size(); ++k) {
     write_figure(figures[k], groups, arguments.folder, {arguments.columns, command_line()});
-    if (!arguments.analysis.quiet) show_frame_progress("figures", k + 1, figures.size());
+    progress.show(k + 1);
   }
   for (const Figure& figure : figures) std::printf("%-34s %s\n", figure.name.c_str(), figure.title.c_str());
   std::printf("%zu figure%s in %s: .pdf, .svg, .png; data in .csv, provenance in .json, script in .gp\n",

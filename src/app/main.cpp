@@ -33,6 +33,7 @@ int main(int argc, char** argv) {
     talus::add_analyze_command(app);
     talus::add_render_command(app);
     talus::add_animate_command(app);
+    talus::add_panel_command(app);
     talus::add_dump_command(app);
     talus::add_solve_command(app);
     talus::add_study_command(app);

@@ -1,38 +1,69 @@
 #pragma once
-/// What `talus render` and `talus animate` share: the run, the map, the angle of repose, the size.
+/// The options of maps, which `talus render`, `animate`, `panel` and `run --frames` share.
 
 #include <CLI/CLI.hpp>
+#include <optional>
 #include <string>
+#include <vector>
 
-#include "io/run_file.h"
 #include "maps/maps.h"
+#include "maps/traces.h"
+#include "render/context.h"
 
 namespace talus {
 
+/// As they stand on the command line.
 struct MapOptions {
-  std::string run;
-  int width = 1600;       ///< px
-  double theta_c = -1.0;  ///< deg; below 0: that of the run
-  bool overwrite = false;
+  std::vector<std::string> maps;
+  int width = 1600;                   ///< px
+  std::optional<double> theta_c;      ///< deg
+  std::string colours;                ///< empty: each map its own
+  std::string context = "auto";       ///< or osmesa, egl
+  std::optional<double> threshold;    ///< of Gamma_c
+  std::optional<double> length;       ///< D
+  std::optional<double> since;        ///< deg
+  std::optional<std::string> joined;  ///< contacts or neighbours
+  std::vector<double> range;          ///< low, high
+  std::vector<double> crop;           ///< x0, y0, x1, y1 in D
+  std::string traces;                 ///< with commas
+  bool turned = false;
+  bool transparent = false;
+  bool bare = false;
 };
-void add_map_options(CLI::App& command, MapOptions& options);
 
-/// A run opened to be drawn.
-struct MappedRun {
-  RunFile file;
-  MapExtent extent;      ///< of all frames
-  double theta_c = 0.0;  ///< rad; NaN where neither the run nor the options say it
+/// What of them a command has.
+enum class MapOptionSet {
+  drawn_live,  ///< --map, --width, --theta-c, --colours, --context
+  all,
 };
-/// Throws Error(missing_input) or Error(bad_data), also where the run has no frames.
-MappedRun open_mapped_run(const MapOptions& options);
+/// RUN: the run to draw.
+void add_run_argument(CLI::App& command, std::string& run);
 
-/// The map of frame k. Throws Error(bad_data) where theta_c is not known: both maps are scaled by it.
-FrameView map_of_frame(const MappedRun& run, std::size_t k, MapKind kind);
+/// In the group "Maps" of the help. `needs`: the option without which they have no meaning, if any.
+void add_map_options(CLI::App& command, MapOptions& options, MapOptionSet set, CLI::Option* needs = nullptr);
 
-/// Throws Error(cannot_create) where a file exists, unless `overwrite`.
-void refuse_existing(const std::string& path, bool overwrite);
+/// A region of the bed in D: the origin is its left end on the floor.
+struct Crop {
+  double x0 = 0.0, y0 = 0.0, x1 = 0.0, y1 = 0.0;
+};
 
-/// `label k/count` on a terminal, rewritten in place; nothing in a log. The last call ends the line.
-void show_frame_progress(const char* label, std::size_t k, std::size_t count);
+/// What is asked for, as far as it can be said without the run: theta_c is NaN where it is that of the run.
+struct MapPlan {
+  std::vector<MapSettings> maps;
+  std::vector<TraceKind> traces;
+  std::optional<Crop> crop;
+  std::optional<double> since;  ///< rad
+  std::optional<ContextKind> context;
+  int width = 0;  ///< px
+};
+
+/// Throws Error(usage) where an option names something that does not exist, or two do not go together.
+MapPlan plan_maps(const MapOptions& options);
+
+/// Of all layers of all maps.
+bool any_layer(const MapPlan& plan, bool (*has)(MapKind));
+bool draws_clusters(const MapPlan& plan);
+/// Whether a map or a trace goes by Gamma_c.
+bool needs_theta_c(const MapPlan& plan);
 
 }  // namespace talus

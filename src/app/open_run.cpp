@@ -58,8 +58,9 @@ OpenRun start_run(const RunRequest& request) {
   std::string text;
   const Scenario scenario = read_scenario(request.scenario, request.settings, &text);
   Session session(scenario);
-  RunStore store = RunStore::create(request.output, make_header(request, session, text), request.overwrite);
-  return {std::move(store), std::move(session)};
+  RunHeader header = make_header(request, session, text);
+  RunStore store = RunStore::create(request.output, header, request.overwrite);
+  return {std::move(header), std::move(store), std::move(session)};
 }
 
 OpenRun resume_run(const RunRequest& request) {
@@ -72,7 +73,7 @@ OpenRun resume_run(const RunRequest& request) {
                 request.output + " was started with another scenario than " + request.scenario +
                     "; compare `talus info` of the run with `talus check` of the scenario");
   const Scenario scenario = parse_scenario(header.scenario_resolved, request.output + ":/parameters");
-  return {std::move(store), Session(scenario, std::move(checkpoint))};
+  return {std::move(header), std::move(store), Session(scenario, std::move(checkpoint))};
 }
 
 const volatile std::sig_atomic_t* catch_stop_signals() {

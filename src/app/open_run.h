@@ -20,6 +20,7 @@ struct RunRequest {
 };
 
 struct OpenRun {
+  RunHeader header;
   RunStore store;
   Session session;
 };

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "app/count_progress.h"
 #include "app/figure_files.h"
 #include "app/figure_runs.h"
 #include "app/figure_text.h"
-#include "app/map_options.h"
 #include "core/errors.h"
 #include "figures/catalogue.h"
 #include "io/durable_file.h"
@@ -68,6 +68,7 @@ std::vector<ReportPicture> draw_figures(const ReproductionPlan& plan, const Work
   const std::string folder = (fs::path(options.folder) / "figures").string();
   const auto catalogue = figure_catalogue();
   std::vector<ReportPicture> pictures;
+  CountProgress progress("figures", catalogue.size(), false);
   for (std::size_t k = 0; k < catalogue.size(); ++k) {
     stop_where_asked(options);
     if (const auto figure = catalogue[k].make(groups)) {
@@ -76,7 +77,7 @@ std::vector<ReportPicture> draw_figures(const ReproductionPlan& plan, const Work
         draw(*figure, groups, folder, figure_options, options);
       pictures.push_back({"figures/" + figure->name + ".png", figure->title, figure->caption, figure->wide});
     }
-    show_frame_progress("figures", k + 1, catalogue.size());
+    progress.show(k + 1);
   }
   return pictures;
 }

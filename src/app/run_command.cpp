@@ -4,9 +4,11 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <thread>
 
 #include "app/commands.h"
+#include "app/live_maps.h"
 #include "app/open_run.h"
 #include "app/progress.h"
 #include "core/errors.h"
@@ -26,6 +28,8 @@ struct RunArguments {
   bool resume = false;
   bool overwrite = false;
   bool quiet = false;
+  std::string frames;  ///< folder of maps drawn meanwhile; empty: none
+  MapOptions maps;
 };
 
 std::string command_line(const RunArguments& arguments) {
@@ -80,6 +84,34 @@ void print_end(const RunArguments& arguments, const Session& session) {
               static_cast<long long>(session.world().step), hash_text(state_hash(session.world())).c_str());
 }
 
+/// What is drawn while the run computes, if anything. Refuses before the run is touched.
+std::optional<LiveMaps> prepare_maps(const RunArguments& arguments, const RunRequest& request, bool resumed) {
+  if (arguments.frames.empty()) return std::nullopt;
+  const MapPlan plan = plan_live_maps(arguments.maps);
+  read_scenario(request.scenario, request.settings);  // no folder is made for one that is refused
+  if (plan.maps[0].theta_c_assumed && !arguments.quiet)
+    std::fprintf(stderr,
+                 "talus: note: the angle of repose is not known before the slope fails: maps are scaled by "
+                 "%g deg; --theta-c DEG gives another\n",
+                 assumed_theta_c);
+  return std::optional<LiveMaps>(std::in_place, plan, arguments.frames, resumed, arguments.overwrite);
+}
+
+void begin_maps(LiveMaps& maps, const OpenRun& open, const RunArguments& arguments) {
+  maps.begin(open.header, arguments.output, open.session.scenario().tilt.step);
+  if (run_presence(arguments.output) == RunPresence::folder) maps.meet(RunFile::open(arguments.output));
+}
+
+/// Maps that could not be drawn are said last: the run is whole.
+void finish_maps(LiveMaps& maps, const RunArguments& arguments) {
+  try {
+    maps.finish();
+  } catch (const Error& error) {
+    throw Error(error.code(), std::string(error.what()) + "; the run is complete, but not its maps in " +
+                                  arguments.frames + ": talus render draws them from " + arguments.output);
+  }
+}
+
 void run(const RunArguments& arguments) {
   const RunPresence presence = run_presence(arguments.output);
   if (arguments.resume && presence == RunPresence::packed) {
@@ -88,13 +120,16 @@ void run(const RunArguments& arguments) {
   }
   const volatile std::sig_atomic_t* stop = catch_stop_signals();
   const RunRequest request = request_of(arguments);
-  OpenRun open =
-      arguments.resume && presence == RunPresence::folder ? resume_run(request) : start_run(request);
+  const bool resumed = arguments.resume && presence == RunPresence::folder;
+  std::optional<LiveMaps> maps = prepare_maps(arguments, request, resumed);
+  OpenRun open = resumed ? resume_run(request) : start_run(request);
   open.session.use_threads(arguments.threads);
+  if (maps) begin_maps(*maps, open, arguments);
   ProgressLine line(arguments.quiet);
   RunControl control;
   control.stop = stop;
   control.on_step = [&line](const RunProgress& progress) { line.show(progress); };
+  if (maps) control.on_frame = [&maps](const Frame& frame) { maps->add(frame); };
   const RunEnd end = run_to_end(open.session, open.store, control);
   line.finish();
   if (end == RunEnd::stopped)
@@ -102,6 +137,7 @@ void run(const RunArguments& arguments) {
                                        " deg; continue with: talus run " + arguments.scenario + " -o " +
                                        arguments.output + " --resume");
   print_end(arguments, open.session);
+  if (maps) finish_maps(*maps, arguments);
 }
 
 }  // namespace
@@ -126,6 +162,10 @@ void add_run_command(CLI::App& app) {
                                           "Continue from the last checkpoint, or start where there is none");
   command->add_flag("--overwrite", arguments->overwrite, "Replace a run of this name")->excludes(resume);
   command->add_flag("-q,--quiet", arguments->quiet, "Print errors and warnings only");
+  CLI::Option* frames =
+      command->add_option("--frames", arguments->frames,
+                          "Draw maps of each frame into this folder while the run computes; needs --map");
+  add_map_options(*command, arguments->maps, MapOptionSet::drawn_live, frames);
   command->callback([arguments, seed] {
     arguments->has_seed = seed->count() > 0;
     if (arguments->output.empty())

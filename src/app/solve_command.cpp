@@ -8,7 +8,7 @@
 
 #include "app/commands.h"
 #include "app/json.h"
-#include "app/map_options.h"
+#include "app/output_files.h"
 #include "session/problem_file.h"
 #include "solver/local_solvers.h"
 #include "solver/siconos_error.h"

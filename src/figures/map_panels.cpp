@@ -32,6 +32,7 @@ struct Panels {
 Panels read_panels(const FigureRun& run) {
   Panels panels;
   panels.choice = panel_frames(run.file.frame_tilts(), theta_c_of(run));
+  panels.extent = bed_extent(run.file.header().statics);
   for (const std::size_t k : panels.choice) {
     panels.frames.push_back(run.file.frame(k));
     extend(panels.extent, panels.frames.back(), run.file.header().statics);
@@ -131,12 +132,13 @@ std::vector<Column> threshold_columns(const Analysis& analysis, const Panels& pa
 }  // namespace
 
 FrameChoice panel_frames(const std::vector<double>& tilts, double theta_c) {
-  std::vector<std::string> entries = {"repose"};
-  for (const double tilt : paper_tilts)
-    if (radians(tilt) < theta_c) entries.push_back(rounded_text(tilt, 0));
-  FrameChoice choice = frames_at(tilts, entries, theta_c);
   const std::size_t last = frame_at_repose(tilts, theta_c);
-  std::erase_if(choice, [&](std::size_t frame) { return frame > last; });  // the nearest may lie beyond
+  FrameChoice choice;
+  for (const double tilt : paper_tilts)
+    if (const auto frame = frame_near(tilts, radians(tilt)); frame && radians(tilt) < theta_c)
+      choice.push_back(std::min(*frame, last));  // the nearest may lie beyond
+  choice.push_back(last);
+  choice.erase(std::unique(choice.begin(), choice.end()), choice.end());
   return choice;
 }
 
@@ -168,18 +170,18 @@ std::optional<Figure> gamma_maps(std::span<const RunGroup> groups) {
   set_variable(figure, "gamma_c", gamma_c);
   set_variable(figure, "white_below", white_below);
   Column mean{"gamma_mean", "1", "mean gamma of the free grains that carry something", {}};
-  Column white{"white", "1", "share of these grains that are white", {}};
-  Column black{"black", "1", "share of them that are black", {}};
+  Column share_white{"white", "1", "share of these grains that are white", {}};
+  Column share_black{"black", "1", "share of them that are black", {}};
   for (std::size_t k = 0; k < panels.frames.size(); ++k) {
     const Frame& frame = panels.frames[k];
     figure.maps.push_back(
         panel_map(std::to_string(k + 1),
                   bare_map(frame, statics, gamma_shades(frame, statics, gamma_c), panels.extent), 1, 300.0));
     mean.values.push_back(row<double>(failed->first().analysis, "gamma/mean", panels.choice[k])[0]);
-    white.values.push_back(1.0 - share_from(frame, statics, white_below));
-    black.values.push_back(share_from(frame, statics, 2.0 * gamma_c));
+    share_white.values.push_back(1.0 - share_from(frame, statics, white_below));
+    share_black.values.push_back(share_from(frame, statics, 2.0 * gamma_c));
   }
-  figure.tables = {{"", {tilt_column(panels), mean, white, black}}};
+  figure.tables = {{"", {tilt_column(panels), mean, share_white, share_black}}};
   return figure;
 }
 

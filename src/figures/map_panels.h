@@ -11,8 +11,8 @@
 
 namespace talus {
 
-/// The frames nearest to 0, 5, 10 and 15 deg, those of them that come before theta_c (rad), and the last one
-/// before theta_c. `tilts` as in frames_at.
+/// The frames nearest to 0, 5, 10 and 15 deg, those of them that are there and come before theta_c (rad),
+/// and the last one before theta_c. `tilts` as in frames_at.
 FrameChoice panel_frames(const std::vector<double>& tilts, double theta_c);
 
 /// Shades of the free grains in the map of gamma, and in that of grains with gamma >= threshold.

@@ -1,6 +1,7 @@
 #include "figures/overload_figures.h"
 
 #include <algorithm>
+#include <array>
 
 #include "figures/group_table.h"
 #include "figures/paper_values.h"
@@ -9,6 +10,8 @@
 
 namespace talus {
 namespace {
+
+using enum PaperQuantity;
 
 /// The value of a data set "T F" of a run.
 double threshold_value(const FigureRun& run, std::string_view name, std::size_t frame, std::size_t f) {
@@ -60,10 +63,16 @@ void add_periodic_groups(Figure& figure, std::span<const RunGroup> groups, const
   }
 }
 
-/// The paper's values of a quantity, beside its angles.
+/// The paper's values of a quantity, at 0, theta_d and theta_c.
 Column paper_column(const std::string& name, const std::string& unit, const std::string& meaning,
-                    const paper::Values& values) {
-  return {name, unit, meaning, {values.start, values.theta_d, values.theta_c}};
+                    const std::array<PaperQuantity, 3>& quantities) {
+  Column column{name, unit, meaning, {}};
+  for (const PaperQuantity quantity : quantities) column.values.push_back(paper_value(quantity).value);
+  return column;
+}
+
+Column paper_tilts() {
+  return {"theta", "deg", "tilt", {0.0, paper_value(theta_d_by_jump).value, paper_value(theta_c).value}};
 }
 
 constexpr std::string_view paper_text =
@@ -85,9 +94,10 @@ std::optional<Figure> overloaded_fraction_figure(std::span<const RunGroup> group
     return std::vector{quantity_of("p_o", "1", "overloaded fraction", "overloaded/fraction", factor, f, one)};
   });
   if (figure.tables.empty()) return std::nullopt;
-  figure.tables.push_back({"paper",
-                           {paper_column("theta", "deg", "tilt", paper::tilt),
-                            paper_column("p_o", "1", "overloaded fraction", paper::overloaded_fraction)}});
+  figure.tables.push_back(
+      {"paper",
+       {paper_tilts(), paper_column("p_o", "1", "overloaded fraction",
+                                    {overloaded_at_0, overloaded_at_theta_d, overloaded_at_theta_c})}});
   return figure;
 }
 
@@ -113,10 +123,11 @@ std::optional<Figure> length_figure(std::span<const RunGroup> groups) {
     for (const FigureRun* run : group.periodic() ? runs_with_threshold(group) : RunChoice{})
       cut = std::max(cut, values<double>(run->analysis, "lc/cut")[0] / mean_diameter(*run));
   set_variable(figure, "cut", cut);
-  figure.tables.push_back({"paper",
-                           {paper_column("theta", "deg", "tilt", paper::tilt),
-                            paper_column("mean", "D", "mean l_c", paper::mean_length),
-                            paper_column("max", "D", "largest l_c", paper::largest_length)}});
+  figure.tables.push_back(
+      {"paper",
+       {paper_tilts(),
+        paper_column("mean", "D", "mean l_c", {lc_mean_at_0, lc_mean_at_theta_d, lc_mean_at_theta_c}),
+        paper_column("max", "D", "largest l_c", {lc_max_at_0, lc_max_before_jump, lc_max_after_jump})}});
   return figure;
 }
 

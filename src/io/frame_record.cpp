@@ -1,3 +1,4 @@
+#include "io/run_file.h"
 #include "io/run_records.h"
 
 namespace talus {
@@ -61,14 +62,8 @@ void write_contacts(hdf5::Writer& writer, std::uint64_t first, const FrameContac
 }
 
 void read_grains(hdf5::Reader& reader, std::size_t row, Frame& frame) {
-  frame.step = reader.read_rows<std::int64_t>("/frames/step", row, 1)[0];
-  frame.time = reader.read_rows<double>("/frames/time", row, 1)[0];
-  frame.tilt = reader.read_rows<double>("/frames/tilt", row, 1)[0];
-  const auto position = reader.read_rows<double>(grains + "position/value", row, 1);
   const auto image = reader.read_rows<Index>(grains + "image/value", row, 1);
   const auto velocity = reader.read_rows<double>(grains + "velocity/value", row, 1);
-  frame.x = component(position, 2, 0);
-  frame.y = component(position, 2, 1);
   frame.image = component(image, 2, 0);
   frame.angle = reader.read_rows<double>(grains + "angle/value", row, 1);
   frame.vx = component(velocity, 2, 0);
@@ -129,8 +124,30 @@ void write_frames(hdf5::Writer& writer, const std::function<Frame(std::size_t)>&
   writer.write_rows(contacts + "offset", 0, offset);
 }
 
-Frame read_frame(hdf5::Reader& reader, std::size_t row) {
+Frame as_stored(Frame frame) {
+  FrameContacts& c = frame.contacts;
+  for (std::vector<double>* values : {&frame.x, &frame.y, &frame.angle, &frame.vx, &frame.vy, &frame.omega,
+                                      &frame.gamma, &c.nx, &c.ny, &c.px, &c.py, &c.fn, &c.ft})
+    for (double& value : *values) value = static_cast<float>(value);
+  for (Tensor2& m : frame.internal_moment)
+    m = {static_cast<float>(m.xx), static_cast<float>(m.xy), static_cast<float>(m.yx),
+         static_cast<float>(m.yy)};
+  return frame;
+}
+
+Frame read_positions(hdf5::Reader& reader, std::size_t row) {
   Frame frame;
+  frame.step = reader.read_rows<std::int64_t>("/frames/step", row, 1)[0];
+  frame.time = reader.read_rows<double>("/frames/time", row, 1)[0];
+  frame.tilt = reader.read_rows<double>("/frames/tilt", row, 1)[0];
+  const auto position = reader.read_rows<double>(grains + "position/value", row, 1);
+  frame.x = component(position, 2, 0);
+  frame.y = component(position, 2, 1);
+  return frame;
+}
+
+Frame read_frame(hdf5::Reader& reader, std::size_t row) {
+  Frame frame = read_positions(reader, row);
   read_grains(reader, row, frame);
   read_contacts(reader, row, frame.contacts);
   check_contacts(reader, frame);

@@ -54,6 +54,15 @@ struct RunFile::State {
     return *reader;
   }
 
+  /// What `record` reads of frame k, from the segment that holds it.
+  Frame read(Frame (*record)(hdf5::Reader&, std::size_t), std::size_t k) {
+    std::size_t s = 0;
+    for (; s < segments.size() && k >= segments[s].frames; ++s) k -= segments[s].frames;
+    if (s == segments.size())
+      throw Error(ExitCode::internal, "the run has " + std::to_string(all_tilts.size()) + " frames only");
+    return record(segment(s), k);
+  }
+
   void read_tilts() {
     for (std::size_t s = 0; s < segments.size(); ++s)
       append(all_tilts, segment(s).read<double>("/frames/tilt"));
@@ -151,14 +160,8 @@ std::uint64_t RunFile::contact_count() const {
   return count;
 }
 
-Frame RunFile::frame(std::size_t k) const {
-  std::size_t s = 0;
-  for (; s < state_->segments.size() && k >= state_->segments[s].frames; ++s) k -= state_->segments[s].frames;
-  if (s == state_->segments.size())
-    throw Error(ExitCode::internal,
-                "the run has " + std::to_string(state_->all_tilts.size()) + " frames only");
-  return read_frame(state_->segment(s), k);
-}
+Frame RunFile::frame(std::size_t k) const { return state_->read(read_frame, k); }
+Frame RunFile::positions(std::size_t k) const { return state_->read(read_positions, k); }
 
 std::vector<ObservableRow> RunFile::observables() const {
   std::vector<ObservableRow> rows = all_observables();

@@ -17,8 +17,9 @@ RunHeader read_header(hdf5::Reader& reader);
 /// /frames, the time-dependent data sets of /particles, and /contacts. Sizes: T, N, M.
 /// `frame_at(k)` is called once for each frame, in order.
 void write_frames(hdf5::Writer& writer, const std::function<Frame(std::size_t)>& frame_at);
-/// Frame `row` of the file.
+/// Frame `row` of the file; or only its step, time, tilt, x and y.
 Frame read_frame(hdf5::Reader& reader, std::size_t row);
+Frame read_positions(hdf5::Reader& reader, std::size_t row);
 
 /// /observables and /steps. Sizes: R, S.
 void write_observables(hdf5::Writer& writer, const std::vector<ObservableRow>& rows);

@@ -40,15 +40,14 @@ std::size_t frame_at_angle(const std::vector<double>& tilts, const std::string& 
   const auto [end, error] = std::from_chars(entry.data(), entry.data() + entry.size(), angle);
   if (error != std::errc() || end != entry.data() + entry.size() || !std::isfinite(angle))
     throw Error(ExitCode::usage, "--at " + entry + ": expected an angle in degrees, or repose");
-  const std::size_t frame = nearest(tilts, radians(angle));
-  const double spacing = frame_spacing(tilts);
-  if (std::abs(tilts[frame] - radians(angle)) > 0.5 * spacing + 1e-9)
+  const auto frame = frame_near(tilts, radians(angle));
+  if (!frame)
     throw Error(ExitCode::bad_data, "--at " + entry + ": the run has no frame there; its " +
                                         std::to_string(tilts.size()) + " frames go from " +
                                         format("%.2f", degrees(tilts.front())) + " to " +
                                         format("%.2f", degrees(tilts.back())) + " deg, every " +
-                                        format("%.3g", degrees(spacing)) + " deg");
-  return frame;
+                                        format("%.3g", degrees(frame_spacing(tilts))) + " deg");
+  return *frame;
 }
 
 FrameChoice sorted(FrameChoice choice) {
@@ -69,6 +68,12 @@ std::vector<std::string> names_with(const std::vector<double>& tilts, const Fram
 }
 
 }  // namespace
+
+std::optional<std::size_t> frame_near(const std::vector<double>& tilts, double tilt) {
+  const std::size_t frame = nearest(tilts, tilt);
+  if (std::abs(tilts[frame] - tilt) > 0.5 * frame_spacing(tilts) + 1e-9) return std::nullopt;
+  return frame;
+}
 
 FrameChoice frames_at(const std::vector<double>& tilts, const std::vector<std::string>& entries,
                       double theta_c) {
@@ -91,11 +96,9 @@ FrameChoice frames_every(const std::vector<double>& tilts, double every) {
     return choice;
   }
   const auto count = static_cast<long>(std::floor((tilts.back() + 0.5 * spacing) / radians(every)));
-  for (long k = 0; k <= count; ++k) {
-    const std::size_t frame = nearest(tilts, radians(static_cast<double>(k) * every));
-    if (std::abs(tilts[frame] - radians(static_cast<double>(k) * every)) <= 0.5 * spacing + 1e-9)
-      choice.push_back(frame);
-  }
+  for (long k = 0; k <= count; ++k)
+    if (const auto frame = frame_near(tilts, radians(static_cast<double>(k) * every)))
+      choice.push_back(*frame);
   return sorted(choice);
 }
 

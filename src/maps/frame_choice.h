@@ -2,6 +2,7 @@
 /// Which frames of a run are drawn, and what their files are called.
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,9 @@ using FrameChoice = std::vector<std::size_t>;
 /// where no frame lies within half the spacing of the frames, or where the angle of repose is not known.
 FrameChoice frames_at(const std::vector<double>& tilts, const std::vector<std::string>& entries,
                       double theta_c);
+
+/// The frame nearest to a tilt (rad), if there is one within half the spacing of the frames.
+std::optional<std::size_t> frame_near(const std::vector<double>& tilts, double tilt);
 
 /// The frames nearest to 0, `every`, 2 `every`, ... degrees; all frames where `every` is below their spacing.
 FrameChoice frames_every(const std::vector<double>& tilts, double every);

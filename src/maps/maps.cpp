@@ -1,102 +1,127 @@
 #include "maps/maps.h"
 
 #include <algorithm>
-#include <array>
+#include <cctype>
 #include <cmath>
-#include <cstdio>
-#include <string>
 
 #include "core/errors.h"
 #include "core/trigonometry.h"
-#include "stress/overload.h"
+#include "maps/bed_view.h"
+#include "maps/layers.h"
+#include "maps/texts.h"
 
 namespace talus {
 namespace {
 
-std::string fixed(double value, int decimals) {
-  std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), "%.*f", decimals, value);
-  return text.data();
+/// Whether a layer fills the grains, or has lines only.
+bool fills_grains(const MapLayers& layers, std::size_t k) {
+  return layers[k] != MapKind::forces && layers[k] != MapKind::critical &&
+         !(layers[k] == MapKind::displacement && k > 0);
 }
 
-std::vector<double> map_shades(const Frame& frame, const RunStatics& statics, MapKind kind, double gamma_c) {
-  std::vector<double> shades;
-  for (const double gamma : std::span(frame.gamma).first(static_cast<std::size_t>(statics.free_count)))
-    shades.push_back(kind == MapKind::gamma ? gamma_shade(gamma, gamma_c)
-                                            : static_cast<double>(is_overloaded(gamma, gamma_c)));
-  return shades;
+bool has_bar(const MapLayers& layers, std::size_t k) {
+  return fills_grains(layers, k) && layers[k] != MapKind::overloaded && layers[k] != MapKind::clusters;
 }
 
-/// A disc, and in a periodic bed its copy where it crosses an edge.
-void add_disc(std::vector<Disc>& discs, Disc disc, const RunStatics& statics) {
-  discs.push_back(disc);
-  if (!statics.periodic) return;
-  const auto length = static_cast<float>(statics.length);
-  Disc copy = disc;
-  if (disc.x - disc.radius < 0.0f)
-    copy.x += length;
-  else if (disc.x + disc.radius > length)
-    copy.x -= length;
-  else
-    return;
-  discs.push_back(copy);
+/// What was chosen for the first layer with a bar; nothing for the other.
+ScaleChoice choice_of(const MapSettings& settings, std::size_t k) {
+  const bool first = has_bar(settings.layers, k) && (k == 0 || !has_bar(settings.layers, 0));
+  return first ? ScaleChoice{settings.colours, settings.range_low, settings.range_high} : ScaleChoice{};
 }
 
-std::vector<Disc> map_discs(const Frame& frame, const RunStatics& statics, std::span<const double> shades) {
-  std::vector<Disc> discs;
-  discs.reserve(frame.x.size() + frame.x.size() / 16);
-  for (std::size_t i = 0; i < frame.x.size(); ++i) {
-    Disc disc;
-    disc.x = static_cast<float>(frame.x[i]);
-    disc.y = static_cast<float>(frame.y[i]);
-    disc.radius = static_cast<float>(statics.radius[i]);
-    if (i < shades.size())
-      disc.shade = static_cast<float>(shades[i]);
-    else
-      disc.hatched = 1.0f;
-    add_disc(discs, disc, statics);
+/// Lines over layer k: black, or, where its grains can be dark, what tells from its colours, and from black
+/// and white also in gray.
+Colour colour_over(const MapSettings& settings, std::size_t k) {
+  const MapKind kind = settings.layers[k];
+  const ColourMap own = kind == MapKind::rotation ? ColourMap::diverging : ColourMap::gray;
+  const bool light =
+      kind == MapKind::clusters || choice_of(settings, k).colours.value_or(own) == ColourMap::diverging;
+  return light ? black : Colour{255, 60, 130};
+}
+
+MapLayer make_layer(const MapFrame& of, const MapSettings& settings, const MapExtent& extent, std::size_t k) {
+  constexpr double arrows_across = 60.0;  // at most, to tell one from the other
+
+  const ScaleChoice choice = choice_of(settings, k);
+  const bool over_grains = settings.layers.size() > 1 && fills_grains(settings.layers, 1 - k);
+  const OverColour over = over_grains ? OverColour(colour_over(settings, 1 - k)) : OverColour();
+  switch (settings.layers[k]) {
+    case MapKind::gamma:
+      return gamma_layer(of, settings, choice);
+    case MapKind::overloaded:
+      return overloaded_layer(of, settings, over_grains && k == 1);
+    case MapKind::clusters:
+      return clusters_layer(of, settings, over_grains && k == 1);
+    case MapKind::coarse:
+      return coarse_layer(of, settings, choice);
+    case MapKind::pressure:
+      return pressure_layer(of, choice);
+    case MapKind::displacement:
+      return k == 0 ? displacement_layer(of, choice)
+                    : displacement_arrows(of, over, (extent.x_max - extent.x_min) / arrows_across);
+    case MapKind::rotation:
+      return rotation_layer(of, choice);
+    case MapKind::forces:
+      return forces_layer(of, over);
+    case MapKind::critical:
+      return critical_layer(of, over);
   }
-  return discs;
+  throw Error(ExitCode::internal, "a map of no kind");
 }
 
-/// 10 D, or less in a bed so short that 10 D would fill it.
-void set_scale(FrameView& view, const RunStatics& statics) {
-  int diameters = 10;
-  for (int shorter : {5, 2, 1})
-    if (diameters * statics.mean_diameter > 0.3 * statics.length) diameters = shorter;
-  view.scale_length = diameters * statics.mean_diameter;
-  view.scale_label = std::to_string(diameters) + " D";
+void check_theta_c(const MapSettings& settings) {
+  const bool needed = std::ranges::any_of(settings.layers, needs_theta_c);
+  if (needed && !(settings.theta_c > radians(2.0) && settings.theta_c < radians(89.0)))
+    throw Error(ExitCode::bad_data, "theta_c = " + fixed_text(degrees(settings.theta_c), 3) +
+                                        " deg: expected an angle of repose between 2 and 89 deg");
 }
 
-void describe_gamma(FrameView& view, double gamma_c) {
-  view.title = "Stress ratio γ of each grain";
-  view.bar_title = "γ = q/p";
-  view.bar_ticks = {{0.0, fixed(white_below, 2)},
-                    {gamma_shade(gamma_c, gamma_c), "Γ_c = " + fixed(gamma_c, 2)},
-                    {1.0, "2Γ_c = " + fixed(2.0 * gamma_c, 2)}};
+/// Those of the lower layer that has any; of a second one smaller discs within.
+void add_grains(FrameView& view, const MapFrame& of, std::span<const MapLayer> layers) {
+  constexpr float inner_radius = 0.5f;  // of that of the grain
+  std::vector<const std::vector<GrainLook>*> looks;
+  for (const MapLayer& layer : layers)
+    if (!layer.looks.empty()) looks.push_back(&layer.looks);
+  view.discs.reserve(of.frame.x.size() * std::max<std::size_t>(1, looks.size()) + of.frame.x.size() / 16);
+  const auto add = [&](Index i, const GrainLook& look, float scale) {
+    Disc disc = disc_of(of.frame, of.statics, i);
+    disc.radius *= scale;
+    disc.fill = look.fill;
+    disc.rim = look.rim;
+    add_disc(view, disc, of.statics);
+  };
+  for (Index i = 0; i < of.statics.free_count; ++i) {
+    const auto grain = static_cast<std::size_t>(i);
+    add(i, looks.empty() ? outline_look() : (*looks[0])[grain], 1.0f);
+    if (looks.size() > 1 && (*looks[1])[grain].marked) add(i, (*looks[1])[grain], inner_radius);
+  }
+  for (Index i = of.statics.free_count; i < of.frame.grain_count(); ++i)
+    add_disc(view, disc_of(of.frame, of.statics, i), of.statics);
 }
 
-void describe_overloaded(FrameView& view, const Frame& frame, const RunStatics& statics, double gamma_c) {
-  const OverloadCount count = count_overloaded(frame, statics, gamma_c);
-  view.title = "Overloaded grains";
-  if (count.loaded > 0) view.title += ", p_o = " + fixed(count.fraction(), 3);
-  view.swatches = {{1.0, "γ ≥ Γ_c = sin θ_c = " + fixed(gamma_c, 2)}, {0.0, "γ < Γ_c"}};
+/// "Overloaded grains, p_o = 0.300; force chains".
+std::string joint_title(std::span<const MapLayer> layers) {
+  std::string title = layers[0].title;
+  for (const MapLayer& layer : layers.subspan(1)) {
+    title.append("; ").append(layer.title);
+    char& first = title[title.size() - layer.title.size()];
+    first = static_cast<char>(std::tolower(static_cast<unsigned char>(first)));
+  }
+  return title;
+}
+
+std::string caption_of(const Frame& frame, const MapSettings& settings) {
+  std::string caption = "θ = " + fixed_text(degrees(frame.tilt), 2) + "°";
+  if (std::isfinite(settings.theta_c) && settings.theta_c > 0.0) {
+    caption += ", θ_c = " + fixed_text(degrees(settings.theta_c), 2) + "°";
+    if (settings.theta_c_assumed) caption += " (assumed)";
+  }
+  return caption;
 }
 
 }  // namespace
 
-MapKind map_kind(std::string_view name) {
-  for (MapKind kind : {MapKind::gamma, MapKind::overloaded})
-    if (name == map_name(kind)) return kind;
-  throw Error(ExitCode::usage, "map '" + std::string(name) + "': expected gamma or overloaded");
-}
-
-std::string_view map_name(MapKind kind) { return kind == MapKind::gamma ? "gamma" : "overloaded"; }
-
-double gamma_shade(double gamma, double gamma_c) {
-  if (std::isnan(gamma)) return 0.0;
-  return std::clamp((gamma - white_below) / (2.0 * gamma_c - white_below), 0.0, 1.0);
-}
+MapExtent bed_extent(const RunStatics& statics) { return {0.0, statics.length, 0.0, 0.0}; }
 
 void extend(MapExtent& extent, const Frame& frame, const RunStatics& statics) {
   for (std::size_t i = 0; i < frame.y.size(); ++i) {
@@ -107,32 +132,44 @@ void extend(MapExtent& extent, const Frame& frame, const RunStatics& statics) {
 
 FrameView bare_map(const Frame& frame, const RunStatics& statics, std::span<const double> shades,
                    const MapExtent& extent) {
-  FrameView view;
-  view.furniture = false;
-  view.discs = map_discs(frame, statics, shades);
-  view.x_max = statics.length;
-  view.y_min = extent.y_min;
-  view.y_max = extent.y_max;
+  FrameView view = empty_view(extent);
+  for (Index i = 0; i < frame.grain_count(); ++i) {
+    Disc disc = disc_of(frame, statics, i);
+    if (i < statics.free_count) {
+      disc.fill = gray(shades[static_cast<std::size_t>(i)]);
+      disc.rim = rim_of(disc.fill);
+    }
+    add_disc(view, disc, statics);
+  }
   return view;
 }
 
-FrameView make_map(const Frame& frame, const RunStatics& statics, MapKind kind, double theta_c,
-                   const MapExtent& extent) {
-  if (!(theta_c > radians(2.0) && theta_c < radians(89.0)))
-    throw Error(ExitCode::bad_data, "theta_c = " + fixed(degrees(theta_c), 3) +
-                                        " deg: expected an angle of repose between 2 and 89 deg");
-  const double gamma_c = sine(theta_c);
-  FrameView view = bare_map(frame, statics, map_shades(frame, statics, kind, gamma_c), extent);
-  view.furniture = true;
-  view.walls = !statics.periodic;
-  view.floor_line = statics.free_count == frame.grain_count();
-  view.tilt = frame.tilt;
-  view.caption = "θ = " + fixed(degrees(frame.tilt), 2) + "°, θ_c = " + fixed(degrees(theta_c), 2) + "°";
-  set_scale(view, statics);
-  if (kind == MapKind::gamma)
-    describe_gamma(view, gamma_c);
-  else
-    describe_overloaded(view, frame, statics, gamma_c);
+bool has_bar(const MapLayers& layers) {
+  return has_bar(layers, 0) || (layers.size() > 1 && has_bar(layers, 1));
+}
+
+FrameView make_map(const MapFrame& frame, const MapSettings& settings, const MapExtent& extent) {
+  check_theta_c(settings);
+  std::vector<MapLayer> layers;
+  for (std::size_t k = 0; k < settings.layers.size(); ++k)
+    layers.push_back(make_layer(frame, settings, extent, k));
+  FrameView view = empty_view(extent);
+  add_grains(view, frame, layers);
+  for (const MapLayer& layer : layers)
+    for (const Line& line : layer.lines) add_line(view, line, frame.statics);
+  add_surroundings(view, frame.frame, frame.statics);
+  view.furniture = settings.furniture;
+  view.transparent = settings.transparent;
+  // Also in a frame in which no cluster has a colour yet: all of a movie have as many channels.
+  view.coloured = std::ranges::count(settings.layers, MapKind::clusters) > 0;
+  view.tilt = frame.frame.tilt;
+  if (settings.turned) {
+    view.turn = std::max(0.0, frame.frame.tilt);
+    view.turn_max = std::max(view.turn, settings.tilt_max);
+  }
+  view.title = joint_title(layers);
+  view.caption = caption_of(frame.frame, settings);
+  for (MapLayer& layer : layers) view.legends.push_back(std::move(layer.legend));
   return view;
 }
 

@@ -1,22 +1,69 @@
 #pragma once
 /// Maps of the bed: from a frame of a run to what the renderer draws.
 
+#include <optional>
 #include <span>
-#include <string_view>
+#include <vector>
 
 #include "core/snapshot.h"
+#include "maps/cluster_colours.h"
+#include "maps/map_kind.h"
+#include "render/colour_map.h"
 #include "render/frame_view.h"
 
 namespace talus {
 
-enum class MapKind {
-  gamma,       ///< the stress ratio of each grain in gray (paper, Fig. 10)
-  overloaded,  ///< grains with gamma >= Gamma_c in black (paper, Fig. 13)
+/// How the maps of a run are drawn; the same for all of its frames.
+struct MapSettings {
+  MapLayers layers;                  ///< one map, or two: the second is drawn over the first
+  std::optional<ColourMap> colours;  ///< of the first layer that has a bar; without a value: its own
+  std::optional<double> range_low;   ///< of the bar of that layer, in the unit of its title
+  std::optional<double> range_high;
+  double theta_c = 0.0;               ///< rad, angle of repose: Gamma_c = sin(theta_c)
+  bool theta_c_assumed = false;       ///< the caption says so
+  double threshold_factor = 1.0;      ///< grains are overloaded from this times Gamma_c on
+  double length = 10.0;               ///< D: the diameter of neighbourhoods of the map `coarse`
+  bool joined_by_neighbours = false;  ///< clusters: grains closer than 1.1 times the sum of their radii join,
+                                      ///< instead of those that touch with a force
+  bool turned = false;                ///< to its slope, instead of the bed's own frame
+  double tilt_max = 0.0;              ///< rad, of all frames that are to have the size of this one
+  bool furniture = true;
+  bool transparent = false;
 };
 
-/// The kind of that name. Throws Error(usage).
-MapKind map_kind(std::string_view name);
-std::string_view map_name(MapKind kind);
+/// What the maps of one run show of the bed, so that all of them have the same size. m, frame of the bed.
+struct MapExtent {
+  double x_min = 0.0, x_max = 0.0, y_min = 0.0, y_max = 0.0;
+};
+
+/// The bed from end to end (x), and in y from the lowest to the highest grain of these frames: begin with
+/// bed_extent, and extend by each frame.
+MapExtent bed_extent(const RunStatics& statics);
+void extend(MapExtent& extent, const Frame& frame, const RunStatics& statics);
+
+/// A frame, with what maps need beside it.
+struct MapFrame {
+  const Frame& frame;
+  const RunStatics& statics;
+  /// For `displacement` and `rotation`: the frame that they are measured from, null where there is none yet
+  /// (nothing has moved); and whether the map says what moved in a degree of tilt, or in all;
+  /// always the latter where there was no tilt between them, as in a flow.
+  const Frame* reference = nullptr;
+  bool per_degree = true;
+  /// For `clusters`: from a ClusterColours (cluster_colours.h) that has met all earlier frames; else empty.
+  std::span<const ClusterColour> cluster_colours = {};
+};
+
+/// The bed of a frame without furniture, with a gray in [0, 1] for each free grain: 0 white, 1 black.
+FrameView bare_map(const Frame& frame, const RunStatics& statics, std::span<const double> shades,
+                   const MapExtent& extent);
+
+/// A map of a frame, with its furniture but no traces. Throws Error(bad_data) where a layer is scaled by
+/// theta_c, and that is not between 2 and 89 deg; Error(usage) where a range or `length` cannot be.
+FrameView make_map(const MapFrame& frame, const MapSettings& settings, const MapExtent& extent);
+
+/// Whether a map has a bar: whether `colours` and `range_low`, `range_high` change anything.
+bool has_bar(const MapLayers& layers);
 
 /// Stress ratio below which a grain is white in the map of gamma (paper, Fig. 10).
 inline constexpr double white_below = 0.05;
@@ -24,23 +71,5 @@ inline constexpr double white_below = 0.05;
 /// Gray of a stress ratio: 0 (white) below white_below and for NaN, 1 (black) from 2 gamma_c on, linear
 /// between. `gamma_c` > white_below / 2.
 double gamma_shade(double gamma, double gamma_c);
-
-/// What the maps of one run show of the bed, so that all of them have the same size.
-struct MapExtent {
-  double y_min = 0.0;  ///< m
-  double y_max = 0.0;  ///< m
-};
-
-/// Lets the extent hold all grains of a frame.
-void extend(MapExtent& extent, const Frame& frame, const RunStatics& statics);
-
-/// The bed of a frame without furniture, with a shade in [0, 1] for each free grain.
-FrameView bare_map(const Frame& frame, const RunStatics& statics, std::span<const double> shades,
-                   const MapExtent& extent);
-
-/// A map of a frame. `theta_c` is the angle of repose, rad, with Gamma_c = sin(theta_c).
-/// Throws Error(bad_data) where no gray scale can be made of theta_c.
-FrameView make_map(const Frame& frame, const RunStatics& statics, MapKind kind, double theta_c,
-                   const MapExtent& extent);
 
 }  // namespace talus

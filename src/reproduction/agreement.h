@@ -4,8 +4,8 @@
 #include <span>
 #include <string>
 
+#include "figures/paper_values.h"
 #include "reproduction/measured_values.h"
-#include "reproduction/paper_values.h"
 
 namespace talus {
 

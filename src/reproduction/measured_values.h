@@ -7,8 +7,8 @@
 
 #include "analysis/wall_fit.h"
 #include "core/observables.h"
+#include "figures/paper_values.h"
 #include "io/analysis_record.h"
-#include "reproduction/paper_values.h"
 
 namespace talus {
 

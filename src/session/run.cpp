@@ -36,6 +36,8 @@ RunEnd run_to_end(Session& session, RunStore& store, const RunControl& control) 
   while (session.phase() != Phase::done) {
     advance_or_keep(session, store);
     if (control.on_step) control.on_step({session, seconds_since(start)});
+    if (control.on_frame)
+      for (const Frame& frame : session.segment().frames) control.on_frame(frame);
     const bool stop = control.stop != nullptr && *control.stop != 0;
     const bool due = seconds_since(last_commit) >= session.scenario().output.checkpoint_every;
     if (stop || due || !session.segment().frames.empty()) {

@@ -19,6 +19,9 @@ struct RunControl {
   const volatile std::sig_atomic_t* stop = nullptr;
   /// Called after each step; must not change anything the run depends on. May be empty.
   std::function<void(const RunProgress&)> on_step;
+  /// Called with each new frame before it is committed; must not change anything the run depends on, nor
+  /// throw. May be empty.
+  std::function<void(const Frame&)> on_frame;
 };
 
 enum class RunEnd { complete, stopped };

@@ -11,13 +11,13 @@ TEST(CommandLine, help_names_every_subcommand) {
   const TemporaryFolder folder;
   const Outcome outcome = run_talus({"--help"}, folder.path());
   EXPECT_EQ(outcome.exit_code, 0);
-  for (const char* command : {"run", "check", "info", "render", "animate", "study"})
+  for (const char* command : {"run", "check", "info", "render", "animate", "panel", "study"})
     EXPECT_NE(outcome.out.find(std::string("\n  ") + command), std::string::npos) << command;
 }
 
 TEST(CommandLine, help_of_each_subcommand_ends_well) {
   const TemporaryFolder folder;
-  for (const char* command : {"run", "check", "info", "render", "animate", "study"})
+  for (const char* command : {"run", "check", "info", "render", "animate", "panel", "study"})
     EXPECT_EQ(run_talus({command, "--help"}, folder.path()).exit_code, 0) << command;
 }
 

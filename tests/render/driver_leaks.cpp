@@ -1,4 +1,4 @@
-/// The software driver keeps what it allocates until the process ends; that is no leak of ours.
+/// The software drivers keep what they allocate until the process ends; that is no leak of ours.
 
 extern "C" const char* __lsan_default_suppressions();
 extern "C" const char* __lsan_default_suppressions() {

@@ -1,14 +1,21 @@
-/// Prints the hash of one picture, so that a test can compare processes with different settings.
+/// Prints the hash of one picture, so that a test can compare processes with different settings: picture_hash
+/// [auto|osmesa|egl]. Where there is no context, it says why and leaves with the exit code of the error.
 
 #include <cstdio>
 
+#include "core/errors.h"
 #include "core/hash.h"
 #include "render/renderer.h"
-#include "render/synthetic_bed.h"
-#include "render/synthetic_view.h"
+#include "render/sample_view.h"
 
-int main() {
-  talus::Renderer renderer(talus::make_osmesa_context());
-  const talus::Image image = renderer.draw(talus::test::synthetic_view(talus::MapKind::gamma), 800);
-  std::printf("%s\n", talus::hash_text(talus::hash_bytes(std::as_bytes(std::span(image.gray)))).c_str());
+int main(int argc, char** argv) {
+  try {
+    talus::Renderer renderer(talus::make_context(talus::context_kind(argc > 1 ? argv[1] : "auto")));
+    const talus::Image image = renderer.draw(talus::test::full_view(), 800);
+    std::printf("%s\n", talus::hash_text(talus::hash_bytes(std::as_bytes(std::span(image.pixels)))).c_str());
+    return 0;
+  } catch (const talus::Error& error) {
+    std::printf("%s\n", error.what());
+    return static_cast<int>(error.code());
+  }
 }

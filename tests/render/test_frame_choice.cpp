@@ -25,6 +25,13 @@ TEST(FrameChoice, TakesTheNearestFrames) {
   EXPECT_EQ(frames_at(run_tilts(), {"0.125"}, nan), FrameChoice{0});
 }
 
+TEST(FrameChoice, NearIsWithinHalfTheSpacing) {
+  EXPECT_EQ(frame_near(run_tilts(), radians(5.1)), 20u);
+  EXPECT_EQ(frame_near(run_tilts(), radians(17.37)), 70u);
+  EXPECT_FALSE(frame_near(run_tilts(), radians(17.4)).has_value());
+  EXPECT_FALSE(frame_near({radians(7.0), radians(7.5)}, 0.0).has_value());
+}
+
 TEST(FrameChoice, RefusesWhatIsNotThere) {
   const auto code = [](const std::string& entry, double theta_c) {
     try {

@@ -5,18 +5,27 @@
 #include "core/errors.h"
 #include "render/furniture.h"
 #include "render/layout.h"
-#include "render/synthetic_view.h"
+#include "render/sample_view.h"
 
 namespace talus {
 namespace {
 
-using test::synthetic_view;
+using test::full_view;
+using test::sample_view;
 
-std::vector<Box> all_boxes(const Layout& layout) {
-  std::vector<Box> boxes = {layout.bed, layout.scale_bar, layout.arrow};
-  if (layout.bar.width > 0.0) boxes.push_back(layout.bar);
-  for (const PlacedText& text : layout.texts) boxes.push_back(text.box);
-  for (const PlacedSwatch& swatch : layout.swatches) boxes.push_back(swatch.box);
+struct NamedBox {
+  Box box;
+  std::string name;
+};
+
+std::vector<NamedBox> all_boxes(const Layout& layout) {
+  std::vector<NamedBox> boxes = {{layout.bed.box, "bed"}};
+  if (layout.scale_bar.width > 0.0) boxes.push_back({layout.scale_bar, "scale bar"});
+  if (layout.arrow.width > 0.0) boxes.push_back({layout.arrow, "arrow"});
+  for (const PlacedBar& bar : layout.bars) boxes.push_back({bar.box, "bar"});
+  for (const PlacedText& text : layout.texts) boxes.push_back({text.box, "text \"" + text.text + "\""});
+  for (const PlacedSwatch& swatch : layout.swatches) boxes.push_back({swatch.box, "swatch"});
+  for (const PlacedTrace& trace : layout.traces) boxes.push_back({trace.box, "trace"});
   return boxes;
 }
 
@@ -24,87 +33,196 @@ bool overlap(const Box& a, const Box& b) {
   return a.x < b.right() && b.x < a.right() && a.y < b.bottom() && b.y < a.bottom();
 }
 
+/// Everything inside the picture, and nothing over anything else.
 void expect_tidy(const Layout& layout, const std::string& what) {
-  const std::vector<Box> boxes = all_boxes(layout);
+  const std::vector<NamedBox> boxes = all_boxes(layout);
   for (std::size_t i = 0; i < boxes.size(); ++i) {
-    EXPECT_GT(boxes[i].width * boxes[i].height, 0.0) << what << ", box " << i;
-    EXPECT_GE(boxes[i].x, 0.0) << what << ", box " << i;
-    EXPECT_GE(boxes[i].y, 0.0) << what << ", box " << i;
-    EXPECT_LE(boxes[i].right(), layout.width) << what << ", box " << i;
-    EXPECT_LE(boxes[i].bottom(), layout.height) << what << ", box " << i;
+    const Box& box = boxes[i].box;
+    EXPECT_GT(box.width * box.height, 0.0) << what << ", " << boxes[i].name;
+    EXPECT_GE(box.x, 0.0) << what << ", " << boxes[i].name;
+    EXPECT_GE(box.y, 0.0) << what << ", " << boxes[i].name;
+    EXPECT_LE(box.right(), layout.width) << what << ", " << boxes[i].name;
+    EXPECT_LE(box.bottom(), layout.height) << what << ", " << boxes[i].name;
     for (std::size_t j = 0; j < i; ++j)
-      EXPECT_FALSE(overlap(boxes[i], boxes[j])) << what << ", boxes " << j << " and " << i;
+      EXPECT_FALSE(overlap(box, boxes[j].box)) << what << ", " << boxes[j].name << " and " << boxes[i].name;
   }
+}
+
+/// The views of a product: plain, with all furniture, turned, with parts left out as in a panel.
+std::vector<std::pair<std::string, FrameView>> views_of(int columns, int rows) {
+  FrameView turned = full_view(columns, rows);
+  turned.turn = 0.2;
+  turned.turn_max = 0.4;
+  FrameView part = full_view(columns, rows);
+  part.title.clear();
+  part.scale_label.clear();
+  part.legends.clear();
+  part.traces.clear();
+  return {{"plain", sample_view(columns, rows)},
+          {"full", full_view(columns, rows)},
+          {"turned", turned},
+          {"part", part}};
 }
 
 TEST(Layout, NothingOverlapsAtAnyWidthInAnyBed) {
   const Font font = embedded_font();
-  for (MapKind kind : {MapKind::gamma, MapKind::overloaded})
-    for (auto [columns, rows] : {std::pair{200, 46}, {50, 10}, {20, 40}, {4, 3}}) {
-      const FrameView view = synthetic_view(kind, columns, rows);
-      for (int width : {200, 320, 400, 801, 1600, 4000})
-        expect_tidy(lay_out(view, width, font), std::string(map_name(kind)) + " of " +
-                                                    std::to_string(columns) + " columns at " +
-                                                    std::to_string(width) + " px");
+  for (auto [columns, rows] : {std::pair{200, 46}, {50, 10}, {20, 40}, {4, 3}})
+    for (const auto& [name, view] : views_of(columns, rows))
+      for (int width : {200, 320, 400, 801, 1600, 4000, 8000}) {
+        if (width * (rows + columns) > 14000 * columns) continue;  // higher than a picture may be
+        expect_tidy(lay_out(view, width, font),
+                    name + " of " + std::to_string(columns) + " columns at " + std::to_string(width) + " px");
+      }
+}
+
+TEST(Layout, ShowsEverythingThatIsAskedFor) {
+  const Font font = embedded_font();
+  for (int width : {200, 400, 1600, 8000}) {
+    const Layout layout = lay_out(full_view(200, 46), width, font);
+    EXPECT_EQ(layout.bars.size(), 1u);
+    EXPECT_EQ(layout.swatches.size(), 3u);
+    EXPECT_EQ(layout.traces.size(), 2u);
+    EXPECT_GT(layout.scale_bar.width, 0.0);
+    EXPECT_GT(layout.arrow.width, 0.0);
+    for (const char* text : {"θ = 11.46°, θ_c = 20.05°", "10 D", "g", "γ = q/p", "2Γ_c = 0.69", "f_n > ⟨f_n⟩",
+                             "spans floor to surface", "ΔV/V, volume strain", "θ in °"}) {
+      int count = 0;
+      for (const PlacedText& placed : layout.texts) count += placed.text == text;
+      EXPECT_EQ(count, 1) << text << " at " << width;
     }
+  }
 }
 
 TEST(Layout, WithoutFurnitureTheBedFillsThePicture) {
-  FrameView view = synthetic_view(MapKind::gamma, 200, 46);
+  FrameView view = full_view(200, 46);
   view.furniture = false;
   const Layout layout = lay_out(view, 1600, embedded_font());
-  EXPECT_EQ(layout.bed.x, 0.0);
-  EXPECT_EQ(layout.bed.y, 0.0);
-  EXPECT_EQ(layout.bed.width, 1600.0);
+  const Box& bed = layout.bed.box;
+  EXPECT_EQ(bed.x, 0.0);
+  EXPECT_EQ(bed.y, 0.0);
+  EXPECT_EQ(bed.width, 1600.0);
   EXPECT_EQ(layout.width, 1600);
-  EXPECT_EQ(layout.bed.height, layout.height);
+  EXPECT_EQ(bed.height, layout.height);
   EXPECT_NEAR(layout.height, 1600.0 * (view.y_max - view.y_min) / (view.x_max - view.x_min), 1.0);
-  EXPECT_NEAR(layout.camera.origin_x + layout.camera.scale * view.x_min, 0.0, 1e-9);
-  EXPECT_NEAR(layout.camera.origin_y - layout.camera.scale * view.y_min, layout.height, 1e-9);
-  EXPECT_TRUE(layout.texts.empty());
+  const Point corner = layout.bed.camera.project(view.x_min, view.y_min);
+  EXPECT_NEAR(corner.x, 0.0, 1e-9);
+  EXPECT_NEAR(corner.y, layout.height, 1e-9);
+  EXPECT_EQ(all_boxes(layout).size(), 1u);
   view.y_max = 100.0 * view.x_max;
   EXPECT_THROW(lay_out(view, 1600, embedded_font()), Error);
 }
 
 TEST(Layout, HoldsTheWholeBedInItsAspect) {
-  const Font font = embedded_font();
-  const FrameView view = synthetic_view(MapKind::gamma, 200, 46);
-  const Layout layout = lay_out(view, 1600, font);
-  const Camera& camera = layout.camera;
-  EXPECT_NEAR(camera.origin_x + camera.scale * view.x_min, layout.bed.x, 1e-9);
-  EXPECT_NEAR(camera.origin_x + camera.scale * view.x_max, layout.bed.right(), 1e-9);
-  EXPECT_NEAR(camera.origin_y - camera.scale * view.y_min, layout.bed.bottom(), 1e-9);
-  const double top = camera.origin_y - camera.scale * view.y_max;
-  EXPECT_GE(top, layout.bed.y - 1e-9);
-  EXPECT_LT(top, layout.bed.y + 1.0);
-  EXPECT_NEAR(layout.scale_bar.width, camera.scale * 10 * 0.01, 0.5);  // 10 D
+  const FrameView view = sample_view(200, 46);
+  const Layout layout = lay_out(view, 1600, embedded_font());
+  const Box& bed = layout.bed.box;
+  const Point low = layout.bed.camera.project(view.x_min, view.y_min);
+  const Point high = layout.bed.camera.project(view.x_max, view.y_max);
+  EXPECT_NEAR(low.x, bed.x, 1e-9);
+  EXPECT_NEAR(low.y, bed.bottom(), 1e-9);
+  EXPECT_NEAR(high.x, bed.right(), 1e-9);
+  EXPECT_GE(high.y, bed.y - 1e-9);
+  EXPECT_LT(high.y, bed.y + 1.0);
+  EXPECT_NEAR(layout.scale_bar.width, layout.bed.camera.scale * 10 * 0.01, 0.5);  // 10 D
+}
+
+TEST(Layout, HasRoomForEveryTurnUpToTheLargest) {
+  FrameView view = sample_view(60, 20);
+  view.turn_max = 0.6;
+  Box first;
+  for (double turn : {0.0, 0.2, 0.45, 0.6}) {
+    view.turn = turn;
+    const Layout layout = lay_out(view, 900, embedded_font());
+    const Box& box = layout.bed.box;
+    if (turn == 0.0) first = box;
+    EXPECT_EQ(box.x, first.x);
+    EXPECT_EQ(box.height, first.height);
+    for (double x : {view.x_min, view.x_max})
+      for (double y : {view.y_min, view.y_max}) {
+        const Point corner = layout.bed.camera.project(x, y);
+        EXPECT_GE(corner.x, box.x - 1e-9) << turn;
+        EXPECT_LE(corner.x, box.right() + 1e-9) << turn;
+        EXPECT_GE(corner.y, box.y - 1e-9) << turn;
+        EXPECT_LE(corner.y, box.bottom() + 1e-9) << turn;
+      }
+    // Downslope, the bed falls to the right by its tilt.
+    const Point a = layout.bed.camera.project(view.x_min, 0.0),
+                b = layout.bed.camera.project(view.x_max, 0.0);
+    EXPECT_NEAR(std::atan2(b.y - a.y, b.x - a.x), turn, 1e-9);
+  }
 }
 
 TEST(Layout, TextShrinksBeforeItIsRefused) {
   const Font font = embedded_font();
-  FrameView view = synthetic_view(MapKind::gamma);
+  FrameView view = sample_view();
   view.title = std::string(80, 'm');
   EXPECT_LT(lay_out(view, 600, font).em, 10.0);
   view.title = std::string(400, 'm');
   EXPECT_THROW(lay_out(view, 600, font), Error);
 }
 
+TEST(Layout, KeepsToTheFontSizeAllowed) {
+  const Font font = embedded_font();
+  EXPECT_EQ(lay_out(sample_view(), 1600, font).em, 18.0);
+  EXPECT_EQ(lay_out(sample_view(), 1600, font, 11.5).em, 11.5);
+  EXPECT_EQ(lay_out(sample_view(), 1600, font, 40.0).em, 18.0);
+}
+
 TEST(Layout, RefusesPicturesThatAreTooSmallOrTooLarge) {
   const Font font = embedded_font();
-  FrameView view = synthetic_view(MapKind::gamma);
+  FrameView view = sample_view();
   EXPECT_THROW(lay_out(view, smallest_width - 1, font), Error);
   EXPECT_THROW(lay_out(view, largest_side + 1, font), Error);
   view.y_max = 100.0 * view.x_max;
   EXPECT_THROW(lay_out(view, 1600, font), Error);
 }
 
+TEST(Layout, TracesStandWhereTheirValuesAre) {
+  const Layout layout = lay_out(full_view(), 1600, embedded_font());
+  const PlacedTrace& trace = layout.traces.at(0);
+  const Box& box = trace.box;
+  const Trace sample = test::sample_trace("");
+  EXPECT_NEAR(trace.mark.x, box.x + box.width * sample.mark / 20.0, 1e-9);
+  const double between = 0.5 * (sample.y[45] + sample.y[46]);  // at 11.375
+  const double slope = (sample.y[46] - sample.y[45]) / 0.25;
+  EXPECT_NEAR(trace.mark.y, box.bottom() - box.height * (between + slope * (11.46 - 11.375)) / 2.0, 1e-9);
+  EXPECT_NEAR(trace.event, box.x + box.width * 19.0 / 20.0, 1e-9);
+  EXPECT_NEAR(trace.curve.at(80).x, box.right(), 1e-9);
+  EXPECT_NEAR(trace.curve.at(0).y, box.bottom() - box.height * 0.05, 1e-9);
+  EXPECT_NEAR(trace.x_ticks.at(1), box.x + 0.25 * box.width, 1e-9);
+  EXPECT_NEAR(trace.y_ticks.at(4), box.y, 1e-9);
+}
+
+TEST(Layout, ATraceMayBeEmptyFlatOrBroken) {
+  const Font font = embedded_font();
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  FrameView view = sample_view();
+  Trace none, flat = test::sample_trace("flat"), broken = test::sample_trace("broken");
+  none.mark = 0.5;
+  flat.y_min = flat.y_max = flat.y[0];
+  broken.y[45] = broken.y[46] = nan;
+  view.traces = {none, flat, broken};
+  const Layout layout = lay_out(view, 1600, font);
+  EXPECT_TRUE(std::isnan(layout.traces.at(0).mark.y));
+  EXPECT_NEAR(layout.traces.at(1).curve.at(0).y, layout.traces[1].box.y + 0.5 * layout.traces[1].box.height,
+              1e-9);
+  EXPECT_TRUE(std::isnan(layout.traces.at(2).mark.y));
+  const Furniture furniture = furnish(view, layout, font, bake_glyphs(layout.em));
+  for (const Line& line : furniture.lines) EXPECT_TRUE(std::isfinite(line.y0) && std::isfinite(line.y1));
+  for (const Disc& disc : furniture.discs) EXPECT_TRUE(std::isfinite(disc.y));
+}
+
 TEST(Layout, GravityArrowPointsAlongGravity) {
   const Font font = embedded_font();
-  FrameView view = synthetic_view(MapKind::gamma);
-  view.tilt = 0.3;
-  const Layout layout = lay_out(view, 1600, font);
-  const Segment shaft = furnish(view, layout, font, bake_glyphs(layout.em)).segments.at(0);
-  EXPECT_NEAR(std::atan2(shaft.x1 - shaft.x0, shaft.y1 - shaft.y0), view.tilt, 1e-5);  // y counts downwards
+  for (double turn : {0.0, 0.1, 0.3}) {
+    FrameView view = sample_view();
+    view.tilt = 0.3;
+    view.turn = turn;
+    view.turn_max = turn;
+    const Layout layout = lay_out(view, 1600, font);
+    const Line shaft = furnish(view, layout, font, bake_glyphs(layout.em)).lines.at(0);
+    EXPECT_NEAR(std::atan2(shaft.x1 - shaft.x0, shaft.y0 - shaft.y1), view.tilt - turn, 1e-5);  // y upwards
+  }
 }
 
 }  // namespace

@@ -10,16 +10,17 @@
 namespace talus {
 namespace {
 
-Image frame(int width, int height, int k) {
-  Image image{width, height, {}};
-  image.gray.assign(static_cast<std::size_t>(width) * static_cast<std::size_t>(height),
-                    static_cast<std::uint8_t>(10 * k));
+/// One colour, that gets lighter.
+Image frame(int width, int height, int channels, int k) {
+  Image image{width, height, channels, {}};
+  for (int pixel = 0; pixel < width * height; ++pixel)
+    for (int c = 0; c < channels; ++c) image.pixels.push_back(static_cast<std::uint8_t>(40 * c + 10 * k));
   return image;
 }
 
-void make_movie(const std::string& path, int frames) {
-  Movie movie(path, 161, 99, 10.0);
-  for (int k = 0; k < frames; ++k) movie.add(frame(161, 99, k));
+void make_movie(const std::string& path, int frames, int channels = 1) {
+  Movie movie(path, 161, 99, channels, 10.0);
+  for (int k = 0; k < frames; ++k) movie.add(frame(161, 99, channels, k));
   movie.finish();
 }
 
@@ -65,19 +66,42 @@ Failure failure_of_movie(const std::string& path, int frames) {
   return {};
 }
 
+bool have_ffmpeg() {
+  return std::system("ffmpeg -version >/dev/null 2>&1") == 0 &&
+         std::system("ffprobe -version >/dev/null 2>&1") == 0;
+}
+
 TEST(Movie, HasAllFrames) {
-  if (std::system("ffmpeg -version >/dev/null 2>&1") != 0 ||
-      std::system("ffprobe -version >/dev/null 2>&1") != 0)
-    GTEST_SKIP() << "ffmpeg or ffprobe is not installed";
+  if (!have_ffmpeg()) GTEST_SKIP() << "ffmpeg or ffprobe is not installed";
   const test::TemporaryFolder folder;
-  for (auto [name, size] : {std::pair{"a.mp4", "162,100,12"}, {"a.gif", "161,99,12"}}) {
-    make_movie(folder.path(name), 12);
-    EXPECT_EQ(
-        output_of(
-            "ffprobe -v error -count_frames -show_entries stream=width,height,nb_read_frames -of csv=p=0 " +
-            folder.path(name)),
-        std::string(size) + "\n");
-  }
+  for (int channels : {1, 3})
+    for (auto [name, size] :
+         {std::pair{"a.mp4", "162,100,12"}, {"a.webm", "161,99,12"}, {"a.gif", "161,99,12"}}) {
+      make_movie(folder.path(name), 12, channels);
+      EXPECT_EQ(
+          output_of(
+              "ffprobe -v error -count_frames -show_entries stream=width,height,nb_read_frames -of csv=p=0 " +
+              folder.path(name)),
+          std::string(size) + "\n")
+          << name << ", " << channels << " channels";
+    }
+}
+
+TEST(Movie, ShowsTheColoursOfItsFrames) {
+  if (!have_ffmpeg()) GTEST_SKIP() << "ffmpeg or ffprobe is not installed";
+  const test::TemporaryFolder folder;
+  for (int channels : {1, 3})
+    for (const char* name : {"a.mp4", "a.webm", "a.gif"}) {
+      make_movie(folder.path(name), 12, channels);
+      const std::string pixel =
+          output_of("ffmpeg -v error -i " + folder.path(name) +
+                    " -vf 'select=eq(n\\,11),crop=2:2:80:50' -frames:v 1 -f rawvideo -pix_fmt rgb24 -");
+      ASSERT_EQ(pixel.size(), 12u) << name;
+      for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(static_cast<std::uint8_t>(pixel[static_cast<std::size_t>(c)]),
+                    110 + (channels == 3 ? 40 * c : 0), 4)
+            << name << ", " << channels << " channels";
+    }
 }
 
 TEST(Movie, SaysThatFfmpegIsMissing) {
@@ -107,18 +131,35 @@ TEST(Movie, LeavesNothingWhenGivenUp) {
   const test::TemporaryFolder folder, tools;
   const SearchPath here(tools.path("") + ":/usr/bin:/bin");
   write_false_ffmpeg(tools.path("ffmpeg"), "exec cat >/dev/null");
-  { Movie movie(folder.path("a.mp4"), 161, 99, 10.0); }
+  { Movie movie(folder.path("a.mp4"), 161, 99, 1, 10.0); }
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
 TEST(Movie, RefusesOtherFormatsAndSizes) {
   const test::TemporaryFolder folder, tools;
-  EXPECT_EQ(failure_of_movie(folder.path("a.avi"), 1).code, ExitCode::usage);
+  const Failure other = failure_of_movie(folder.path("a.avi"), 1);
+  EXPECT_EQ(other.code, ExitCode::usage);
+  for (const char* ending : {".mp4", ".webm", ".gif"})
+    EXPECT_NE(other.message.find(ending), std::string::npos) << other.message;
   EXPECT_EQ(failure_of_movie(folder.path("missing/a.mp4"), 1).code, ExitCode::cannot_create);
   const SearchPath here(tools.path("") + ":/usr/bin:/bin");
   write_false_ffmpeg(tools.path("ffmpeg"), "exec cat >/dev/null");
-  Movie movie(folder.path("a.mp4"), 161, 99, 10.0);
-  EXPECT_THROW(movie.add(frame(161, 98, 0)), Error);
+  Movie movie(folder.path("a.mp4"), 161, 99, 1, 10.0);
+  EXPECT_THROW(movie.add(frame(161, 98, 1, 0)), Error);
+  EXPECT_THROW(movie.add(frame(161, 99, 3, 0)), Error);
+}
+
+TEST(Movie, IsNotTransparent) {
+  const test::TemporaryFolder folder;
+  const std::string path = folder.path("a.webm");
+  try {
+    const Movie movie(path, 160, 100, 4, 10.0);
+    FAIL() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::usage);
+    EXPECT_NE(std::string(error.what()).find("transparent"), std::string::npos) << error.what();
+  }
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
 }  // namespace

@@ -2,78 +2,145 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
-#include <set>
 
-#include "render/png.h"
-#include "render/read_png.h"
+#include "core/errors.h"
+#include "render/gl_objects.h"
+#include "render/golden_picture.h"
+#include "render/recording_target.h"
 #include "render/renderer.h"
-#include "render/synthetic_view.h"
+#include "render/sample_view.h"
 
 namespace talus {
 namespace {
 
-using test::synthetic_view;
+using test::full_view;
+using test::sample_view;
 
-int gray_at(const Image& image, double x, double y) {
-  return image.gray[static_cast<std::size_t>(std::floor(y)) * static_cast<std::size_t>(image.width) +
-                    static_cast<std::size_t>(std::floor(x))];
+/// The pixel at (x, y) as a colour.
+Colour pixel(const Image& image, double x, double y) {
+  const std::size_t place =
+      static_cast<std::size_t>(std::floor(y)) * image.row_bytes() +
+      static_cast<std::size_t>(std::floor(x)) * static_cast<std::size_t>(image.channels);
+  const std::uint8_t* at = image.pixels.data() + place;
+  if (image.channels == 1) return {*at, *at, *at, 255};
+  return {at[0], at[1], at[2], image.channels == 4 ? at[3] : std::uint8_t{255}};
 }
+
+int gray_at(const Image& image, double x, double y) { return pixel(image, x, y).red; }
 
 /// A bed of 10 x 4 m with the discs given and the furniture of a map.
 FrameView view_of(std::vector<Disc> discs) {
-  FrameView view = synthetic_view(MapKind::gamma);
+  FrameView view = sample_view();
   view.discs = std::move(discs);
   view.x_max = 10.0;
-  view.y_min = 0.0;
   view.y_max = 4.0;
   view.scale_length = 1.0;
   return view;
 }
 
-/// Mean absolute difference as a share of the range.
-double mean_difference(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b) {
-  double sum = 0.0;
-  for (std::size_t k = 0; k < a.size(); ++k) sum += std::abs(int{a[k]} - int{b[k]});
-  return sum / (255.0 * static_cast<double>(a.size()));
+Disc shaded(float x, float y, double shade) {
+  return {x, y, 1.0f, gray(shade), gray(std::max(shade, 0.45)), 0.0f};
 }
 
-TEST(Renderer, FillsDiscsWithTheirShade) {
-  Renderer renderer(make_osmesa_context());
-  const FrameView view = view_of({{2, 2, 1, 0.0f}, {5, 2, 1, 0.5f}, {8, 2, 1, 1.0f}});
+Renderer osmesa_renderer() { return Renderer(make_context(ContextKind::osmesa)); }
+
+TEST(Renderer, FillsDiscsWithTheirColour) {
+  Renderer renderer = osmesa_renderer();
+  const Colour orange{230, 120, 10, 255};
+  const FrameView view = view_of({shaded(2, 2, 0.0), {5, 2, 1, orange, black, 0.0f}, shaded(8, 2, 1.0)});
   const Image image = renderer.draw(view, 1000);
-  const Camera camera = lay_out(view, 1000, embedded_font()).camera;
+  EXPECT_EQ(image.channels, 3);
+  const Camera camera = lay_out(view, 1000, renderer.font()).bed.camera;
   const auto at = [&](double x, double y) {
-    return gray_at(image, camera.origin_x + camera.scale * x, camera.origin_y - camera.scale * y);
+    const Point place = camera.project(x, y);
+    return pixel(image, place.x, place.y);
   };
-  EXPECT_EQ(at(2, 2), 255);
-  EXPECT_NEAR(at(5, 2), 128, 1);
-  EXPECT_EQ(at(8, 2), 0);
-  EXPECT_EQ(at(8, 2.98), 0);
-  EXPECT_EQ(at(8, 3.02), 255);
-  EXPECT_EQ(at(3.5, 2), 255);
-  EXPECT_LT(at(2, 2.99), 200) << "a white disc shows its outline";
+  EXPECT_EQ(at(2, 2), white);
+  EXPECT_EQ(at(5, 2), orange);
+  EXPECT_EQ(at(5, 2.99), black) << "the rim";
+  EXPECT_EQ(at(8, 2), black);
+  EXPECT_EQ(at(8, 2.98), black);
+  EXPECT_EQ(at(8, 3.02), white);
+  EXPECT_EQ(at(3.5, 2), white);
+  EXPECT_LT(at(2, 2.99).red, 200) << "a white disc shows its rim";
 }
 
-TEST(Renderer, CutsDiscsAtTheEdgesOfTheBed) {
-  Renderer renderer(make_osmesa_context());
-  const FrameView view = view_of({{0, 2, 1, 1.0f}, {10, 2, 1, 1.0f}, {5, 4, 1, 1.0f}});
+TEST(Renderer, TakesOneChannelWhereAllIsGray) {
+  Renderer renderer = osmesa_renderer();
+  FrameView view = view_of({shaded(2, 2, 0.5)});
+  const Image gray_image = renderer.draw(view, 600);
+  EXPECT_EQ(gray_image.channels, 1);
+  view.coloured = true;
+  const Image image = renderer.draw(view, 600);
+  ASSERT_EQ(image.channels, 3);
+  for (std::size_t k = 0; k < gray_image.pixels.size(); ++k)
+    for (std::size_t channel = 0; channel < 3; ++channel)
+      ASSERT_NEAR(image.pixels[3 * k + channel], gray_image.pixels[k], 1) << k;  // blending rounds
+}
+
+TEST(Renderer, CutsDiscsAndLinesAtTheEdgesOfTheBed) {
+  Renderer renderer = osmesa_renderer();
+  FrameView view = view_of({shaded(0, 2, 1.0), shaded(10, 2, 1.0), shaded(5, 4, 1.0)});
+  view.lines = {{-1, 1, 11, 1, 0.1f, black}};
   const Image image = renderer.draw(view, 1000);
-  const Layout layout = lay_out(view, 1000, embedded_font());
-  const double middle = layout.bed.y + 0.5 * layout.bed.height;
-  EXPECT_EQ(gray_at(image, layout.bed.x, middle), 0);
-  EXPECT_EQ(gray_at(image, layout.bed.x - 1, middle), 255);
-  EXPECT_EQ(gray_at(image, layout.bed.right() - 1, middle), 0);
-  EXPECT_EQ(gray_at(image, layout.bed.right(), middle), 255);
-  EXPECT_EQ(gray_at(image, layout.bed.x + 0.5 * layout.bed.width, layout.bed.y - 1), 255);
+  const Window bed = lay_out(view, 1000, renderer.font()).bed;
+  for (double y : {2.0, 1.0}) {
+    const double row = bed.camera.project(0, y).y;
+    EXPECT_EQ(gray_at(image, bed.box.x, row), 0);
+    EXPECT_EQ(gray_at(image, bed.box.x - 1, row), 255);
+    EXPECT_EQ(gray_at(image, bed.box.right() - 1, row), 0);
+    EXPECT_EQ(gray_at(image, bed.box.right(), row), 255);
+  }
+  EXPECT_EQ(gray_at(image, bed.box.x + 0.5 * bed.box.width, bed.box.y - 1), 255);
+}
+
+TEST(Renderer, CutsATurnedBedAtItsOwnEdges) {
+  Renderer renderer = osmesa_renderer();
+  FrameView view = view_of({shaded(0, 2, 1.0), shaded(10, 2, 1.0), shaded(5, 4, 1.0)});
+  view.lines = {{-1, 1, 11, 1, 0.1f, black}};
+  view.turn = view.turn_max = 0.4;
+  const Image image = renderer.draw(view, 1000);
+  const Camera camera = lay_out(view, 1000, renderer.font()).bed.camera;
+  const auto at = [&](double x, double y) {
+    const Point place = camera.project(x, y);
+    return gray_at(image, place.x, place.y);
+  };
+  for (double y : {2.0, 1.0}) {
+    EXPECT_EQ(at(0.05, y), 0);
+    EXPECT_EQ(at(-0.05, y), 255);
+    EXPECT_EQ(at(9.95, y), 0);
+    EXPECT_EQ(at(10.05, y), 255);
+  }
+  EXPECT_EQ(at(5, 3.95), 0);
+  EXPECT_EQ(at(5, 4.05), 255);
+}
+
+TEST(Renderer, DrawsLinesAboveDiscsInTheirWidth) {
+  Renderer renderer = osmesa_renderer();
+  FrameView view = view_of({shaded(5, 2, 0.0)});
+  view.lines = {{4, 2, 6, 2, 0.2f, gray(0.8)}, {1, 0.5f, 9, 0.5f, 0.0f, black}};
+  const Image image = renderer.draw(view, 1000);
+  const Camera camera = lay_out(view, 1000, renderer.font()).bed.camera;
+  const auto at = [&](double x, double y) {
+    const Point place = camera.project(x, y);
+    return gray_at(image, place.x, place.y);
+  };
+  EXPECT_EQ(at(5, 2), 51);
+  EXPECT_EQ(at(5, 2.18), 51);
+  EXPECT_EQ(at(5, 2.23), 255);
+  EXPECT_EQ(at(6.15, 2), 51) << "round ends";
+  double ink = 0.0;  // across the thin line, px
+  for (int row = -3; row <= 3; ++row)
+    ink += 1.0 - gray_at(image, camera.project(3, 0.5).x, camera.project(3, 0.5).y + row) / 255.0;
+  EXPECT_NEAR(ink, 0.7, 0.2) << "no line is too thin to be seen";
 }
 
 TEST(Renderer, DrawsTheBedAloneWithoutFurniture) {
-  Renderer renderer(make_osmesa_context());
-  FrameView view = view_of({{0, 2, 1, 1.0f}});
+  Renderer renderer = osmesa_renderer();
+  FrameView view = view_of({shaded(0, 2, 1.0)});
   view.furniture = false;
-  view.walls = view.floor_line = true;
+  view.left_wall = view.right_wall = view.floor_line = true;
+  view.traces = {test::sample_trace("p_o")};
   const Image image = renderer.draw(view, 1000);
   ASSERT_EQ(image.width, 1000);
   ASSERT_EQ(image.height, 400);
@@ -85,34 +152,42 @@ TEST(Renderer, DrawsTheBedAloneWithoutFurniture) {
 }
 
 TEST(Renderer, DrawsWallsAndFloorOutsideTheBed) {
-  Renderer renderer(make_osmesa_context());
+  Renderer renderer = osmesa_renderer();
   FrameView view = view_of({});
-  view.walls = view.floor_line = true;
+  view.left_wall = view.right_wall = view.floor_line = true;
   const Image image = renderer.draw(view, 1000);
-  const Layout layout = lay_out(view, 1000, embedded_font());
-  const double middle = layout.bed.y + 0.5 * layout.bed.height;
-  EXPECT_EQ(gray_at(image, layout.bed.x, middle), 255);
-  EXPECT_EQ(gray_at(image, layout.bed.x - 1, middle), 0);
-  EXPECT_EQ(gray_at(image, layout.bed.right(), middle), 0);
-  EXPECT_EQ(gray_at(image, layout.bed.x + 5, layout.bed.bottom()), 0);
+  const Box bed = lay_out(view, 1000, renderer.font()).bed.box;
+  const double middle = bed.y + 0.5 * bed.height;
+  EXPECT_EQ(gray_at(image, bed.x, middle), 255);
+  EXPECT_EQ(gray_at(image, bed.x - 1, middle), 0);
+  EXPECT_EQ(gray_at(image, bed.right(), middle), 0);
+  EXPECT_EQ(gray_at(image, bed.x + 5, bed.bottom()), 0);
+  view.left_wall = false;
+  EXPECT_EQ(gray_at(renderer.draw(view, 1000), bed.x - 1, middle), 255);
 }
 
-TEST(Renderer, GrayBarRunsFromWhiteToBlack) {
-  Renderer renderer(make_osmesa_context());
-  const FrameView view = synthetic_view(MapKind::gamma);
-  const Image image = renderer.draw(view, 1000);
-  const Box bar = lay_out(view, 1000, embedded_font()).bar;
-  const double y = bar.y + 0.5 * bar.height;
-  for (double share : {0.0, 0.25, 0.5, 0.75, 1.0})
-    EXPECT_NEAR(gray_at(image, bar.x + share * (bar.width - 1.0), y), 255.0 * (1.0 - share), 3.0) << share;
+TEST(Renderer, BarRunsThroughItsColours) {
+  Renderer renderer = osmesa_renderer();
+  for (ColourMap map : {ColourMap::gray, ColourMap::viridis, ColourMap::diverging}) {
+    const FrameView view = sample_view(40, 10, map);
+    const Image image = renderer.draw(view, 1000);
+    const Box bar = lay_out(view, 1000, renderer.font()).bars.at(0).box;
+    const double y = bar.y + 0.5 * bar.height;
+    for (double share : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+      const Colour seen = pixel(image, bar.x + share * (bar.width - 1.0), y), wanted = colour_at(map, share);
+      EXPECT_NEAR(seen.red, wanted.red, 4) << share;
+      EXPECT_NEAR(seen.green, wanted.green, 4) << share;
+      EXPECT_NEAR(seen.blue, wanted.blue, 4) << share;
+    }
+  }
 }
 
 TEST(Renderer, EveryTextLeavesInk) {
-  Renderer renderer(make_osmesa_context());
-  for (MapKind kind : {MapKind::gamma, MapKind::overloaded}) {
-    const FrameView view = synthetic_view(kind);
-    const Image image = renderer.draw(view, 1000);
-    for (const PlacedText& text : lay_out(view, 1000, embedded_font()).texts) {
+  Renderer renderer = osmesa_renderer();
+  for (int width : {400, 1600}) {
+    const FrameView view = full_view();
+    const Image image = renderer.draw(view, width);
+    for (const PlacedText& text : lay_out(view, width, renderer.font()).texts) {
       int darkest = 255;
       for (double y = text.box.y; y < text.box.bottom(); y += 1.0)
         for (double x = text.box.x; x < text.box.right(); x += 1.0)
@@ -122,91 +197,201 @@ TEST(Renderer, EveryTextLeavesInk) {
   }
 }
 
-/// Draws the discs of a view inside the box of the bed, as the shader does: an outline, then the fill.
-std::vector<std::uint8_t> drawn_by_cairo(const FrameView& view, const Layout& layout) {
-  const int width = static_cast<int>(layout.bed.width), height = static_cast<int>(layout.bed.height);
+TEST(Renderer, MarksTheFrameOnItsTrace) {
+  Renderer renderer = osmesa_renderer();
+  FrameView view = sample_view();
+  view.traces = {test::sample_trace("p_o")};
+  const Image image = renderer.draw(view, 1600);
+  const PlacedTrace trace = lay_out(view, 1600, renderer.font()).traces.at(0);
+  EXPECT_EQ(gray_at(image, trace.mark.x, trace.mark.y), 0);
+  EXPECT_LT(gray_at(image, trace.curve.at(20).x, trace.curve.at(20).y), 64) << "the curve";
+  EXPECT_EQ(gray_at(image, trace.curve.at(20).x, trace.curve.at(20).y - 20.0), 255);
+}
+
+TEST(Renderer, ClearGroundUnderTheSamePicture) {
+  Renderer renderer = osmesa_renderer();
+  FrameView view = full_view();
+  view.turn = view.turn_max = 0.1;
+  const Image opaque = renderer.draw(view, 700);
+  view.transparent = true;
+  const Image clear = renderer.draw(view, 700);
+  ASSERT_EQ(clear.channels, 4);
+  EXPECT_EQ(pixel(clear, 1, 1).alpha, 0);
+  int worst = 0, nothing = 0;
+  for (int y = 0; y < clear.height; ++y)
+    for (int x = 0; x < clear.width; ++x) {
+      const Colour front = pixel(clear, x, y), seen = pixel(opaque, x, y);
+      nothing += front.alpha == 0;
+      const auto over_white = [&](int channel) {
+        return channel * front.alpha / 255.0 + 255.0 - front.alpha;
+      };
+      worst = std::max({worst, static_cast<int>(std::abs(over_white(front.red) - seen.red)),
+                        static_cast<int>(std::abs(over_white(front.green) - seen.green)),
+                        static_cast<int>(std::abs(over_white(front.blue) - seen.blue))});
+    }
+  EXPECT_LE(worst, 2) << "on white paper it is the opaque one";
+  EXPECT_GT(nothing, clear.width * clear.height / 10);
+}
+
+/// What the bed of a view should look like: discs with their rims as cairo fills them.
+std::vector<Colour> drawn_by_cairo(const FrameView& view, const Window& bed) {
+  const int width = static_cast<int>(bed.box.width), height = static_cast<int>(bed.box.height);
   cairo_surface_t* surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height);
   cairo_t* cairo = cairo_create(surface);
   cairo_set_source_rgb(cairo, 1, 1, 1);
   cairo_paint(cairo);
-  const auto fill_disc = [&](const Disc& disc, double radius, double shade) {
-    const Camera& camera = layout.camera;
-    cairo_set_source_rgb(cairo, 1 - shade, 1 - shade, 1 - shade);
-    cairo_arc(cairo, camera.origin_x + camera.scale * static_cast<double>(disc.x) - layout.bed.x,
-              camera.origin_y - camera.scale * static_cast<double>(disc.y) - layout.bed.y, radius, 0,
-              2 * 3.14159265358979);
+  const Camera& camera = bed.camera;
+  const auto corner = [&](double x, double y) {
+    const Point place = camera.project(x, y);
+    return Point{place.x - bed.box.x, place.y - bed.box.y};
+  };
+  for (auto [x, y] : {std::pair{bed.x_min, bed.y_min},
+                      {bed.x_max, bed.y_min},
+                      {bed.x_max, bed.y_max},
+                      {bed.x_min, bed.y_max}})
+    cairo_line_to(cairo, corner(x, y).x, corner(x, y).y);
+  cairo_clip(cairo);
+  const auto fill_disc = [&](const Disc& disc, double radius, const Colour& colour) {
+    cairo_set_source_rgb(cairo, colour.red / 255.0, colour.green / 255.0, colour.blue / 255.0);
+    const Point centre = corner(static_cast<double>(disc.x), static_cast<double>(disc.y));
+    cairo_arc(cairo, centre.x, centre.y, radius, 0, 2 * 3.14159265358979);
     cairo_fill(cairo);
   };
   for (const Disc& disc : view.discs) {
-    const double radius = layout.camera.scale * static_cast<double>(disc.radius);
-    const double shade = static_cast<double>(disc.shade);
-    fill_disc(disc, radius, std::max(shade, 0.45));
-    fill_disc(disc, radius - std::min(0.18 * radius, 2.0), shade);
+    const double radius = camera.scale * static_cast<double>(disc.radius);
+    fill_disc(disc, radius, disc.rim);
+    fill_disc(disc, radius - std::min(0.18 * radius, 2.0), disc.fill);
+  }
+  for (const Line& line : view.lines) {
+    const Point from = corner(static_cast<double>(line.x0), static_cast<double>(line.y0));
+    const Point to = corner(static_cast<double>(line.x1), static_cast<double>(line.y1));
+    cairo_set_source_rgb(cairo, line.colour.red / 255.0, line.colour.green / 255.0, line.colour.blue / 255.0);
+    cairo_set_line_cap(cairo, CAIRO_LINE_CAP_ROUND);
+    cairo_set_line_width(cairo, 2.0 * std::max(0.35, camera.scale * static_cast<double>(line.half_width)));
+    cairo_move_to(cairo, from.x, from.y);
+    cairo_line_to(cairo, to.x, to.y);
+    cairo_stroke(cairo);
   }
   cairo_surface_flush(surface);
   const unsigned char* data = cairo_image_surface_get_data(surface);
-  std::vector<std::uint8_t> gray;
+  std::vector<Colour> pixels;
   for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) gray.push_back(data[y * cairo_image_surface_get_stride(surface) + 4 * x]);
+    for (int x = 0; x < width; ++x) {
+      const unsigned char* at = data + y * cairo_image_surface_get_stride(surface) + 4 * x;
+      pixels.push_back({at[2], at[1], at[0], 255});
+    }
   cairo_destroy(cairo);
   cairo_surface_destroy(surface);
-  return gray;
+  return pixels;
+}
+
+/// Mean absolute difference of the bed to what cairo draws, as a share of the range.
+double difference_to_cairo(const FrameView& view, int width) {
+  Renderer renderer = osmesa_renderer();
+  const Image image = renderer.draw(view, width);
+  const Window bed = lay_out(view, width, renderer.font()).bed;
+  const std::vector<Colour> wanted = drawn_by_cairo(view, bed);
+  double sum = 0.0;
+  std::size_t k = 0;
+  for (double y = bed.box.y; y < bed.box.bottom(); y += 1.0)
+    for (double x = bed.box.x; x < bed.box.right(); x += 1.0, ++k) {
+      const Colour seen = pixel(image, x, y);
+      sum += std::abs(seen.red - wanted[k].red) + std::abs(seen.green - wanted[k].green) +
+             std::abs(seen.blue - wanted[k].blue);
+    }
+  return sum / (3.0 * 255.0 * static_cast<double>(k));
+}
+
+FrameView for_cairo(FrameView view) {
+  for (Disc& disc : view.discs) disc.hatched = 0.0f;
+  view.left_wall = view.right_wall = false;
+  return view;
 }
 
 TEST(Renderer, AgreesWithCairo) {
-  Renderer renderer(make_osmesa_context());
-  FrameView view = synthetic_view(MapKind::gamma, 60, 12);
-  std::erase_if(view.discs, [](const Disc& disc) { return disc.hatched > 0.5f; });
   for (int width : {400, 1600}) {
-    const Image image = renderer.draw(view, width);
-    const Layout layout = lay_out(view, width, embedded_font());
-    std::vector<std::uint8_t> bed;
-    for (double y = layout.bed.y; y < layout.bed.bottom(); y += 1.0)
-      for (double x = layout.bed.x; x < layout.bed.right(); x += 1.0)
-        bed.push_back(static_cast<std::uint8_t>(gray_at(image, x, y)));
-    EXPECT_LT(mean_difference(bed, drawn_by_cairo(view, layout)), 0.01) << width << " px";
+    EXPECT_LT(difference_to_cairo(for_cairo(sample_view(60, 12)), width), 0.01) << width << " px, gray";
+    FrameView full = for_cairo(full_view(60, 12));
+    EXPECT_LT(difference_to_cairo(full, width), 0.01) << width << " px, colour and lines";
+    full.turn = full.turn_max = 0.3;
+    EXPECT_LT(difference_to_cairo(full, width), 0.01) << width << " px, turned";
   }
+}
+
+TEST(Renderer, SixteenMegapixelsHaveNoSeams) {
+  FrameView view = for_cairo(sample_view(80, 20));
+  view.furniture = false;
+  EXPECT_LT(difference_to_cairo(view, 8000), 0.01);
 }
 
 TEST(Renderer, DrawsTheSameBitsAgain) {
-  const FrameView view = synthetic_view(MapKind::overloaded);
+  const FrameView view = full_view();
   std::vector<std::uint8_t> first;
   for (int context = 0; context < 2; ++context) {
-    Renderer renderer(make_osmesa_context());
-    renderer.draw(synthetic_view(MapKind::gamma), 640);  // what was drawn before leaves no trace
+    Renderer renderer = osmesa_renderer();
+    renderer.draw(sample_view(), 640);  // what was drawn before leaves no trace
     const Image image = renderer.draw(view, 800);
-    if (context == 0) first = image.gray;
-    EXPECT_EQ(image.gray, first);
-    EXPECT_EQ(renderer.draw(view, 800).gray, first);
+    if (context == 0) first = image.pixels;
+    EXPECT_EQ(image.pixels, first);
+    EXPECT_EQ(renderer.draw(view, 800).pixels, first);
   }
 }
 
-TEST(Renderer, DrawsTheSameBitsWithAnyNumberOfThreads) {
-  std::set<std::string> hashes;
-  for (const char* threads : {"0", "1", "2", "4"}) {
-    const std::string command = std::string("LP_NUM_THREADS=") + threads + " '" TALUS_PICTURE_HASH "'";
-    std::FILE* pipe = popen(command.c_str(), "r");
-    char line[64] = "";
-    ASSERT_TRUE(std::fgets(line, sizeof line, pipe)) << command;
-    ASSERT_EQ(pclose(pipe), 0) << command;
-    hashes.insert(line);
-  }
-  EXPECT_EQ(hashes.size(), 1u);
+TEST(Renderer, AsksItsTargetForOneWholePicture) {
+  test::Recording recording;
+  Renderer renderer(std::make_unique<test::RecordingTarget>(recording));
+  FrameView view = full_view();
+  const Image image = renderer.draw(view, 800);
+  const Layout layout = lay_out(view, 800, renderer.font());
+  EXPECT_EQ(image.width, 800);
+  EXPECT_EQ(image.height, layout.height);
+  EXPECT_EQ(recording.begun, 1);
+  EXPECT_EQ(recording.ended, 1);
+  EXPECT_EQ(recording.format, PixelFormat::colour);
+  ASSERT_EQ(recording.discs.size(), 2u) << "the bed, and the furniture";
+  EXPECT_EQ(recording.discs[0].size(), view.discs.size());
+  EXPECT_EQ(recording.disc_windows[0].box.x, layout.bed.box.x);
+  EXPECT_EQ(recording.disc_windows[0].x_max, view.x_max);
+  EXPECT_EQ(recording.discs[1].size(), 3u) << "one swatch, and the marks of two traces";
+  ASSERT_EQ(recording.lines.size(), 2u);
+  EXPECT_EQ(recording.lines[0].size(), view.lines.size());
+  EXPECT_EQ(recording.disc_windows[1].box.height, layout.height);
+  ASSERT_EQ(recording.triangles.size(), 1u);
+
+  view.furniture = false;
+  view.transparent = true;
+  renderer.draw(view, 800);
+  EXPECT_EQ(recording.format, PixelFormat::transparent);
+  EXPECT_EQ(recording.discs.size(), 1u);
+  EXPECT_TRUE(recording.triangles.empty());
 }
 
-/// Says only that something changed. Where the change is wanted, copy the file the message names over the
-/// golden one.
 TEST(Renderer, LooksAsBefore) {
-  Renderer renderer(make_osmesa_context());
-  for (MapKind kind : {MapKind::gamma, MapKind::overloaded}) {
-    const std::string name = "map_" + std::string(map_name(kind)) + ".png";
-    const Image image = renderer.draw(synthetic_view(kind, 30, 6, kind == MapKind::gamma), 400);
-    write_png(TALUS_BINARY_DIR "/" + name, image);
-    const Image golden = test::read_png(TALUS_SOURCE_DIR "/tests/golden/" + name);
-    ASSERT_EQ(image.width, golden.width);
-    ASSERT_EQ(image.height, golden.height) << "see " TALUS_BINARY_DIR "/" << name;
-    // Processors without AVX round otherwise; one grain that moved is several times above this.
-    EXPECT_LT(mean_difference(image.gray, golden.gray), 0.0005) << "see " TALUS_BINARY_DIR "/" << name;
+  Renderer renderer = osmesa_renderer();
+  FrameView turned = full_view(60, 12);
+  turned.turn = 0.15;
+  turned.turn_max = 0.2;
+  test::expect_golden(renderer.draw(sample_view(60, 12), 400), "picture_plain");
+  test::expect_golden(renderer.draw(full_view(60, 12), 400), "picture_full");
+  test::expect_golden(renderer.draw(turned, 400), "picture_turned");
+}
+
+TEST(GlObjects, SayWhichShaderDoesNotCompile) {
+  const std::unique_ptr<Context> context = make_context(ContextKind::osmesa);
+  const Gl gl = load_gl(*context);
+  const std::string good = "#version 330 core\nvoid main() { gl_Position = vec4(0.0); }\n";
+  const std::string bad = "#version 330 core\nvoid main() { no such thing; }\n";
+  const auto bytes = [](const std::string& text) {
+    return std::span(reinterpret_cast<const unsigned char*>(text.data()), text.size());
+  };
+  for (const auto& [vertex, fragment, name] : {std::tuple{bad, good, "try.vert"}, {good, bad, "try.frag"}}) {
+    try {
+      make_program(gl, "try", bytes(vertex), bytes(fragment));
+      ADD_FAILURE() << "compiled";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::unavailable);
+      EXPECT_NE(std::string(error.what()).find(name), std::string::npos) << error.what();
+    }
   }
 }
 

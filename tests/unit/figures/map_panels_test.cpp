@@ -38,6 +38,14 @@ TEST(PanelFrames, NeverShowAFlow) {
   EXPECT_EQ(chosen(tilts, 15.1), (std::vector<double>{0, 5, 10, 14.7})) << "15.2 is nearer to 15";
 }
 
+TEST(PanelFrames, TakeTheFramesThatThereAre) {
+  // A run whose frames begin late, as that of a perturbed bed.
+  std::vector<double> tilts;
+  for (int k = 0; k <= 40; ++k) tilts.push_back(radians(7.0 + 0.25 * k));
+  EXPECT_EQ(chosen(tilts, 16.3), (std::vector<double>{10, 15, 16.25}));
+  EXPECT_EQ(chosen({radians(12.0)}, 12.1), (std::vector<double>{12}));
+}
+
 TEST(PanelShades, AreThoseOfTheFreeGrains) {
   test::Packing packing = test::empty_packing(10.0, true);
   for (int i = 0; i < 4; ++i) test::add_grain(packing, 1.0 + i, 0.5);

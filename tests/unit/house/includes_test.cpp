@@ -29,7 +29,9 @@ const std::map<std::string, std::vector<std::string>> rooms = {
     {"figures",
      {"figures/", "session/", "analysis/", "stress/", "io/", "maps/", "core/", "render/frame_view.h"}},
     {"reproduction", {"reproduction/", "figures/", "session/", "analysis/", "io/", "core/"}},
-    {"maps", {"maps/", "core/", "stress/", "render/frame_view.h"}},
+    {"maps",
+     {"maps/", "analysis/", "core/", "stress/", "render/frame_view.h", "render/colour.h",
+      "render/colour_map.h"}},
     {"render", {"render/", "core/errors.h"}},
     {"app", {""}},
 };

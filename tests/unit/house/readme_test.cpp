@@ -19,9 +19,9 @@ std::string text_of(const std::string& path) {
   return text.str();
 }
 
-/// The lines of the README that are set as commands.
-std::vector<std::string> commands() {
-  std::istringstream text(text_of("README.md"));
+/// The lines of a page that are set as commands.
+std::vector<std::string> commands(const std::string& page = "README.md") {
+  std::istringstream text(text_of(page));
   std::vector<std::string> found;
   for (std::string line; std::getline(text, line);)
     if (line.rfind("    ", 0) == 0) found.push_back(line.substr(4));
@@ -53,6 +53,32 @@ TEST(Readme, commands_name_what_exists) {
       }
     }
   }
+}
+
+TEST(MapsPage, commands_and_options_exist) {
+  ASSERT_GT(commands("docs/maps.md").size(), 3u);
+  std::string sources;
+  for (const char* name :
+       {"map_options", "render_command", "animate_command", "panel_command", "run_command"})
+    sources += text_of(std::string("src/app/") + name + ".cpp");
+  for (const std::string& command : commands("docs/maps.md")) {
+    std::istringstream words(command);
+    std::string program, subcommand;
+    words >> program >> subcommand;
+    EXPECT_EQ(program, "build/release/talus");
+    EXPECT_NE(sources.find("\"" + subcommand + "\", \""), std::string::npos) << command;
+  }
+  const std::string page = text_of("docs/maps.md");
+  int options = 0;
+  for (std::size_t at = page.find("--"); at != std::string::npos; at = page.find("--", at + 1)) {
+    const std::size_t end = page.find_first_not_of("-abcdefghijklmnopqrstuvwxyz", at);
+    const std::string option = page.substr(at, end - at);
+    if (option.find_first_not_of('-') == std::string::npos) continue;  // the line of a table
+    EXPECT_NE(sources.find(option), std::string::npos) << option;
+    ++options;
+    at = end;
+  }
+  EXPECT_GT(options, 20);
 }
 
 TEST(Readme, pages_it_links_to_exist) {

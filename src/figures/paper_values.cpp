@@ -1,4 +1,4 @@
-#include "reproduction/paper_values.h"
+#include "figures/paper_values.h"
 
 namespace talus {
 namespace {

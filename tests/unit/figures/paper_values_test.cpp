@@ -1,6 +1,6 @@
 /// The table of the paper's values: whole, in order, and as the paper prints them.
 
-#include "reproduction/paper_values.h"
+#include "figures/paper_values.h"
 
 #include <gtest/gtest.h>
 

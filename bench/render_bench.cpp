@@ -1,0 +1,72 @@
+/// Drawing a picture of discs, encoding it as PNG, and both for every frame until the file is on disk. Files
+/// go into the current folder. Threads that draw are those of Mesa: LP_NUM_THREADS.
+
+#include <benchmark/benchmark.h>
+
+#include <filesystem>
+#include <future>
+
+#include "pictures.h"
+#include "render/png.h"
+#include "render/renderer.h"
+
+namespace talus::bench {
+namespace {
+
+constexpr const char* frame_file = "render_bench_frame.png";
+
+void draw(benchmark::State& state, const PictureSize& size, bool coloured) {
+  Renderer renderer(make_context(std::nullopt));
+  const FrameView view = picture(size, coloured);
+  for (auto _ : state) benchmark::DoNotOptimize(renderer.draw(view, size.width));
+}
+
+void png(benchmark::State& state, const PictureSize& size, bool coloured) {
+  const Image image = Renderer(make_context(std::nullopt)).draw(picture(size, coloured), size.width);
+  std::size_t bytes = 0;
+  for (auto _ : state) bytes = encode_png(image).size();
+  state.counters["kB"] = static_cast<double>(bytes) / 1000.0;
+}
+
+/// One after the other.
+void frame(benchmark::State& state, const PictureSize& size, bool coloured) {
+  Renderer renderer(make_context(std::nullopt));
+  const FrameView view = picture(size, coloured);
+  for (auto _ : state) write_png(frame_file, renderer.draw(view, size.width));
+  std::filesystem::remove(frame_file);
+}
+
+/// A second thread writes a frame while the next one is drawn.
+void frame_overlapped(benchmark::State& state, const PictureSize& size, bool coloured) {
+  Renderer renderer(make_context(std::nullopt));
+  const FrameView view = picture(size, coloured);
+  std::future<void> written;
+  for (auto _ : state) {
+    Image image = renderer.draw(view, size.width);
+    if (written.valid()) written.get();
+    written = std::async(std::launch::async, [image = std::move(image)] { write_png(frame_file, image); });
+  }
+  written.get();
+  std::filesystem::remove(frame_file);
+}
+
+const bool registered = [] {
+  struct Stage {
+    const char* name;
+    void (*run)(benchmark::State&, const PictureSize&, bool);
+  };
+  for (const Stage& stage : {Stage{"draw", draw}, Stage{"png", png}, Stage{"frame", frame},
+                             Stage{"frame_overlapped", frame_overlapped}})
+    for (const PictureSize& size : {paper_picture, large_picture})
+      for (bool coloured : {false, true}) {
+        const std::string name =
+            std::string(stage.name) + "/" + std::to_string(size.discs()) + (coloured ? "/colour" : "/gray");
+        benchmark::RegisterBenchmark(name.c_str(), stage.run, size, coloured)
+            ->UseRealTime()
+            ->Unit(benchmark::kMillisecond);
+      }
+  return true;
+}();
+
+}  // namespace
+}  // namespace talus::bench

@@ -1,0 +1,44 @@
+#include "render/arrange.h"
+
+#include <algorithm>
+#include <string>
+
+#include "core/errors.h"
+
+namespace talus {
+namespace {
+
+std::uint8_t ground(int channels) { return channels == 4 ? 0 : 255; }
+
+}  // namespace
+
+Image beside(const std::vector<Image>& images) {
+  Image row;
+  for (const Image& image : images) {
+    if (row.width == 0) row.channels = image.channels;
+    if (image.channels != row.channels)
+      throw Error(ExitCode::internal, "images of " + std::to_string(row.channels) + " and " +
+                                          std::to_string(image.channels) + " channels beside each other");
+    row.width += image.width;
+    row.height = std::max(row.height, image.height);
+  }
+  row.pixels.assign(row.row_bytes() * static_cast<std::size_t>(row.height), ground(row.channels));
+  std::size_t left = 0;  // bytes
+  for (const Image& image : images) {
+    for (std::size_t y = 0; y < static_cast<std::size_t>(image.height); ++y)
+      std::copy_n(image.pixels.begin() + static_cast<std::ptrdiff_t>(y * image.row_bytes()),
+                  image.row_bytes(),
+                  row.pixels.begin() + static_cast<std::ptrdiff_t>(y * row.row_bytes() + left));
+    left += image.row_bytes();
+  }
+  return row;
+}
+
+Image padded(Image image, int height) {
+  if (image.height >= height) return image;
+  image.height = height;
+  image.pixels.resize(image.row_bytes() * static_cast<std::size_t>(height), ground(image.channels));
+  return image;
+}
+
+}  // namespace talus

@@ -1,0 +1,123 @@
+#include "render/colour_map.h"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <string>
+
+#include "core/errors.h"
+#include "render/embedded.h"
+
+namespace talus {
+namespace {
+
+struct Name {
+  ColourMap map;
+  std::string_view name;
+};
+constexpr std::array names = {Name{ColourMap::gray, "gray"}, Name{ColourMap::viridis, "viridis"},
+                              Name{ColourMap::cividis, "cividis"}, Name{ColourMap::diverging, "diverging"}};
+
+/// Colours from end to end, evenly spaced.
+using Table = std::vector<Colour>;
+
+/// Reads lines "red green blue"; one that begins with # is a comment.
+Table parse_table(std::span<const unsigned char> file) {
+  const std::string_view text(reinterpret_cast<const char*>(file.data()), file.size());
+  Table table;
+  for (std::size_t start = 0; start < text.size();) {
+    const std::size_t end = std::min(text.find('\n', start), text.size());
+    const char *at = text.data() + start, *const stop = text.data() + end;
+    start = end + 1;
+    if (at == stop || *at == '#') continue;
+    Colour colour;
+    for (std::uint8_t* part : {&colour.red, &colour.green, &colour.blue}) {
+      const auto [next, error] = std::from_chars(at, stop, *part);
+      if (error != std::errc()) throw Error(ExitCode::internal, "a colour map has a line that is no colour");
+      at = next == stop ? next : next + 1;
+    }
+    table.push_back(colour);
+  }
+  return table;
+}
+
+/// A colour of CIELAB, white point D65: lightness 0 ... 100, green to red, blue to yellow.
+struct Lab {
+  double lightness, a, b;
+};
+
+/// The sRGB colour, each channel cut to its range (IEC 61966-2-1).
+Colour srgb(const Lab& lab) {
+  const double f = (lab.lightness + 16.0) / 116.0;
+  const auto linear = [](double t) { return t > 6.0 / 29.0 ? t * t * t : (t - 4.0 / 29.0) * 108.0 / 841.0; };
+  const double x = 0.95047 * linear(f + lab.a / 500.0), y = linear(f),
+               z = 1.08883 * linear(f - lab.b / 200.0);
+  const auto channel = [](double value) {
+    const double coded = value <= 0.0031308 ? 12.92 * value : 1.055 * std::pow(value, 1.0 / 2.4) - 0.055;
+    return static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(coded, 0.0, 1.0)));
+  };
+  return {channel(3.2404542 * x - 1.5371385 * y - 0.4985314 * z),
+          channel(-0.9692660 * x + 1.8760108 * y + 0.0415560 * z),
+          channel(0.0556434 * x - 0.2040259 * y + 1.0572252 * z)};
+}
+
+/// Straight from each end to near white: the lightness changes evenly on each side, and ends at 28 and at 53,
+/// which a gray print tells apart.
+Colour diverging(double share) {
+  constexpr Lab low{28.3, 8.4, -37.6}, middle{97.2, 0.0, 0.0}, high{52.6, 38.3, 56.8};
+  const Lab& end = share < 0.5 ? low : high;
+  const double far = std::abs(2.0 * share - 1.0);
+  return srgb({std::lerp(middle.lightness, end.lightness, far), std::lerp(middle.a, end.a, far),
+               std::lerp(middle.b, end.b, far)});
+}
+
+template <typename Function>
+Table table_of(std::size_t size, const Function& colour) {
+  Table table;
+  for (std::size_t k = 0; k < size; ++k)
+    table.push_back(colour(static_cast<double>(k) / static_cast<double>(size - 1)));
+  return table;
+}
+
+const Table& table(ColourMap map) {
+  static const std::array<Table, names.size()> tables = {
+      table_of(256, gray), parse_table(embedded::viridis), parse_table(embedded::cividis),
+      table_of(511, diverging)};  // odd, so that it has a middle
+  return tables.at(static_cast<std::size_t>(map));
+}
+
+}  // namespace
+
+std::span<const ColourMap> colour_maps() {
+  static constexpr std::array maps = {ColourMap::gray, ColourMap::viridis, ColourMap::cividis,
+                                      ColourMap::diverging};
+  return maps;
+}
+
+std::string_view colour_map_name(ColourMap map) {
+  for (const Name& known : names)
+    if (known.map == map) return known.name;
+  return "";
+}
+
+ColourMap colour_map(std::string_view name) {
+  std::string list;
+  for (const Name& known : names) {
+    if (known.name == name) return known.map;
+    list.append(list.empty() ? "" : ", ").append(known.name);
+  }
+  throw Error(ExitCode::usage,
+              std::string("no colour map \"").append(name).append("\"; there are ").append(list));
+}
+
+Colour colour_at(ColourMap map, double share) {
+  const Table& colours = table(map);
+  const double place = share > 0.0 ? std::min(share, 1.0) : 0.0;  // 0 for NaN too
+  return colours[static_cast<std::size_t>(std::lround(place * static_cast<double>(colours.size() - 1)))];
+}
+
+std::vector<Colour> colour_ramp(ColourMap map) {
+  return table_of(256, [&](double share) { return colour_at(map, share); });
+}
+
+}  // namespace talus

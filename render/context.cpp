@@ -1,0 +1,40 @@
+#include "render/context.h"
+
+#include <string>
+
+#include "core/errors.h"
+
+namespace talus {
+
+std::string_view context_name(ContextKind kind) { return kind == ContextKind::osmesa ? "osmesa" : "egl"; }
+
+std::optional<ContextKind> context_kind(std::string_view name) {
+  if (name == "auto") return std::nullopt;
+  for (const ContextKind kind : {ContextKind::osmesa, ContextKind::egl})
+    if (name == context_name(kind)) return kind;
+  throw Error(ExitCode::usage,
+              std::string("no rendering context \"").append(name).append("\"; there are auto, osmesa, egl"));
+}
+
+std::unique_ptr<Context> make_context(std::optional<ContextKind> kind) {
+  if (!kind) return first_context(make_osmesa_context, make_egl_context);
+  return *kind == ContextKind::osmesa ? make_osmesa_context() : make_egl_context();
+}
+
+std::unique_ptr<Context> first_context(const ContextMaker& first, const ContextMaker& second) {
+  std::string missing;
+  try {
+    return first();
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::unavailable) throw;
+    missing = error.what();
+  }
+  try {
+    return second();
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::unavailable) throw;
+    throw Error(ExitCode::unavailable, missing.append("; ").append(error.what()));
+  }
+}
+
+}  // namespace talus

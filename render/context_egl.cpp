@@ -1,0 +1,99 @@
+#define EGL_NO_X11
+#include <EGL/egl.h>
+#include <EGL/eglext.h>
+#include <dlfcn.h>
+
+#include <array>
+#include <cstdlib>
+#include <string>
+
+#include "core/errors.h"
+#include "render/context.h"
+
+namespace talus {
+namespace {
+
+constexpr const char* library_name = "libEGL.so.1";
+constexpr const char* packages = "apt-get install libegl1 libegl-mesa0 libgl1-mesa-dri";
+
+/// The entry points of libEGL, opened at run time.
+struct Egl {
+  decltype(&eglGetPlatformDisplay) get_display = nullptr;
+  decltype(&eglInitialize) initialize = nullptr;
+  decltype(&eglBindAPI) bind_api = nullptr;
+  decltype(&eglCreateContext) create = nullptr;
+  decltype(&eglMakeCurrent) make_current = nullptr;
+  decltype(&eglGetProcAddress) get_proc = nullptr;
+  decltype(&eglDestroyContext) destroy = nullptr;
+};
+
+[[noreturn]] void refuse(const std::string& what) {
+  throw Error(ExitCode::unavailable, "no EGL context: " + what);
+}
+
+template <typename Pointer>
+void find(void* library, const char* name, Pointer& pointer) {
+  pointer = reinterpret_cast<Pointer>(dlsym(library, name));
+  if (!pointer) refuse(std::string(library_name) + " lacks " + name + "; reinstall libegl1");
+}
+
+Egl open_library() {
+  setenv("MESA_SHADER_CACHE_DISABLE", "true", 0);               // as for OSMesa
+  setenv("LIBGL_ALWAYS_SOFTWARE", "true", 0);                   // the same pictures on a machine with a GPU
+  void* library = dlopen(library_name, RTLD_NOW | RTLD_LOCAL);  // never closed: Mesa keeps thread-local state
+  if (!library) refuse(std::string("cannot load ") + library_name + " (" + dlerror() + "); " + packages);
+  Egl egl;
+  find(library, "eglGetPlatformDisplay", egl.get_display);
+  find(library, "eglInitialize", egl.initialize);
+  find(library, "eglBindAPI", egl.bind_api);
+  find(library, "eglCreateContext", egl.create);
+  find(library, "eglMakeCurrent", egl.make_current);
+  find(library, "eglGetProcAddress", egl.get_proc);
+  find(library, "eglDestroyContext", egl.destroy);
+  return egl;
+}
+
+/// The display belongs to the process: it is not terminated, since other contexts may use it.
+class EglContextOwner final : public Context {
+ public:
+  EglContextOwner() : egl_(open_library()) {
+    display_ = egl_.get_display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
+    if (display_ == EGL_NO_DISPLAY || !egl_.initialize(display_, nullptr, nullptr))
+      refuse(std::string("EGL has no display without a surface; ") + packages);
+    constexpr std::array<EGLint, 7> attributes = {EGL_CONTEXT_MAJOR_VERSION,
+                                                  3,
+                                                  EGL_CONTEXT_MINOR_VERSION,
+                                                  3,
+                                                  EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                                                  EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                                  EGL_NONE};
+    // Neither configuration nor surface: the renderer draws into a framebuffer of its own.
+    if (egl_.bind_api(EGL_OPENGL_API))
+      context_ = egl_.create(display_, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes.data());
+    if (context_ == EGL_NO_CONTEXT)
+      refuse("EGL refuses OpenGL 3.3 core; Talus needs libgl1-mesa-dri of Mesa 20 or later");
+    if (!egl_.make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_)) {
+      egl_.destroy(display_, context_);
+      refuse("EGL makes no context current without a surface; Talus needs Mesa 20 or later");
+    }
+  }
+  ~EglContextOwner() override {
+    egl_.make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    egl_.destroy(display_, context_);
+  }
+  EglContextOwner(const EglContextOwner&) = delete;
+  EglContextOwner& operator=(const EglContextOwner&) = delete;
+
+  Function function(const char* name) const override { return egl_.get_proc(name); }
+
+ private:
+  Egl egl_;
+  EGLDisplay display_ = EGL_NO_DISPLAY;
+  EGLContext context_ = EGL_NO_CONTEXT;
+};
+
+}  // namespace
+
+std::unique_ptr<Context> make_egl_context() { return std::make_unique<EglContextOwner>(); }
+
+}  // namespace talus

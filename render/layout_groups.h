@@ -1,0 +1,39 @@
+#pragma once
+/// The parts that furniture is put together from, each laid out at (0, 0).
+
+#include <string>
+#include <vector>
+
+#include "render/layout.h"
+
+namespace talus {
+
+// In units of the font size.
+inline constexpr double line_height = text_ascent + text_descent;
+inline constexpr double gap_between_groups = 2.0;
+
+struct Group {
+  double width = 0.0, height = 0.0;
+  std::vector<PlacedText> texts;
+  std::vector<PlacedBar> bars;
+  std::vector<PlacedSwatch> swatches;
+  Box scale_bar;
+  Box arrow;
+};
+
+Group text_group(const std::string& text, double em, const Font& font);
+/// A text with a small gravity arrow behind it.
+Group text_with_arrow_group(const std::string& text, double em, const Font& font);
+/// A bar with its title on the left and its ticks below.
+Group bar_group(const Bar& bar, double em, const Font& font);
+Group swatch_group(const Swatch& swatch, double em, const Font& font);
+/// The scale bar with its label below, and the gravity arrow with its label.
+Group scale_group(const FrameView& view, double scale, double em, const Font& font);
+
+/// Places a text with its upper left corner at (x, y).
+PlacedText place_text(const std::string& text, double x, double y, double em, const Font& font);
+
+/// Adds a group to a picture with its upper left corner at (x, y).
+void add_group(Layout& layout, const Group& group, double x, double y);
+
+}  // namespace talus

@@ -1,0 +1,97 @@
+#include "app/picture_key.h"
+
+#include <cstdio>
+#include <filesystem>
+
+#include "core/errors.h"
+#include "core/trigonometry.h"
+#include "core/version.h"
+
+namespace talus {
+namespace {
+
+constexpr const char* keyword = "talus:key";
+
+}  // namespace
+
+PictureKey::PictureKey() { add("talus", version_text()); }
+
+void PictureKey::add(const std::string& name, const std::string& value) {
+  hasher_.add_array(name);
+  hasher_.add_array(value);
+}
+
+void PictureKey::add(const std::string& name, double value) {
+  hasher_.add_array(name);
+  hasher_.add(value);
+}
+
+void PictureKey::add(const std::string& name, const std::vector<double>& values) {
+  hasher_.add_array(name);
+  hasher_.add_array(values);
+}
+
+std::string PictureKey::text() const { return hash_text(hasher_.value()); }
+
+void add_run(PictureKey& key, const RunHeader& header) {
+  key.add("scenario", header.scenario_resolved);
+  key.add("seed", std::to_string(header.seed));
+  for (const auto& [name, value] : header.provenance)
+    if (name == "start" || name == "version" || name == "git_hash") key.add(name, value);
+}
+
+void add_settings(PictureKey& key, const MapSettings& settings, int width, const MapExtent& extent) {
+  key.add("layers", layers_name(settings.layers));
+  key.add("colours", settings.colours ? std::string(colour_map_name(*settings.colours)) : "");
+  key.add("range_low", settings.range_low ? std::vector{*settings.range_low} : std::vector<double>{});
+  key.add("range_high", settings.range_high ? std::vector{*settings.range_high} : std::vector<double>{});
+  key.add("theta_c", settings.theta_c);
+  key.add("theta_c_assumed", settings.theta_c_assumed);
+  key.add("threshold_factor", settings.threshold_factor);
+  key.add("length", settings.length);
+  key.add("joined_by_neighbours", settings.joined_by_neighbours);
+  key.add("turned", settings.turned);
+  key.add("tilt_max", settings.tilt_max);
+  key.add("furniture", settings.furniture);
+  key.add("transparent", settings.transparent);
+  key.add("width", width);
+  key.add("extent", std::vector{extent.x_min, extent.x_max, extent.y_min, extent.y_max});
+}
+
+void add_frame(PictureKey& key, std::int64_t step, double tilt) {
+  key.add("step", std::to_string(step));
+  key.add("tilt", tilt);
+}
+
+PngTexts picture_texts(const std::string& key, const std::string& source) {
+  return {{"Software", version_text()}, {"Source", source}, {keyword, key}};
+}
+
+std::string picture_source(const std::string& run, double tilt, const MapLayers& layers) {
+  return picture_source(run, "frame at " + tilt_text(tilt) + " deg, " + layers_name(layers));
+}
+
+std::string picture_source(const std::string& run, const std::string& shown) {
+  std::string source = std::filesystem::path(run).filename().string() + ", " + shown;
+  for (char& c : source)  // PNG texts are ASCII
+    if (c < ' ' || c > '~') c = '?';
+  return source;
+}
+
+std::string tilt_text(double tilt) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3f", degrees(tilt));
+  return text;
+}
+
+bool is_drawn(const std::string& path, const std::string& key, bool overwrite) {
+  if (!std::filesystem::exists(path)) return false;
+  if (png_text(path, keyword) == key) return true;
+  if (overwrite) return false;
+  throw Error(ExitCode::cannot_create,
+              path +
+                  " exists, and is not the picture that is asked for (another run, other settings, or not "
+                  "made by this version); give --overwrite to replace it, or choose another output");
+}
+
+}  // namespace talus

@@ -1,0 +1,86 @@
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/coarse_graining.h"
+#include "core/errors.h"
+#include "core/trigonometry.h"
+#include "maps/layers.h"
+#include "maps/texts.h"
+
+namespace talus {
+namespace {
+
+/// From white_below to 2 Gamma_c, the scale of the paper's Fig. 10.
+Scale stress_ratio_scale(double gamma_c, const ScaleChoice& choice) {
+  return chosen({ColourMap::gray, white_below, 2.0 * gamma_c}, choice);
+}
+
+/// With ticks at the ends and at Gamma_c.
+Bar stress_ratio_bar(const Scale& scale, double gamma_c, const std::string& title) {
+  constexpr double clear_of_ends = 0.2;  // of the bar, for the labels
+  Bar bar{title, colour_ramp(scale.colours), {{0.0, brief_text(scale.low)}}};
+  const double share = share_of(scale, gamma_c);
+  if (share > clear_of_ends && share < 1.0 - clear_of_ends)
+    bar.ticks.push_back({share, "Γ_c = " + fixed_text(gamma_c, 2)});
+  const bool own_end = scale.high == 2.0 * gamma_c;
+  bar.ticks.push_back({1.0, own_end ? "2Γ_c = " + fixed_text(scale.high, 2) : brief_text(scale.high)});
+  return bar;
+}
+
+/// (s1 + s2) / (rho g D) of each free grain, its stress being its internal moment over its area, rho its mass
+/// over its area.
+std::vector<double> pressures(const Frame& frame, const RunStatics& statics) {
+  std::vector<double> values;
+  for (Index i = 0; i < statics.free_count; ++i) {
+    const double trace = frame.internal_moment[i].xx + frame.internal_moment[i].yy;
+    values.push_back(trace / (statics.mass[i] * statics.gravity * statics.mean_diameter));
+  }
+  return values;
+}
+
+}  // namespace
+
+double gamma_c_of(const MapSettings& settings) { return sine(settings.theta_c); }
+
+double gamma_shade(double gamma, double gamma_c) {
+  if (std::isnan(gamma)) return 0.0;
+  return std::clamp((gamma - white_below) / (2.0 * gamma_c - white_below), 0.0, 1.0);
+}
+
+MapLayer gamma_layer(const MapFrame& of, const MapSettings& settings, const ScaleChoice& choice) {
+  const double gamma_c = gamma_c_of(settings);
+  const Scale scale = stress_ratio_scale(gamma_c, choice);
+  const auto free_grains = std::span(of.frame.gamma).first(static_cast<std::size_t>(of.statics.free_count));
+  return {"Stress ratio γ of each grain",
+          looks_of(scale, free_grains),
+          {},
+          {{stress_ratio_bar(scale, gamma_c, "γ = q/p")}, {}}};
+}
+
+MapLayer coarse_layer(const MapFrame& of, const MapSettings& settings, const ScaleChoice& choice) {
+  const double length = settings.length * of.statics.mean_diameter;
+  if (!(length > 0.0 && length <= of.statics.length))
+    throw Error(ExitCode::usage, "neighbourhoods of " + brief_text(settings.length) +
+                                     " D: expected a diameter above 0, up to the length of the bed, " +
+                                     brief_text(of.statics.length / of.statics.mean_diameter) + " D");
+  const double gamma_c = gamma_c_of(settings);
+  const Scale scale = stress_ratio_scale(gamma_c, choice);
+  return {"Stress ratio γ_l of neighbourhoods, l = " + brief_text(settings.length) + " D",
+          looks_of(scale, coarse_stress_ratio(of.frame, of.statics, length)),
+          {},
+          {{stress_ratio_bar(scale, gamma_c, "γ_l")}, {}}};
+}
+
+MapLayer pressure_layer(const MapFrame& of, const ScaleChoice& choice) {
+  constexpr int most_ticks = 4;
+  // Below a depth H of grains P is about 2 rho g H on the average, and more in force chains.
+  const double largest = 3.0 * std::max(1.0, of.statics.depth / of.statics.mean_diameter);
+  const double step = round_step(largest, most_ticks);
+  const Scale scale = chosen({ColourMap::viridis, 0.0, std::ceil(largest / step) * step}, choice);
+  return {"Pressure in each grain",
+          looks_of(scale, pressures(of.frame, of.statics)),
+          {},
+          {{bar_of(scale, "P = σ_1 + σ_2 in ρgD")}, {}}};
+}
+
+}  // namespace talus

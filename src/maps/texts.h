@@ -1,0 +1,26 @@
+#pragma once
+/// Numbers as the texts of maps have them, and round numbers for their scales.
+
+#include <string>
+#include <vector>
+
+namespace talus {
+
+/// With so many decimals: "0.30".
+std::string fixed_text(double value, int decimals);
+/// As short as can be, with six digits at most: "0.3", "2", "1e-05".
+std::string brief_text(double value);
+
+/// A number on a scale.
+struct RoundTick {
+  double value = 0.0;
+  std::string label;  ///< all of a scale have equally many decimals
+};
+
+/// 1, 2 or 5 times a power of ten: the smallest such step of which at most `most` fit into `width` > 0.
+double round_step(double width, int most);
+
+/// The multiples of the step of round_step between low and high (low < high), both included.
+std::vector<RoundTick> round_ticks(double low, double high, int most);
+
+}  // namespace talus

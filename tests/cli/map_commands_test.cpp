@@ -1,0 +1,290 @@
+/// Maps drawn from a run file: names, what is kept and what is refused, stops, movies, panels.
+
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <thread>
+
+#include "pictures.h"
+#include "process.h"
+
+namespace talus::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A bed of 40 grains with frames at 0, 0.5, 1 and 1.5 deg.
+const char* const tiny_bed =
+    "seed = 3\n[bed]\nlength = 10\ndepth = 4\n[tilt]\nstep = 0.01\nend_angle = 1.5\n[output]\nframe_every = "
+    "0.5\n";
+
+using Words = std::vector<std::string>;
+
+Words operator+(Words words, const Words& more) {
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+class MapCommands : public testing::Test {
+ protected:
+  Outcome talus(const Words& arguments) { return run_talus(arguments, folder_.path()); }
+  void make_run() {
+    write_file(folder_, "bed.toml", tiny_bed);
+    ASSERT_EQ(talus({"run", "bed.toml", "-o", "bed.h5"}).exit_code, 0);
+  }
+  /// Its theta_c is not known: the bed stands.
+  Outcome render(const Words& more) { return talus(Words{"render", "bed.h5", "--theta-c", "20"} + more); }
+  std::set<std::string> files(const char* name) { return names_in(folder_.path() / name); }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(MapCommands, refuse_what_makes_no_sense_before_they_look_for_the_run) {
+  const std::vector<std::pair<Words, std::string>> cases = {
+      {{"--map", "gamm"}, "gamma"},
+      {{"--map", "gamma+forces+critical"}, "two"},
+      {{"--map", "gamma,gamma"}, "twice"},
+      {{}, "--map"},
+      {{"--map", "gamma", "--colours", "rainbow"}, "viridis"},
+      {{"--map", "overloaded", "--colours", "viridis"}, "has a bar"},
+      {{"--map", "gamma", "--trace", "energy"}, "largest_cluster"},
+      {{"--map", "gamma", "--context", "vulkan"}, "osmesa"},
+      {{"--map", "overloaded", "--range", "0,1"}, "no bar"},
+      {{"--map", "gamma,pressure", "--range", "0,1"}, "one by one"},
+      {{"--map", "gamma", "--range", "1,1"}, "LOW < HIGH"},
+      {{"--map", "gamma", "--crop", "5,0,5,2"}, "empty"},
+      {{"--map", "gamma", "--length", "5"}, "coarse"},
+      {{"--map", "gamma", "--since", "1"}, "displacement"},
+      {{"--map", "gamma", "--joined", "neighbours"}, "clusters"},
+      {{"--map", "clusters", "--joined", "glue"}, "neighbours"},
+      {{"--map", "pressure", "--threshold", "2"}, "Gamma_c"},
+      {{"--map", "gamma", "--bare", "--trace", "overloaded"}, "--bare"},
+      {{"--map", "gamma", "--width", "1000000"}, "--width"},
+      {{"--map", "gamma", "--width", "20"}, "--width"},
+  };
+  for (const auto& [arguments, part] : cases) {
+    const Outcome outcome = talus(Words{"render", "none.h5"} + arguments);
+    EXPECT_EQ(outcome.exit_code, 64) << outcome.err;
+    EXPECT_NE(outcome.err.find(part), std::string::npos) << part << ": " << outcome.err;
+  }
+  const std::vector<std::pair<Words, std::string>> others = {
+      {{"animate", "none.h5", "--map", "gamma", "-o", "x.mp4", "--transparent"}, "transparen"},
+      {{"animate", "none.h5", "--map", "gamma,forces", "-o", "x.mp4"}, "one map"},
+      {{"animate", "none.h5", "--map", "gamma", "-o", "x.avi"}, ".webm"},
+      {{"panel", "none.h5", "--map", "gamma", "--at", "0", "-o", "x.png", "--trace", "overloaded"},
+       "--trace"},
+      {{"panel", "none.h5", "--map", "gamma,overloaded,forces", "--at", "0", "-o", "x.png", "--width", "500"},
+       "--width 500"},
+      {{"panel", "none.h5", "--map", "gamma", "--at", "0", "-o", "x.jpg"}, ".png"},
+      {{"run", "none.toml", "--map", "gamma"}, "--frames"},
+      {{"run", "none.toml", "--frames", "maps"}, "--map"},
+      {{"run", "none.toml", "--frames", "maps", "--map", "gamm"}, "gamma"},
+  };
+  for (const auto& [arguments, part] : others) {
+    const Outcome outcome = talus(arguments);
+    EXPECT_EQ(outcome.exit_code, 64) << outcome.err;
+    EXPECT_NE(outcome.err.find(part), std::string::npos) << part << ": " << outcome.err;
+  }
+}
+
+TEST_F(MapCommands, refuse_what_the_run_does_not_have) {
+  make_run();
+  const std::vector<std::tuple<Words, int, std::string>> cases = {
+      {{"render", "bed.h5", "--map", "gamma"}, 65, "--theta-c"},
+      {{"render", "bed.h5", "--map", "pressure", "--trace", "overloaded"}, 65, "--theta-c"},
+      {{"render", "bed.h5", "--map", "pressure", "--crop", "5,0,11,2"}, 64, "leaves the bed"},
+      {{"render", "bed.h5", "--map", "pressure", "--crop", "0,0,5,50"}, 64, "leaves the bed"},
+      {{"render", "bed.h5", "--map", "rotation", "--since", "3"}, 65, "1.50"},
+      {{"render", "bed.h5", "--map", "pressure", "--at", "30"}, 65, "--at 30"},
+      {{"render", "bed.h5", "--map", "pressure", "--flow"}, 65, "after_failure"},
+  };
+  for (const auto& [arguments, code, part] : cases) {
+    const Outcome outcome = talus(arguments);
+    EXPECT_EQ(outcome.exit_code, code) << outcome.err;
+    EXPECT_NE(outcome.err.find(part), std::string::npos) << part << ": " << outcome.err;
+    EXPECT_FALSE(fs::exists(folder_.path() / "bed-maps")) << "nothing is made before all is checked";
+  }
+}
+
+TEST_F(MapCommands, pictures_are_named_by_layers_and_angle) {
+  make_run();
+  const Outcome outcome = render({"--map", "gamma+forces,displacement", "--every", "0.5", "-o", "maps"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(files("maps"), (std::set<std::string>{"gamma+forces_000.00.png", "gamma+forces_000.50.png",
+                                                  "gamma+forces_001.00.png", "gamma+forces_001.50.png",
+                                                  "displacement_000.00.png", "displacement_000.50.png",
+                                                  "displacement_001.00.png", "displacement_001.50.png"}));
+  const std::string picture = file_bytes(folder_.path() / "maps/gamma+forces_001.00.png");
+  EXPECT_NE(picture.find("bed.h5, frame at 1.000 deg, gamma+forces"), std::string::npos);
+  EXPECT_NE(picture.find("Software"), std::string::npos);
+}
+
+TEST_F(MapCommands, every_map_and_option_draws) {
+  make_run();
+  const std::vector<Words> cases = {
+      {"--map", "gamma,overloaded,clusters,coarse,pressure,displacement,rotation,forces,critical", "--length",
+       "3"},
+      {"--map", "coarse+displacement", "--length", "3", "--since", "0.5", "--turned", "--colours", "cividis"},
+      {"--map", "clusters+critical", "--joined", "neighbours", "--threshold", "2", "--transparent", "--trace",
+       "overloaded,largest_cluster,stress_ratio,volume_strain"},
+      {"--map", "pressure", "--range", "0,5", "--colours", "diverging", "--crop", "2,0,8,3", "--bare"},
+  };
+  for (std::size_t k = 0; k < cases.size(); ++k) {
+    const std::string name = "maps" + std::to_string(k);
+    const Outcome outcome = render(cases[k] + Words{"--at", "1", "--width", "600", "-o", name});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_EQ(outcome.err, "");
+    EXPECT_EQ(files(name.c_str()).size(), k == 0 ? 9u : 1u);
+  }
+}
+
+TEST_F(MapCommands, pictures_that_are_right_are_kept_and_the_others_refused) {
+  make_run();
+  const Words first = {"--map", "overloaded", "--every", "0.5", "--width", "400", "-o", "maps"};
+  ASSERT_EQ(render(first).exit_code, 0);
+  const fs::path kept = folder_.path() / "maps/overloaded_000.50.png";
+  const std::string bytes = file_bytes(kept);
+  fs::last_write_time(kept, fs::file_time_type{});
+  fs::remove(folder_.path() / "maps/overloaded_001.00.png");
+
+  const Outcome again = render(first);
+  EXPECT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_NE(again.out.find("4 pictures in maps, 3 of them there before"), std::string::npos) << again.out;
+  EXPECT_EQ(fs::last_write_time(kept), fs::file_time_type{}) << "it was written again";
+  EXPECT_EQ(files("maps").size(), 4u);
+
+  for (const Words& change : std::vector<Words>{{"--threshold", "2"},
+                                                {"--trace", "volume_strain"},
+                                                {"--turned"},
+                                                {"--bare"},
+                                                {"--transparent"},
+                                                {"--crop", "1,0,9,3"}}) {
+    const Outcome refused = render(first + change);
+    EXPECT_EQ(refused.exit_code, 73) << change[0];
+    EXPECT_NE(refused.err.find("--overwrite"), std::string::npos) << refused.err;
+    EXPECT_EQ(file_bytes(kept), bytes) << change[0];
+  }
+  EXPECT_EQ(render(first + Words{"--turned", "--overwrite"}).exit_code, 0);
+  EXPECT_NE(file_bytes(kept), bytes);
+  EXPECT_EQ(render(first + Words{"--turned"}).exit_code, 0) << "those are kept now";
+}
+
+TEST_F(MapCommands, pictures_of_another_run_are_not_taken_for_those_of_this_one) {
+  make_run();
+  const Words drawn = {"--map", "pressure", "--at", "1", "-o", "maps"};
+  ASSERT_EQ(render(drawn).exit_code, 0);
+  ASSERT_EQ(talus({"run", "bed.toml", "-o", "bed.h5", "--overwrite", "--seed", "4"}).exit_code, 0);
+  EXPECT_EQ(render(drawn).exit_code, 73);
+}
+
+TEST_F(MapCommands, a_foreign_file_is_refused_before_anything_is_drawn) {
+  make_run();
+  fs::create_directory(folder_.path() / "maps");
+  write_file(folder_, "maps/pressure_001.50.png", "precious");
+  EXPECT_EQ(render({"--map", "pressure", "--every", "0.5", "-o", "maps"}).exit_code, 73);
+  EXPECT_EQ(files("maps"), (std::set<std::string>{"pressure_001.50.png"}));
+  EXPECT_EQ(file_bytes(folder_.path() / "maps/pressure_001.50.png"), "precious");
+  write_file(folder_, "file", "");
+  EXPECT_EQ(render({"--map", "pressure", "-o", "file/maps"}).exit_code, 73) << "no folder there";
+}
+
+TEST_F(MapCommands, a_frame_has_the_same_colours_alone_as_among_all) {
+  make_run();
+  const Words clusters = {"--map", "clusters", "--threshold", "0.5"};
+  ASSERT_EQ(render(clusters + Words{"--at", "1.5", "-o", "one"}).exit_code, 0);
+  ASSERT_EQ(render(clusters + Words{"--every", "0.5", "-o", "all"}).exit_code, 0);
+  EXPECT_EQ(file_bytes(folder_.path() / "one/clusters_001.50.png"),
+            file_bytes(folder_.path() / "all/clusters_001.50.png"));
+}
+
+TEST_F(MapCommands, without_a_context_nothing_is_made) {
+  make_run();
+  setenv("MESA_GL_VERSION_OVERRIDE", "3.0", 1);
+  const Outcome outcome = render({"--map", "pressure", "-o", "maps"});
+  const Outcome run = talus({"run", "bed.toml", "-o", "more.h5", "--frames", "frames", "--map", "pressure"});
+  unsetenv("MESA_GL_VERSION_OVERRIDE");
+  EXPECT_EQ(outcome.exit_code, 69);
+  EXPECT_NE(outcome.err.find("OpenGL 3.3"), std::string::npos) << outcome.err;
+  EXPECT_FALSE(fs::exists(folder_.path() / "maps"));
+  EXPECT_EQ(run.exit_code, 69) << "it would compute for hours and draw nothing";
+  EXPECT_FALSE(fs::exists(folder_.path() / "more.h5.run"));
+}
+
+TEST_F(MapCommands, a_full_disk_leaves_no_part_of_a_picture) {
+  make_run();
+  // No file may grow beyond a block; the write fails as on a full disk.
+  const std::string command = "cd '" + folder_.path().string() + "' && ulimit -f 1 && trap '' XFSZ && '" +
+                              TALUS_PROGRAM + "' render bed.h5 --map pressure -o maps 2> /dev/null";
+  const int status = std::system(("sh -c \"" + command + "\"").c_str());
+  EXPECT_EQ(WEXITSTATUS(status), 74);
+  EXPECT_EQ(files("maps"), std::set<std::string>{});
+}
+
+TEST_F(MapCommands, a_stopped_job_is_taken_up_where_it_was) {
+  make_run();
+  const Words job = {"render",  "bed.h5", "--map",   "pressure,rotation,forces,critical,displacement",
+                     "--every", "0.5",    "--width", "6000",
+                     "-o",      "maps"};
+  const pid_t process = start_talus(job, folder_.path());
+  for (int wait = 0; wait < 1000 && files("maps").empty(); ++wait)
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  kill(process, SIGTERM);
+  ASSERT_EQ(wait_for(process), 75) << "it was done before it could be stopped: nothing was tested";
+  const std::size_t there = files("maps").size();
+  EXPECT_LT(there, 20u);
+  for (const std::string& name : files("maps"))
+    EXPECT_TRUE(file_bytes(folder_.path() / "maps" / name).ends_with("IEND\xae\x42\x60\x82")) << name;
+  const Outcome rest = talus(job);
+  EXPECT_EQ(rest.exit_code, 0) << rest.err;
+  EXPECT_NE(rest.out.find("20 pictures in maps, " + std::to_string(there) + " of them there before"),
+            std::string::npos)
+      << rest.out;
+}
+
+TEST_F(MapCommands, a_panel_stacks_angles_and_sets_maps_beside_each_other) {
+  make_run();
+  const Words one = {"panel", "bed.h5", "--map", "pressure", "--width", "600"};
+  const auto shape = [this](const char* name) { return picture_size(folder_.path() / name); };
+  ASSERT_EQ(talus(one + Words{"--at", "0", "-o", "one.png"}).exit_code, 0);
+  ASSERT_EQ(talus(one + Words{"--at", "0,0.5,1", "-o", "three.png"}).exit_code, 0);
+  const Words two = {"panel", "bed.h5", "--map", "pressure,forces", "--at", "0,0.5,1", "--width", "1200"};
+  const Outcome made = talus(two + Words{"-o", "two.png"});
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  EXPECT_EQ(shape("three.png").width, 600);
+  EXPECT_GT(shape("three.png").height, 2 * shape("one.png").height);
+  EXPECT_LT(shape("three.png").height, 3 * shape("one.png").height) << "one legend for all";
+  EXPECT_EQ(shape("two.png").width, 1200);
+  EXPECT_NE(talus(two + Words{"-o", "two.png"}).out.find("there before"), std::string::npos);
+  EXPECT_EQ(talus(one + Words{"--at", "0", "-o", "two.png"}).exit_code, 73);
+  EXPECT_EQ(talus(one + Words{"--at", "0", "-o", "two.png", "--overwrite"}).exit_code, 0);
+}
+
+TEST_F(MapCommands, a_movie_follows_the_tilt) {
+  if (std::system("ffmpeg -version > /dev/null 2>&1") != 0) GTEST_SKIP() << "ffmpeg is not installed";
+  make_run();
+  const Words movie = {"animate", "bed.h5", "--map", "pressure", "--width", "300"};
+  const Outcome plain = talus(movie + Words{"-o", "a.gif"});
+  ASSERT_EQ(plain.exit_code, 0) << plain.err;
+  EXPECT_NE(plain.out.find("4 frames, 0.4 s"), std::string::npos) << plain.out;
+  // 1.5 deg in 3 s at 10 frames a second, the last of them held for 1 s more.
+  const Outcome timed = talus(movie + Words{"--speed", "0.5", "-o", "b.webm"});
+  ASSERT_EQ(timed.exit_code, 0) << timed.err;
+  EXPECT_NE(timed.out.find("41 frames, 4.1 s"), std::string::npos) << timed.out;
+  EXPECT_EQ(talus(movie + Words{"-o", "a.gif"}).exit_code, 73);
+}
+
+TEST_F(MapCommands, a_run_without_frames_has_no_maps) {
+  write_file(folder_, "long.toml", "[bed]\nlength = 50\ndepth = 20\n[output]\ncheckpoint_every = 0\n");
+  const pid_t process = start_talus({"run", "long.toml", "-o", "bed.h5"}, folder_.path());
+  for (int wait = 0; wait < 1000 && !fs::exists(folder_.path() / "bed.h5.run/manifest"); ++wait)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  kill(process, SIGKILL);
+  wait_for(process);
+  const Outcome outcome = render({"--map", "pressure"});
+  EXPECT_EQ(outcome.exit_code, 65);
+  EXPECT_NE(outcome.err.find("no frames"), std::string::npos) << outcome.err;
+}
+
+}  // namespace
+}  // namespace talus::test

@@ -1,0 +1,30 @@
+#pragma once
+/// Comparison with pictures that were looked at. It says only that something changed: where the change is
+/// wanted, copy the file that the message names over the golden one.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "render/png.h"
+#include "render/read_png.h"
+
+namespace talus::test {
+
+/// Compares with tests/golden/NAME.png, and leaves the picture beside the tests.
+inline void expect_golden(const Image& image, const std::string& name) {
+  const std::string drawn = std::string(TALUS_BINARY_DIR "/").append(name).append(".png");
+  write_png(drawn, image);
+  const Image golden = read_png(std::string(TALUS_SOURCE_DIR "/tests/golden/").append(name).append(".png"));
+  ASSERT_EQ(image.width, golden.width) << "see " << drawn;
+  ASSERT_EQ(image.height, golden.height) << "see " << drawn;
+  ASSERT_EQ(image.channels, golden.channels) << "see " << drawn;
+  double difference = 0.0;
+  for (std::size_t k = 0; k < image.pixels.size(); ++k)
+    difference += std::abs(int{image.pixels[k]} - int{golden.pixels[k]});
+  // Processors without AVX round otherwise; one disc that moved is several times above this.
+  EXPECT_LT(difference / (255.0 * static_cast<double>(image.pixels.size())), 0.0005) << "see " << drawn;
+}
+
+}  // namespace talus::test

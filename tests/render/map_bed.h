@@ -1,0 +1,56 @@
+#pragma once
+/// Maps of packings made by hand: D = 1 m, grains of 2 kg/m^2, gravity 10 m/s^2.
+
+#include <string>
+#include <vector>
+
+#include "core/trigonometry.h"
+#include "maps/maps.h"
+#include "unit/analysis/packings.h"
+
+namespace talus::test {
+
+/// What packings leave out and maps need: angles, images, masses.
+inline void complete(Packing& packing) {
+  const std::size_t count = packing.frame.x.size();
+  packing.frame.angle.assign(count, 0.0);
+  packing.frame.image.assign(count, 0);
+  packing.statics.gravity = 10.0;
+  packing.statics.mass.clear();
+  for (const double radius : packing.statics.radius)
+    packing.statics.mass.push_back(2.0 * pi * radius * radius);
+}
+
+/// Free grains of radius 0.5 side by side above y = 0, with these gamma.
+inline Packing row_of_grains(const std::vector<double>& gamma, bool periodic = false) {
+  Packing packing = empty_packing(static_cast<double>(gamma.size()), periodic);
+  for (std::size_t i = 0; i < gamma.size(); ++i) add_grain(packing, 0.5 + static_cast<double>(i), 0.5);
+  packing.frame.gamma = gamma;
+  complete(packing);
+  return packing;
+}
+
+/// Gamma_c = sin 30 deg = 0.5.
+inline MapSettings settings_of(const std::string& layers) {
+  MapSettings settings;
+  settings.layers = map_layers(layers);
+  settings.theta_c = radians(30.0);
+  return settings;
+}
+
+inline MapExtent extent_of(const Packing& packing) {
+  MapExtent extent = bed_extent(packing.statics);
+  extend(extent, packing.frame, packing.statics);
+  return extent;
+}
+
+inline FrameView map_of(const Packing& packing, const MapSettings& settings, const Frame* reference = nullptr,
+                        bool per_degree = true) {
+  return make_map({packing.frame, packing.statics, reference, per_degree, {}}, settings, extent_of(packing));
+}
+
+inline FrameView map_of(const Packing& packing, const std::string& layers) {
+  return map_of(packing, settings_of(layers));
+}
+
+}  // namespace talus::test

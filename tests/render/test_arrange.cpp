@@ -1,0 +1,30 @@
+/// Pictures put beside each other.
+
+#include <gtest/gtest.h>
+
+#include "core/errors.h"
+#include "render/arrange.h"
+
+namespace talus {
+namespace {
+
+TEST(Arrange, images_stand_beside_each_other_on_white_ground) {
+  const Image a{1, 2, 1, {10, 20}}, b{2, 1, 1, {30, 40}};
+  const Image row = beside({a, b});
+  EXPECT_EQ(row.width, 3);
+  EXPECT_EQ(row.height, 2);
+  EXPECT_EQ(row.pixels, (std::vector<std::uint8_t>{10, 30, 40, 20, 255, 255}));
+}
+
+TEST(Arrange, ground_is_clear_where_images_are) {
+  const Image a{1, 1, 4, {1, 2, 3, 4}};
+  EXPECT_EQ(padded(a, 2).pixels, (std::vector<std::uint8_t>{1, 2, 3, 4, 0, 0, 0, 0}));
+  EXPECT_EQ(padded(a, 1).pixels, a.pixels);
+  EXPECT_EQ(beside({a, padded(a, 2)}).pixels,
+            (std::vector<std::uint8_t>{1, 2, 3, 4, 1, 2, 3, 4, 0, 0, 0, 0, 0, 0, 0, 0}));
+}
+
+TEST(Arrange, channels_must_agree) { EXPECT_THROW(beside({{1, 1, 1, {0}}, {1, 1, 3, {0, 0, 0}}}), Error); }
+
+}  // namespace
+}  // namespace talus

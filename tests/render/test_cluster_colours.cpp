@@ -1,0 +1,179 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "maps/cluster_colours.h"
+#include "maps/cluster_frame.h"
+#include "render/map_bed.h"
+
+namespace talus {
+namespace {
+
+using test::map_of;
+using test::Packing;
+using test::settings_of;
+
+/// Grains in a row, one letter each; grains with the same letter are a cluster, a dot is in none.
+Clusters clusters_of(const std::string& letters) {
+  std::vector<std::pair<Index, char>> sizes;
+  for (const char letter : std::set<char>(letters.begin(), letters.end()))
+    if (letter != '.') sizes.emplace_back(-static_cast<Index>(std::ranges::count(letters, letter)), letter);
+  std::ranges::sort(sizes);
+  Clusters clusters;
+  std::map<char, Index> label = {{'.', -1}};
+  for (const auto& [size, letter] : sizes) {
+    label[letter] = clusters.count();
+    clusters.size.push_back(-size);
+    clusters.members += -size;
+  }
+  for (const char letter : letters) clusters.label.push_back(label[letter]);
+  return clusters;
+}
+
+std::string times(int count, char letter) { return std::string(static_cast<std::size_t>(count), letter); }
+
+TEST(ClusterColours, KeepTheirsWhileClustersGrowAndShrink) {
+  ClusterColours colours;
+  const auto first = colours.next(clusters_of(times(20, 'a') + times(15, 'b') + times(15, '.')));
+  ASSERT_EQ(first.size(), 2u);
+  EXPECT_NE(first[0].palette_index, first[1].palette_index);
+  // b becomes the larger one.
+  const auto second = colours.next(clusters_of(times(12, 'a') + times(8, '.') + times(30, 'b')));
+  EXPECT_EQ(second[0].track, first[1].track);
+  EXPECT_EQ(second[0].palette_index, first[1].palette_index);
+  EXPECT_EQ(second[1].track, first[0].track);
+  EXPECT_EQ(second[1].palette_index, first[0].palette_index);
+}
+
+TEST(ClusterColours, AMergerTakesTheColourOfTheLarger) {
+  ClusterColours colours;
+  const auto parts = colours.next(clusters_of(times(15, 'a') + "." + times(20, 'b')));
+  const auto whole = colours.next(clusters_of(times(36, 'c')));
+  EXPECT_EQ(whole[0].track, parts[0].track);
+  EXPECT_EQ(whole[0].palette_index, parts[0].palette_index);
+}
+
+TEST(ClusterColours, TheLargestPieceOfASplitKeepsTheColour) {
+  ClusterColours colours;
+  const auto whole = colours.next(clusters_of(times(40, 'a')));
+  // The second piece is the larger cluster now, but it has less of the old one.
+  const auto pieces = colours.next(clusters_of(times(22, 'a') + "." + times(17, 'b') + times(20, 'b')));
+  ASSERT_EQ(pieces.size(), 2u);
+  EXPECT_EQ(pieces[1].track, whole[0].track);
+  EXPECT_NE(pieces[0].track, whole[0].track);
+  EXPECT_NE(pieces[0].palette_index, whole[0].palette_index);
+}
+
+TEST(ClusterColours, SmallClustersHaveNoneUntilTheyGrow) {
+  ClusterColours colours;
+  const auto small = colours.next(clusters_of(times(9, 'a')));
+  EXPECT_EQ(small[0].palette_index, -1);
+  EXPECT_EQ(small[0].track, 0);
+  const auto grown = colours.next(clusters_of(times(10, 'a')));
+  EXPECT_EQ(grown[0].track, 0);
+  EXPECT_GE(grown[0].palette_index, 0);
+  const auto shrunk = colours.next(clusters_of(times(3, 'a')));
+  EXPECT_EQ(shrunk[0].palette_index, grown[0].palette_index) << "what has a colour keeps it";
+}
+
+TEST(ClusterColours, ANewClusterTakesTheColourThatTheFewestGrainsWear) {
+  ClusterColours colours;
+  std::string letters;
+  const auto palette = static_cast<int>(cluster_palette().size());
+  for (int k = 0; k < palette; ++k) letters += times(10 + k, static_cast<char>('a' + k));
+  const auto first = colours.next(clusters_of(letters));
+  std::set<int> used;
+  for (const ClusterColour& colour : first) used.insert(colour.palette_index);
+  EXPECT_EQ(used.size(), static_cast<std::size_t>(palette)) << "all colours before any twice";
+  const int least = first.back().palette_index;  // of the smallest cluster
+  const auto second = colours.next(clusters_of(letters + times(10, 'z')));
+  EXPECT_EQ(second.back().palette_index, least);
+}
+
+TEST(ClusterColours, AVanishedClusterDoesNotComeBack) {
+  ClusterColours colours;
+  const auto before = colours.next(clusters_of(times(12, 'a')));
+  EXPECT_TRUE(colours.next(clusters_of(times(12, '.'))).empty());
+  EXPECT_NE(colours.next(clusters_of(times(12, 'a')))[0].track, before[0].track);
+}
+
+TEST(ClusterPalette, IsDarkerThanWhiteAndOfDifferentColours) {
+  const std::vector<Colour> palette = cluster_palette();
+  EXPECT_GE(palette.size(), 12u);
+  for (std::size_t k = 0; k < palette.size(); ++k) {
+    EXPECT_LT(luma(palette[k]), 205.0);
+    for (std::size_t other = 0; other < k; ++other)
+      EXPECT_GT(std::abs(palette[k].red - palette[other].red) +
+                    std::abs(palette[k].green - palette[other].green) +
+                    std::abs(palette[k].blue - palette[other].blue),
+                60);
+  }
+}
+
+/// A column of three overloaded grains from floor to surface with a force between them, twelve more in a row
+/// at the bottom that join by forces, and beside it three grains that are not overloaded.
+Packing bed_with_clusters() {
+  Packing packing = test::empty_packing(20.0, false);
+  for (int k = 0; k < 12; ++k) test::add_grain(packing, 4.5 + k, 0.5);
+  for (int k = 0; k < 3; ++k) test::add_grain(packing, 2.5, 0.5 + k);
+  for (int k = 0; k < 3; ++k) test::add_grain(packing, 18.5, 0.5 + k);
+  for (Index i = 0; i < 11; ++i) test::add_contact(packing, i, i + 1, 1.0);
+  for (Index i : {12, 13}) test::add_contact(packing, i, i + 1, 1.0);
+  packing.frame.gamma.assign(15, 0.9);
+  packing.frame.gamma.resize(18, 0.1);
+  test::complete(packing);
+  return packing;
+}
+
+TEST(ClustersMap, ColoursClustersAndMarksThoseThatSpan) {
+  Packing packing = bed_with_clusters();
+  test::add_grain(packing, 10.0, 3.0);  // above the row, so that it does not reach the surface
+  for (int k = 0; k < 14; ++k) test::add_grain(packing, 4.0 + k, 3.0);
+  packing.frame.gamma.resize(packing.frame.x.size(), 0.1);
+  test::complete(packing);
+  const FrameView view = map_of(packing, "clusters");
+  const std::vector<Colour> palette = cluster_palette();
+  EXPECT_EQ(view.discs[0].fill, palette[0]);
+  EXPECT_NE(view.discs[0].rim, black);
+  EXPECT_EQ(view.discs[12].fill, gray(0.4)) << "three grains have no colour";
+  EXPECT_EQ(view.discs[12].rim, black) << "but they span";
+  EXPECT_EQ(view.discs[15].fill, white);
+  EXPECT_EQ(view.title, "2 clusters; the largest has 80 % of the overloaded grains");
+  EXPECT_EQ(view.legends[0].swatches[0].label, "spans floor to surface");
+  EXPECT_EQ(view.legends[0].swatches[0].fill, gray(0.4));
+}
+
+TEST(ClustersMap, SaysNothingOfSpanningWhereNoClusterSpans) {
+  Packing packing = bed_with_clusters();
+  packing.frame.gamma.assign(packing.frame.gamma.size(), 0.1);
+  const FrameView view = map_of(packing, "clusters");
+  EXPECT_EQ(view.title, "No clusters of overloaded grains");
+  for (const Swatch& swatch : view.legends[0].swatches)
+    EXPECT_EQ(swatch.label.find("spans"), std::string::npos) << swatch.label;
+}
+
+TEST(ClustersMap, TakesTheColoursThatAreGiven) {
+  const Packing packing = bed_with_clusters();
+  const std::vector<ClusterColour> colours = {{7, 5}, {8, -1}};
+  const FrameView view = make_map({packing.frame, packing.statics, nullptr, true, colours},
+                                  settings_of("clusters"), test::extent_of(packing));
+  EXPECT_EQ(view.discs[0].fill, cluster_palette()[5]);
+  EXPECT_EQ(view.discs[12].fill, gray(0.4));
+}
+
+TEST(OverloadedClusters, AreJoinedByForcesOrByNeighbours) {
+  Packing packing = test::row_of_grains({0.9, 0.9, 0.4, 0.9});
+  MapSettings settings = settings_of("clusters");
+  EXPECT_EQ(overloaded_clusters(packing.frame, packing.statics, settings).count(), 3) << "no force";
+  settings.joined_by_neighbours = true;
+  EXPECT_EQ(overloaded_clusters(packing.frame, packing.statics, settings).count(), 2);
+  settings.threshold_factor = 0.5;
+  EXPECT_EQ(overloaded_clusters(packing.frame, packing.statics, settings).count(), 1);
+  settings.threshold_factor = 2.0;
+  EXPECT_EQ(overloaded_clusters(packing.frame, packing.statics, settings).count(), 0);
+}
+
+}  // namespace
+}  // namespace talus

@@ -1,0 +1,77 @@
+#include <gtest/gtest.h>
+
+#include <set>
+#include <string>
+
+#include "core/errors.h"
+#include "maps/map_kind.h"
+#include "maps/traces.h"
+
+namespace talus {
+namespace {
+
+template <typename Call>
+ExitCode code_of(const Call& call) {
+  try {
+    call();
+  } catch (const Error& error) {
+    return error.code();
+  }
+  return ExitCode::done;
+}
+
+TEST(MapKinds, HaveNamesOfTheirOwnThatAreFoundAgain) {
+  std::set<std::string_view> names;
+  for (const MapKind kind : map_kinds()) {
+    names.insert(map_name(kind));
+    EXPECT_EQ(map_layers(map_name(kind)), MapLayers{kind});
+    EXPECT_FALSE(map_help(kind).empty());
+  }
+  EXPECT_EQ(names.size(), 9u);
+  EXPECT_EQ(map_name(MapKind::forces), "forces");
+}
+
+TEST(MapKinds, SayWhatTheyNeed) {
+  std::string scaled, measured;
+  for (const MapKind kind : map_kinds()) {
+    if (needs_theta_c(kind)) scaled.append(" ").append(map_name(kind));
+    if (needs_reference(kind)) measured.append(" ").append(map_name(kind));
+  }
+  EXPECT_EQ(scaled, " gamma overloaded clusters coarse");
+  EXPECT_EQ(measured, " displacement rotation");
+}
+
+TEST(MapLayers, AreOneOrTwoDifferentMaps) {
+  EXPECT_EQ(map_layers("gamma+forces"), (MapLayers{MapKind::gamma, MapKind::forces}));
+  EXPECT_EQ(layers_name({MapKind::pressure, MapKind::critical}), "pressure+critical");
+  for (const char* name :
+       {"", "Gamma", "gamma+", "+gamma", "gamma+forces+critical", "forces+forces", "gamma,forces"})
+    EXPECT_EQ(code_of([&] { map_layers(name); }), ExitCode::usage) << name;
+}
+
+TEST(MapLayers, UnknownNamesAreAnsweredWithThoseThereAre) {
+  try {
+    map_layers("gama");
+    FAIL();
+  } catch (const Error& error) {
+    const std::string message = error.what();
+    EXPECT_NE(message.find("'gama'"), std::string::npos) << message;
+    for (const MapKind kind : map_kinds())
+      EXPECT_NE(message.find(map_name(kind)), std::string::npos) << message;
+  }
+}
+
+TEST(TraceKinds, HaveNamesThatAreFoundAgain) {
+  for (const TraceKind kind : trace_kinds()) {
+    EXPECT_EQ(trace_kinds(trace_name(kind)), std::vector<TraceKind>{kind});
+    EXPECT_FALSE(trace_help(kind).empty());
+  }
+  EXPECT_EQ(trace_kinds("stress_ratio,overloaded"),
+            (std::vector<TraceKind>{TraceKind::stress_ratio, TraceKind::overloaded}));
+  EXPECT_EQ(trace_kinds("overloaded+volume_strain").size(), 2u);
+  for (const char* name : {"", "p_o", "overloaded,", "overloaded,overloaded"})
+    EXPECT_EQ(code_of([&] { trace_kinds(name); }), ExitCode::usage) << name;
+}
+
+}  // namespace
+}  // namespace talus

@@ -1,0 +1,65 @@
+/// Every map as a picture, beside one that was looked at.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/random.h"
+#include "render/golden_picture.h"
+#include "render/map_bed.h"
+#include "render/renderer.h"
+
+namespace talus {
+namespace {
+
+/// A lattice of 30 x 8 grains above a row of floor grains, with forces, spins and displacements that vary in
+/// space.
+struct Scene {
+  test::Packing packing = test::triangular_lattice(30, 8, true);
+  Frame before;
+};
+
+Scene make_scene() {
+  Scene scene;
+  test::Packing& packing = scene.packing;
+  const Index free_count = packing.statics.free_count, columns = 30;
+  Random random(7);
+  const auto force = [&] { return random.uniform(0.1, 3.0); };
+  for (Index i = 0; i < free_count; ++i) {
+    const Index row = i / columns, column = i % columns;
+    if (column + 1 < columns) test::add_contact(packing, i, i + 1, force(), 0.3 * force());
+    if (row + 1 < free_count / columns)
+      test::add_contact(packing, i, i + columns, force(), random.uniform(-0.5, 0.5));
+  }
+  for (Index c = 0; c < packing.frame.contacts.count(); c += 4)
+    packing.frame.contacts.status[c] = ContactStatus::sliding;
+  for (Index column = 0; column < columns; ++column) test::add_floor_grain(packing, 0.5 + column, -0.5);
+  test::complete(packing);
+  test::moments_from_contacts(packing);
+  test::gamma_from_moments(packing);
+  scene.before = packing.frame;
+  packing.frame.tilt = 0.2;
+  packing.frame.step = scene.before.step + 100;
+  for (Index i = 0; i < free_count; ++i) {
+    const double x = packing.frame.x[i], y = packing.frame.y[i];
+    packing.frame.x[i] += 0.02 * y * y * std::abs(std::sin(0.3 * x));
+    packing.frame.angle[i] += 0.1 * y * std::sin(0.4 * x);
+  }
+  return scene;
+}
+
+TEST(MapPictures, LookAsBefore) {
+  const Scene scene = make_scene();
+  Renderer renderer(make_context(ContextKind::osmesa));
+  for (const char* name :
+       {"gamma", "overloaded", "clusters", "coarse", "pressure", "displacement", "rotation", "forces",
+        "critical", "gamma+forces", "pressure+overloaded", "clusters+displacement"}) {
+    MapSettings settings = test::settings_of(name);
+    settings.length = 5.0;
+    const FrameView view = test::map_of(scene.packing, settings, &scene.before);
+    test::expect_golden(renderer.draw(view, 500), std::string("map_").append(name));
+  }
+}
+
+}  // namespace
+}  // namespace talus

@@ -1,0 +1,101 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/errors.h"
+#include "maps/scale.h"
+#include "maps/texts.h"
+
+namespace talus {
+namespace {
+
+std::vector<std::string> labels_between(double low, double high, int most) {
+  std::vector<std::string> labels;
+  for (const RoundTick& tick : round_ticks(low, high, most)) labels.push_back(tick.label);
+  return labels;
+}
+
+TEST(RoundTicks, AreMultiplesOfOneTwoOrFive) {
+  EXPECT_EQ(labels_between(0.0, 15.0, 8),
+            (std::vector<std::string>{"0", "2", "4", "6", "8", "10", "12", "14"}));
+  EXPECT_EQ(labels_between(-0.2, 0.1, 3), (std::vector<std::string>{"−0.2", "−0.1", "0.0", "0.1"}));
+  EXPECT_EQ(labels_between(0.91, 0.94, 3), (std::vector<std::string>{"0.91", "0.92", "0.93", "0.94"}));
+  EXPECT_EQ(labels_between(0.0, 120.0, 4), (std::vector<std::string>{"0", "50", "100"}));
+  EXPECT_EQ(labels_between(3e-4, 1.1e-3, 4),
+            (std::vector<std::string>{"0.0004", "0.0006", "0.0008", "0.0010"}));
+}
+
+TEST(RoundTicks, StepIsTheSmallestOfWhichSoManyFit) {
+  for (const double width : {0.013, 0.7, 1.0, 3.0, 42.0, 999.0}) {
+    const double step = round_step(width, 5);
+    EXPECT_LE(width / step, 5.0 + 1e-6);
+    EXPECT_GT(width / step, 1.9) << width;
+    const double mantissa = step / std::pow(10.0, std::floor(std::log10(step) + 1e-9));
+    EXPECT_TRUE(std::fabs(mantissa - 1) < 1e-9 || std::fabs(mantissa - 2) < 1e-9 ||
+                std::fabs(mantissa - 5) < 1e-9)
+        << step;
+  }
+}
+
+TEST(Scale, IsLinearOrLogarithmic) {
+  const Scale linear{ColourMap::gray, 2.0, 6.0};
+  EXPECT_DOUBLE_EQ(share_of(linear, 3.0), 0.25);
+  const Scale decades{ColourMap::gray, 0.01, 100.0, true};
+  EXPECT_NEAR(share_of(decades, 0.1), 0.25, 1e-12);
+  EXPECT_NEAR(share_of(decades, 100.0), 1.0, 1e-12);
+}
+
+TEST(Scale, BeyondItsEndsAsAtThem) {
+  const Scale scale{ColourMap::viridis, 2.0, 6.0};
+  EXPECT_EQ(look_of(scale, 1.0).fill, colour_at(ColourMap::viridis, 0.0));
+  EXPECT_EQ(look_of(scale, 9.0).fill, colour_at(ColourMap::viridis, 1.0));
+  const Scale decades{ColourMap::viridis, 0.01, 100.0, true};
+  EXPECT_EQ(look_of(decades, 0.0).fill, colour_at(ColourMap::viridis, 0.0));
+}
+
+TEST(Scale, GrainsWithoutValueLookAsTheLowerEndAndAreNotMarked) {
+  const GrainLook look = look_of({ColourMap::viridis, 0.0, 1.0}, std::nan(""));
+  EXPECT_EQ(look.fill, colour_at(ColourMap::viridis, 0.0));
+  EXPECT_FALSE(look.marked);
+  EXPECT_TRUE(look_of({ColourMap::viridis, 0.0, 1.0}, 0.0).marked);
+}
+
+TEST(Rim, ShowsAWhiteGrainAndIsDarkerThanAColour) {
+  EXPECT_EQ(rim_of(white), gray(0.45));
+  EXPECT_EQ(rim_of(gray(0.3)), gray(0.45));
+  EXPECT_EQ(rim_of(gray(0.8)), gray(0.8));
+  const Colour yellow{240, 230, 40};
+  EXPECT_LT(luma(rim_of(yellow)), 0.7 * luma(yellow));
+}
+
+TEST(Scale, TakesWhatWasChosen) {
+  const Scale scale = chosen({ColourMap::gray, 0.0, 1.0}, {ColourMap::cividis, std::nullopt, 2.0});
+  EXPECT_EQ(scale.colours, ColourMap::cividis);
+  EXPECT_EQ(scale.low, 0.0);
+  EXPECT_EQ(scale.high, 2.0);
+  EXPECT_THROW(chosen(scale, {{}, 2.0, {}}), Error);
+  EXPECT_THROW(chosen(scale, {{}, 3.0, {}}), Error);
+  EXPECT_THROW(chosen(scale, {{}, {}, std::nan("")}), Error);
+  EXPECT_THROW(chosen({ColourMap::gray, 0.1, 1.0, true}, {{}, 0.0, {}}), Error);
+}
+
+TEST(Bar, OfAScaleHasRoundNumbersOrDecadesWhereTheyAre) {
+  const Bar bar = bar_of({ColourMap::gray, -10.0, 10.0}, "turned");
+  EXPECT_EQ(bar.title, "turned");
+  EXPECT_EQ(bar.colours, colour_ramp(ColourMap::gray));
+  ASSERT_EQ(bar.ticks.size(), 5u);
+  EXPECT_EQ(bar.ticks[1].label, "−5");
+  EXPECT_DOUBLE_EQ(bar.ticks[1].share, 0.25);
+  const Bar decades = bar_of({ColourMap::gray, 1e-3, 10.0, true}, "");
+  ASSERT_EQ(decades.ticks.size(), 5u);
+  EXPECT_EQ(decades.ticks[0].label, "0.001");
+  EXPECT_EQ(decades.ticks[4].label, "10");
+  EXPECT_NEAR(decades.ticks[1].share, 0.25, 1e-12);
+  const Bar within = bar_of({ColourMap::gray, 2.0, 8.0, true}, "");
+  EXPECT_GE(within.ticks.size(), 3u) << "no decade in it";
+  for (const BarTick& tick : within.ticks)
+    EXPECT_NEAR(tick.share, std::log(std::stod(tick.label) / 2.0) / std::log(4.0), 1e-9);
+}
+
+}  // namespace
+}  // namespace talus

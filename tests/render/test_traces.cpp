@@ -1,0 +1,118 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "core/errors.h"
+#include "maps/traces.h"
+#include "render/map_bed.h"
+
+namespace talus {
+namespace {
+
+using test::settings_of;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+std::vector<std::string> labels_of(const std::vector<AxisTick>& ticks) {
+  std::vector<std::string> labels;
+  for (const AxisTick& tick : ticks) labels.push_back(tick.label);
+  return labels;
+}
+
+Trace trace_of(const std::vector<double>& tilts, const std::vector<double>& values, double theta_c = nan,
+               TraceKind kind = TraceKind::overloaded) {
+  MapSettings settings;
+  settings.theta_c = theta_c;
+  return make_trace(kind, tilts, values, settings, tilts.empty() ? 0.0 : tilts.back());
+}
+
+TEST(Trace, IsTheCurveInDegreesWithRoundTicks) {
+  const Trace trace = trace_of({0.0, radians(5.0), radians(12.0)}, {0.31, 0.42, 0.58}, radians(11.0));
+  EXPECT_EQ(trace.x.size(), 3u);
+  EXPECT_NEAR(trace.x[2], 12.0, 1e-12);
+  EXPECT_EQ(trace.y, (std::vector<double>{0.31, 0.42, 0.58}));
+  EXPECT_NEAR(trace.y_min, 0.3, 1e-12);
+  EXPECT_NEAR(trace.y_max, 0.6, 1e-12);
+  EXPECT_EQ(labels_of(trace.y_ticks), (std::vector<std::string>{"0.3", "0.4", "0.5", "0.6"}));
+  EXPECT_EQ(trace.x_min, 0.0);
+  EXPECT_NEAR(trace.x_max, 12.0, 1e-12);
+  EXPECT_EQ(labels_of(trace.x_ticks), (std::vector<std::string>{"0", "2", "4", "6", "8", "10", "12"}));
+  EXPECT_NEAR(trace.mark, 12.0, 1e-12);
+  EXPECT_NEAR(trace.event, 11.0, 1e-12);
+  EXPECT_EQ(trace.event_label, "θ_c");
+  EXPECT_EQ(trace.title, "p_o, share of overloaded grains");
+  EXPECT_EQ(trace.x_title, "θ in °");
+}
+
+TEST(Trace, ShowsFailureOnlyWhereItIsKnownAndInTheRange) {
+  EXPECT_TRUE(std::isnan(trace_of({0.0, 0.2}, {0.3, 0.4}).event));
+  EXPECT_TRUE(std::isnan(trace_of({0.0, 0.2}, {0.3, 0.4}, 0.3).event));
+  EXPECT_FALSE(std::isnan(trace_of({0.0, 0.2}, {0.3, 0.4}, 0.1).event));
+}
+
+TEST(Trace, VolumeStrainIsInPercent) {
+  const Trace trace = trace_of({0.0, 0.1}, {-0.004, 0.001}, nan, TraceKind::volume_strain);
+  EXPECT_DOUBLE_EQ(trace.y[0], -0.4);
+  EXPECT_EQ(trace.title, "Volume strain ΔV/V in %");
+  EXPECT_EQ(labels_of(trace.y_ticks), (std::vector<std::string>{"−0.4", "−0.2", "0.0", "0.2"}));
+}
+
+/// Ranges that can be drawn, with ticks within them.
+void expect_drawable(const Trace& trace) {
+  EXPECT_LT(trace.x_min, trace.x_max);
+  EXPECT_LT(trace.y_min, trace.y_max);
+  EXPECT_GE(trace.x_ticks.size(), 2u);
+  EXPECT_GE(trace.y_ticks.size(), 2u);
+  for (const AxisTick& tick : trace.y_ticks) {
+    EXPECT_GE(tick.value, trace.y_min - 1e-9);
+    EXPECT_LE(tick.value, trace.y_max + 1e-9);
+  }
+  for (const double y : trace.y)
+    if (!std::isnan(y)) {
+      EXPECT_GE(y, trace.y_min);
+      EXPECT_LE(y, trace.y_max);
+    }
+}
+
+TEST(Trace, OfFewOrEqualOrMissingValuesCanBeDrawn) {
+  expect_drawable(trace_of({}, {}));
+  expect_drawable(trace_of({0.1}, {0.3}));
+  expect_drawable(trace_of({0.0, 0.1, 0.2}, {0.3, 0.3, 0.3}));
+  expect_drawable(trace_of({0.0, 0.1, 0.2}, {nan, nan, nan}));
+  const Trace gap = trace_of({0.0, 0.1, 0.2}, {0.1, nan, 0.3});
+  expect_drawable(gap);
+  EXPECT_TRUE(std::isnan(gap.y[1]));
+  expect_drawable(trace_of({0.0, 0.1}, {0.0, 0.0}, nan, TraceKind::volume_strain));
+  expect_drawable(trace_of({0.0, 0.1}, {0.123456, 0.1234561}));
+}
+
+TEST(TraceValue, OfAFrameGoesByTheThreshold) {
+  test::Packing packing = test::row_of_grains({0.9, 0.9, 0.6, nan, 0.1});
+  test::add_contact(packing, 0, 1, 1.0);
+  MapSettings settings = settings_of("overloaded");
+  const auto value = [&](TraceKind kind) {
+    return frame_value(kind, packing.frame, packing.statics, settings);
+  };
+  EXPECT_DOUBLE_EQ(value(TraceKind::overloaded), 0.75);
+  EXPECT_DOUBLE_EQ(value(TraceKind::largest_cluster), 2.0 / 3.0);
+  settings.threshold_factor = 1.5;
+  EXPECT_DOUBLE_EQ(value(TraceKind::overloaded), 0.5);
+  EXPECT_DOUBLE_EQ(value(TraceKind::largest_cluster), 1.0);
+  settings.threshold_factor = 2.0;
+  EXPECT_TRUE(std::isnan(value(TraceKind::largest_cluster)));
+  EXPECT_THROW(value(TraceKind::stress_ratio), Error);
+}
+
+TEST(TraceValue, ComesFromFramesOrFromAColumn) {
+  EXPECT_EQ(trace_column(TraceKind::stress_ratio), Observable::stress_ratio);
+  EXPECT_EQ(trace_column(TraceKind::volume_strain), Observable::volume_strain);
+  for (const TraceKind kind : trace_kinds())
+    if (trace_from_frames(kind)) {
+      EXPECT_THROW(trace_column(kind), Error);
+      EXPECT_TRUE(needs_theta_c(kind));
+    }
+}
+
+}  // namespace
+}  // namespace talus

@@ -1,0 +1,57 @@
+/// What clients are told while a run is carried through.
+
+#include "session/run.h"
+
+#include <gtest/gtest.h>
+
+#include "io/run_file.h"
+#include "support/temporary_folder.h"
+
+namespace talus {
+namespace {
+
+const char* const tiny_bed =
+    "seed = 5\n[bed]\nlength = 10\ndepth = 2\n[tilt]\nend_angle = 0.05\nstep = 0.01\n[output]\nframe_every = "
+    "0.02\n";
+
+/// The state in which the bed ends.
+std::uint64_t carried_through(const std::string& path, const RunControl& control) {
+  const Scenario scenario = parse_scenario(tiny_bed, "tiny.toml");
+  Session session(scenario);
+  RunHeader header;
+  header.statics = run_statics(scenario, session.world());
+  header.scenario_resolved = resolved_toml(scenario);
+  RunStore store = RunStore::create(path, header, false);
+  EXPECT_EQ(run_to_end(session, store, control), RunEnd::complete);
+  return state_hash(session.world());
+}
+
+TEST(RunToEnd, each_frame_is_shown_once_in_its_order) {
+  const test::TemporaryFolder folder;
+  std::vector<std::int64_t> shown;
+  RunControl control;
+  control.on_frame = [&shown](const Frame& frame) { shown.push_back(frame.step); };
+  const std::uint64_t watched = carried_through(folder.path("watched.h5"), control);
+  const RunFile run = RunFile::open(folder.path("watched.h5"));
+  std::vector<std::int64_t> stored;
+  for (std::size_t k = 0; k < run.all_frame_tilts().size(); ++k) stored.push_back(run.positions(k).step);
+  EXPECT_EQ(shown.size(), 4u) << "0, 0.02, 0.04 and 0.05 deg";
+  EXPECT_EQ(shown, stored);
+  EXPECT_EQ(watched, carried_through(folder.path("unwatched.h5"), {}));
+}
+
+TEST(RunToEnd, a_frame_is_shown_before_it_is_committed) {
+  const test::TemporaryFolder folder;
+  const std::string path = folder.path("run.h5");
+  std::size_t shown = 0;
+  RunControl control;
+  control.on_frame = [&](const Frame&) {
+    const bool committed = run_presence(path) == RunPresence::folder;
+    EXPECT_EQ(committed ? RunFile::open(path).all_frame_tilts().size() : 0u, shown++);
+  };
+  carried_through(path, control);
+  EXPECT_EQ(shown, 4u);
+}
+
+}  // namespace
+}  // namespace talus
