@@ -49,6 +49,13 @@ TEST(Context, DrawsTheSameBitsInEveryKind) {
   EXPECT_EQ(osmesa.text.size(), 17u) << osmesa.text;
 }
 
+TEST(Context, DrawsTheSameBitsWithAnyNumberOfThreads) {
+  const Outcome first = picture_hash("LP_NUM_THREADS=0", "osmesa");
+  ASSERT_EQ(first.exit_code, 0) << first.text;
+  for (const char* threads : {"LP_NUM_THREADS=1", "LP_NUM_THREADS=2", "LP_NUM_THREADS=4"})
+    EXPECT_EQ(picture_hash(threads, "osmesa").text, first.text) << threads;
+}
+
 TEST(Context, WithoutOSMesaEglDraws) {
   const BrokenLibraries broken({"libOSMesa.so.8"});
   const Outcome whole = picture_hash("", "auto"), by_egl = picture_hash(broken.environment(), "auto");
