@@ -5,9 +5,11 @@
 #include <cmath>
 
 #include "core/random.h"
+#include "maps/traces.h"
 #include "render/golden_picture.h"
 #include "render/map_bed.h"
 #include "render/renderer.h"
+#include "render/tidy_layout.h"
 
 namespace talus {
 namespace {
@@ -59,6 +61,24 @@ TEST(MapPictures, LookAsBefore) {
     const FrameView view = test::map_of(scene.packing, settings, &scene.before);
     test::expect_golden(renderer.draw(view, 500), std::string("map_").append(name));
   }
+}
+
+TEST(MapPictures, HaveRoomForAllTheirTexts) {
+  const Scene scene = make_scene();
+  const Font font = embedded_font();
+  const std::vector<double> tilts = {0.0, 0.1, 0.2, 0.3}, values = {0.31, 0.352, 0.4, 0.6};
+  for (const MapKind lower : map_kinds())
+    for (const MapKind upper : map_kinds()) {
+      const std::string name(map_name(lower)), both = name + "+" + std::string(map_name(upper));
+      MapSettings settings = test::settings_of(lower == upper ? name : both);
+      settings.length = 5.0;
+      settings.theta_c_assumed = true;  // the longest caption
+      FrameView view = test::map_of(scene.packing, settings, &scene.before);
+      for (const TraceKind trace : trace_kinds())
+        view.traces.push_back(make_trace(trace, tilts, values, settings, 0.2));
+      for (const int width : {400, 1600, 8000})
+        test::expect_tidy(lay_out(view, width, font), both + " at " + std::to_string(width) + " px");
+    }
 }
 
 }  // namespace
