@@ -161,6 +161,22 @@ TEST(Layout, TracesStandWhereTheirValuesAre) {
   EXPECT_NEAR(trace.y_ticks.at(4), box.y, 1e-9);
 }
 
+TEST(Layout, LeavesOutLabelsOfTracesThatWouldTouch) {
+  FrameView view = sample_view();
+  Trace crowded = test::sample_trace("ΔV/V, volume strain");
+  for (int k = 0; k <= 20; ++k) {
+    crowded.x_ticks.push_back({1.0 * k, std::to_string(1000 + k)});
+    crowded.y_ticks.push_back({0.1 * k, std::to_string(k)});
+  }
+  crowded.event = 1.0;  // above the title
+  view.traces = {crowded};
+  for (int width : {400, 1600}) {
+    const Layout layout = lay_out(view, width, embedded_font());
+    expect_tidy(layout, std::to_string(width) + " px");
+    for (const PlacedText& text : layout.texts) EXPECT_NE(text.text, "θ_c");
+  }
+}
+
 TEST(Layout, ATraceMayBeEmptyFlatOrBroken) {
   const Font font = embedded_font();
   const double nan = std::numeric_limits<double>::quiet_NaN();

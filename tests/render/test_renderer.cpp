@@ -204,6 +204,7 @@ TEST(Renderer, MarksTheFrameOnItsTrace) {
   const Image image = renderer.draw(view, 1600);
   const PlacedTrace trace = lay_out(view, 1600, renderer.font()).traces.at(0);
   EXPECT_EQ(gray_at(image, trace.mark.x, trace.mark.y), 0);
+  EXPECT_LT(gray_at(image, trace.event, trace.box.y + 2.0), 64) << "the dashes at the event";
   EXPECT_LT(gray_at(image, trace.curve.at(20).x, trace.curve.at(20).y), 64) << "the curve";
   EXPECT_EQ(gray_at(image, trace.curve.at(20).x, trace.curve.at(20).y - 20.0), 255);
 }
