@@ -19,5 +19,7 @@ void add_study_command(CLI::App& app);
 void add_perturb_command(CLI::App& app);
 void add_figures_command(CLI::App& app);
 void add_reproduce_command(CLI::App& app);
+void add_view_command(CLI::App& app);
+void add_replay_command(CLI::App& app);
 
 }  // namespace talus

@@ -13,6 +13,7 @@
 #include "core/hash.h"
 #include "core/trigonometry.h"
 #include "io/run_file.h"
+#include "session/command.h"
 #include "session/scenario.h"
 
 namespace talus {
@@ -32,6 +33,8 @@ struct RunInfo {
   double tilt_last = none;
   double tilt = 0.0;  ///< rad, of the last state
   std::size_t steps = 0;
+  std::vector<Command> commands;
+  std::vector<double> command_tilts;  ///< rad; none where no row of observables came before
   std::size_t unconverged_steps = 0;  ///< of the tilt
   double solver_tolerance = none;     ///< asked of a bed at rest
   double residual_max = none;         ///< worst natural-map residual of the steps of the tilt
@@ -75,6 +78,18 @@ void count_steps(const std::vector<StepRow>& steps, RunInfo& info) {
   }
 }
 
+/// The tilt of the last row of observables before each command.
+std::vector<double> tilts_of(const std::vector<Command>& commands, const std::vector<ObservableRow>& rows) {
+  std::vector<double> tilts;
+  for (const Command& command : commands) {
+    const auto after =
+        std::ranges::upper_bound(rows, static_cast<double>(command.step), {},
+                                 [](const ObservableRow& row) { return at(row, Observable::step); });
+    tilts.push_back(after == rows.begin() ? none : at(*std::prev(after), Observable::tilt));
+  }
+  return tilts;
+}
+
 RunInfo look_at(const std::string& path) {
   const RunFile run = RunFile::open(path);
   const RunStatics& statics = run.header().statics;
@@ -92,6 +107,8 @@ RunInfo look_at(const std::string& path) {
   }
   info.tilt = run.checkpoint().world.tilt;
   count_steps(run.steps(), info);
+  info.commands = run.commands();
+  info.command_tilts = tilts_of(info.commands, run.all_observables());
   info.solver_tolerance = tolerance_of(run.header(), path);
   info.state_hash = hash_text(state_hash(run.checkpoint().world));
   info.provenance = run.header().provenance;
@@ -131,6 +148,7 @@ void print_json(const RunInfo& info) {
       {"residual_max", number(info.residual_max)},
       {"unconverged_steps", number(info.unconverged_steps)},
       {"steps", number(info.steps)},
+      {"commands", number(info.commands.size())},
       {"state_hash", quoted(info.state_hash)},
       {"talus_version", quoted(fact(info.provenance, "version"))},
       {"git_hash", quoted(fact(info.provenance, "git_hash"))},
@@ -161,6 +179,16 @@ std::string rest_text(const RunInfo& info) {
                              : in_degrees(theta_r) + ", at a tilt of " + in_degrees(info.tilt);
 }
 
+void print_commands(const RunInfo& info) {
+  print_line("commands", std::to_string(info.commands.size()));
+  for (std::size_t k = 0; k < info.commands.size(); ++k) {
+    const double tilt = info.command_tilts[k];
+    std::printf("  step %-12lld %-12s %s\n", static_cast<long long>(info.commands[k].step),
+                std::isnan(tilt) ? "deposition" : in_degrees(tilt).c_str(),
+                command_text(info.commands[k]).c_str());
+  }
+}
+
 void print_text(const RunInfo& info) {
   const double theta_c = figure(info.results, "theta_c");
   print_line("run", info.path + (info.complete ? "" : " (not complete, at " + in_degrees(info.tilt) + ")"));
@@ -180,6 +208,7 @@ void print_text(const RunInfo& info) {
   print_line("worst residual", short_number(info.residual_max) + " in the tilt, " +
                                    std::to_string(info.unconverged_steps) + " of its steps not converged");
   print_line("steps", std::to_string(info.steps));
+  if (!info.commands.empty()) print_commands(info);
   print_line("state hash", info.state_hash);
   std::printf("results (SI)\n");
   for (const auto& [name, value] : info.results)

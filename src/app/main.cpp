@@ -24,7 +24,7 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   app.footer(
       "Exit codes: 0 done, 64 usage, 65 bad scenario, run or problem, 66 missing input,\n"
-      "69 no context or tool, 70 internal, 71 out of memory, 73 cannot create output, 74 I/O error,\n"
+      "69 no context, display or tool, 70 internal, 71 out of memory, 73 cannot create output, 74 I/O error,\n"
       "75 stopped and resumable.");
   try {
     talus::add_run_command(app);
@@ -40,6 +40,8 @@ int main(int argc, char** argv) {
     talus::add_perturb_command(app);
     talus::add_figures_command(app);
     talus::add_reproduce_command(app);
+    talus::add_view_command(app);
+    talus::add_replay_command(app);
     app.parse(argc, argv);
     return static_cast<int>(ExitCode::done);
   } catch (const CLI::Success& success) {  // --help, --version

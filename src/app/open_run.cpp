@@ -2,10 +2,8 @@
 
 #include <unistd.h>
 
-#include <ctime>
-
 #include "core/errors.h"
-#include "core/version.h"
+#include "session/run_header.h"
 
 namespace talus {
 namespace {
@@ -19,46 +17,13 @@ void handle_stop(int) {
   stop_requested = 1;
 }
 
-std::string utc_now() {
-  const std::time_t now = std::time(nullptr);
-  std::tm parts{};
-  gmtime_r(&now, &parts);
-  char text[32];
-  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
-  return text;
-}
-
-std::string host_name() {
-  char name[256] = "unknown";
-  gethostname(name, sizeof name - 1);
-  return name;
-}
-
-RunHeader make_header(const RunRequest& request, const Session& session, const std::string& text) {
-  RunHeader header;
-  header.statics = run_statics(session.scenario(), session.world());
-  header.scenario_given = text;
-  header.scenario_resolved = resolved_toml(session.scenario());
-  header.seed = session.scenario().seed;
-  header.provenance = {{"version", version},
-                       {"git_hash", git_hash},
-                       {"compiler", compiler},
-                       {"flags", build_flags},
-                       {"host", host_name()},
-                       {"threads", std::to_string(request.threads)},
-                       {"start", utc_now()},
-                       {"command", request.command_line},
-                       {"scenario_file", request.scenario}};
-  return header;
-}
-
 }  // namespace
 
 OpenRun start_run(const RunRequest& request) {
   std::string text;
   const Scenario scenario = read_scenario(request.scenario, request.settings, &text);
   Session session(scenario);
-  RunHeader header = make_header(request, session, text);
+  RunHeader header = run_header(session, {text, request.scenario, request.command_line, request.threads});
   RunStore store = RunStore::create(request.output, header, request.overwrite);
   return {std::move(header), std::move(store), std::move(session)};
 }

@@ -124,6 +124,10 @@ void run(const RunArguments& arguments) {
   std::optional<LiveMaps> maps = prepare_maps(arguments, request, resumed);
   OpenRun open = resumed ? resume_run(request) : start_run(request);
   open.session.use_threads(arguments.threads);
+  if (open.session.tilt_rate() == 0.0)
+    std::fprintf(stderr,
+                 "talus: note: a command holds the tilt: unless the slope fails, the run goes on until it is "
+                 "stopped\n");
   if (maps) begin_maps(*maps, open, arguments);
   ProgressLine line(arguments.quiet);
   RunControl control;

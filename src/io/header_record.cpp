@@ -58,10 +58,11 @@ void write_header(hdf5::Writer& writer, const RunHeader& header) {
 
 RunHeader read_header(hdf5::Reader& reader) {
   const auto version = reader.read_scalar<std::int32_t>("/parameters/schema_version");
-  if (version != run_schema_version)
-    reader.refuse(
-        "/parameters/schema_version",
-        "is " + std::to_string(version) + ", this Talus reads version " + std::to_string(run_schema_version));
+  if (version < oldest_run_schema_version || version > run_schema_version)
+    reader.refuse("/parameters/schema_version", "is " + std::to_string(version) +
+                                                    ", this Talus reads versions " +
+                                                    std::to_string(oldest_run_schema_version) + " to " +
+                                                    std::to_string(run_schema_version));
   RunHeader header;
   header.scenario_given = reader.read_text("/parameters/scenario_given");
   header.scenario_resolved = reader.read_text("/parameters/scenario_resolved");

@@ -78,12 +78,14 @@ void verify_seal(const std::string& path) {
 std::vector<std::byte> packed_bytes(const RunFile& run) {
   const std::vector<ObservableRow> observables = run.all_observables();
   const std::vector<StepRow> steps = run.steps();
+  const std::vector<Command> commands = run.commands();
   const Checkpoint& checkpoint = run.checkpoint();
   hdf5::Writer writer({{'T', run.all_frame_tilts().size()},
                        {'N', run.header().statics.radius.size()},
                        {'M', run.contact_count()},
                        {'R', observables.size()},
                        {'S', steps.size()},
+                       {'K', commands.size()},
                        {'C', checkpoint.world.contacts.a.size()},
                        {'P', checkpoint.world.boundary.planes.size()}},
                       seal_size);
@@ -92,6 +94,7 @@ std::vector<std::byte> packed_bytes(const RunFile& run) {
   write_frames(writer, [&run](std::size_t k) { return run.frame(k); });
   write_observables(writer, observables);
   write_steps(writer, steps);
+  write_commands(writer, commands);
   write_checkpoint(writer, checkpoint);
   write_help(writer);
   std::vector<std::byte> file = writer.image();

@@ -184,4 +184,11 @@ std::vector<StepRow> RunFile::steps() const {
   return rows;
 }
 
+std::vector<Command> RunFile::commands() const {
+  std::vector<Command> commands;
+  for (std::size_t s = 0; s < state_->segments.size(); ++s)
+    append(commands, read_commands(state_->segment(s)));
+  return commands;
+}
+
 }  // namespace talus

@@ -39,6 +39,8 @@ class RunFile {
   /// Of frame k only step, time, tilt, x and y: read several times faster than all of it.
   Frame positions(std::size_t k) const;
   std::vector<StepRow> steps() const;
+  /// What was done to the run while it went on, in order.
+  std::vector<Command> commands() const;
   const Checkpoint& checkpoint() const;  ///< the last state, with results and timing
 
  private:

@@ -27,6 +27,10 @@ void write_steps(hdf5::Writer& writer, const std::vector<StepRow>& rows);
 std::vector<ObservableRow> read_observables(hdf5::Reader& reader);
 std::vector<StepRow> read_steps(hdf5::Reader& reader);
 
+/// /commands, a group that is there where there are any. Sizes: K.
+void write_commands(hdf5::Writer& writer, const std::vector<Command>& commands);
+std::vector<Command> read_commands(hdf5::Reader& reader);
+
 /// /checkpoint, /results and /provenance/timing. Sizes: N, C, P.
 void write_checkpoint(hdf5::Writer& writer, const Checkpoint& checkpoint);
 Checkpoint read_checkpoint(hdf5::Reader& reader);

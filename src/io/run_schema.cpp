@@ -73,6 +73,24 @@ std::vector<DataSetField> frame_fields() {
   };
 }
 
+std::vector<DataSetField> command_fields() {
+  return {
+      {"/commands/step", int64, "K", "1",
+       "steps taken when a command was given: it acts from the next step on"},
+      {"/commands/kind", int8, "K", "1", "0 push, 1 drop, 2 friction, 3 tilt rate"},
+      {"/commands/grain", int32, "K", "1",
+       "push: id of the free grain; drop: how many grains of the free surface, those farthest from x; else "
+       "of no meaning"},
+      {"/commands/x", float64, "K", "by kind",
+       "push: velocity added along the bed, m/s; drop: where along the bed, m; friction: the coefficient "
+       "between grains, and between grains and floor, from then on; tilt rate: deg/s, as in the scenario, "
+       "from then on"},
+      {"/commands/y", float64, "K", "by kind",
+       "push: velocity added away from the floor, m/s; drop: height above the free surface, m; else of no "
+       "meaning"},
+  };
+}
+
 std::vector<DataSetField> checkpoint_fields() {
   return {
       {"/results/theta_c", float64, "", "rad",
@@ -137,6 +155,7 @@ std::vector<DataSetField> make_schema() {
   for (const DataSetField& field : frame_fields()) schema.push_back(field);
   append_series(schema, "/observables/", "R", observable_fields);
   append_series(schema, "/steps/", "S", step_fields);
+  for (const DataSetField& field : command_fields()) schema.push_back(field);
   for (const DataSetField& field : checkpoint_fields()) schema.push_back(field);
   return schema;
 }

@@ -10,8 +10,10 @@
 
 namespace talus {
 
-/// Counts up with each change of the table; a reader accepts its own version only.
-inline constexpr std::int32_t run_schema_version = 1;
+/// Counts up with each change of the table. A reader accepts versions from the oldest on: version 1 has no
+/// /commands.
+inline constexpr std::int32_t run_schema_version = 2;
+inline constexpr std::int32_t oldest_run_schema_version = 1;
 
 enum class ElementType { float32, float64, int8, int32, int64, uint64, text };
 std::string_view type_name(ElementType type);

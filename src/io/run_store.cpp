@@ -102,16 +102,19 @@ StoredSegment store_segment(const std::string& folder, const std::string& name, 
                        {'N', grains},
                        {'M', stored.contacts},
                        {'R', stored.observables},
-                       {'S', stored.steps}});
+                       {'S', stored.steps},
+                       {'K', segment.commands.size()}});
   write_frames(writer, [&segment](std::size_t k) { return segment.frames[k]; });
   write_observables(writer, segment.observables);
   write_steps(writer, segment.steps);
+  write_commands(writer, segment.commands);
   stored.file = store(folder, name, writer.image());
   return stored;
 }
 
 bool is_empty(const Segment& segment) {
-  return segment.frames.empty() && segment.observables.empty() && segment.steps.empty();
+  return segment.frames.empty() && segment.observables.empty() && segment.steps.empty() &&
+         segment.commands.empty();
 }
 
 void refuse_existing(const std::string& path, bool overwrite) {

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/command.h"
 #include "core/snapshot.h"
 
 namespace talus {
@@ -26,6 +27,7 @@ struct Segment {
   std::vector<Frame> frames;
   std::vector<ObservableRow> observables;
   std::vector<StepRow> steps;
+  std::vector<Command> commands;
 };
 
 /// All that is needed to continue with the same bits: the world in doubles, and the state of the schedule as

@@ -3,6 +3,7 @@
 #include <chrono>
 
 #include "core/errors.h"
+#include "session/recorder.h"
 
 namespace talus {
 namespace {
@@ -13,18 +14,31 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-void commit(Session& session, RunStore& store) {
-  store.commit(session.segment(), session.checkpoint(store.seconds_writing()));
-  session.clear_segment();
-}
-
-void advance_or_keep(Session& session, RunStore& store) {
+void advance_or_keep(Session& session, Recorder& recorder) {
   try {
     session.advance();
   } catch (const Error&) {
     // The state before the failed step is whole: keep it, so that it can be looked at.
-    commit(session, store);
+    recorder.commit();
     throw;
+  }
+}
+
+void tell(const Session& session, Clock::time_point start, const RunControl& control) {
+  if (control.on_step) control.on_step({session, seconds_since(start)});
+  if (control.on_frame)
+    for (const Frame& frame : session.segment().frames) control.on_frame(frame);
+}
+
+bool stops(const RunControl& control) { return control.stop != nullptr && *control.stop != 0; }
+
+/// A step of a replay. The run that is replayed may have ended with an error after its last step: so does
+/// this one then.
+void advance_to(Session& session, std::int64_t steps) {
+  try {
+    session.advance();
+  } catch (const Error&) {
+    if (session.world().step < steps) throw;
   }
 }
 
@@ -32,21 +46,41 @@ void advance_or_keep(Session& session, RunStore& store) {
 
 RunEnd run_to_end(Session& session, RunStore& store, const RunControl& control) {
   const Clock::time_point start = Clock::now();
-  Clock::time_point last_commit = start;
+  Recorder recorder(session, store);
   while (session.phase() != Phase::done) {
-    advance_or_keep(session, store);
-    if (control.on_step) control.on_step({session, seconds_since(start)});
-    if (control.on_frame)
-      for (const Frame& frame : session.segment().frames) control.on_frame(frame);
-    const bool stop = control.stop != nullptr && *control.stop != 0;
-    const bool due = seconds_since(last_commit) >= session.scenario().output.checkpoint_every;
-    if (stop || due || !session.segment().frames.empty()) {
-      commit(session, store);
-      last_commit = Clock::now();
-    }
+    advance_or_keep(session, recorder);
+    tell(session, start, control);
+    const bool stop = stops(control);
+    if (stop)
+      recorder.commit();
+    else
+      recorder.commit_if_due();
     if (stop && session.phase() != Phase::done) return RunEnd::stopped;
   }
   store.pack();
+  return RunEnd::complete;
+}
+
+RunEnd replay(Session& session, RunStore* store, std::span<const Command> commands, std::int64_t steps,
+              const RunControl& control) {
+  const Clock::time_point start = Clock::now();
+  std::optional<Recorder> recorder;
+  if (store != nullptr) recorder.emplace(session, *store);
+  auto next = commands.begin();
+  while (true) {
+    for (; next != commands.end() && next->step == session.world().step; ++next) session.apply(*next);
+    const bool stop = stops(control);
+    if (stop || session.world().step >= steps || session.phase() == Phase::done) break;
+    advance_to(session, steps);
+    tell(session, start, control);
+    if (recorder)
+      recorder->commit_if_due();
+    else
+      session.clear_segment();
+  }
+  if (recorder) recorder->commit();
+  if (session.world().step < steps && session.phase() != Phase::done) return RunEnd::stopped;
+  if (store != nullptr && session.phase() == Phase::done) store->pack();
   return RunEnd::complete;
 }
 

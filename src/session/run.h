@@ -3,6 +3,7 @@
 
 #include <csignal>
 #include <functional>
+#include <span>
 
 #include "session/session.h"
 
@@ -30,5 +31,13 @@ enum class RunEnd { complete, stopped };
 /// seconds of wall time, and when it stops. A complete run is packed into its file. An error is thrown on
 /// after what was computed before it has been committed.
 RunEnd run_to_end(Session& session, RunStore& store, const RunControl& control);
+
+/// Steps a new session to the state after `steps` steps, and does each command where its step number says.
+/// What it records goes to the store, if there is one, as in run_to_end; a run that is then done is packed,
+/// another stays a folder. Ends early where the session is done before, or where `control` asks for it
+/// (stopped). Throws Error(usage) where a command cannot be done, and as Session::advance before the last
+/// step.
+RunEnd replay(Session& session, RunStore* store, std::span<const Command> commands, std::int64_t steps,
+              const RunControl& control);
 
 }  // namespace talus

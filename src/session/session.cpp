@@ -86,10 +86,16 @@ RunStatics run_statics(const Scenario& scenario, const World& world) {
 
 Session::Session(const Scenario& scenario) : scenario_(scenario), world_(loose_bed(scenario)) {}
 
+ContactLawParameters Session::law() const {
+  ContactLawParameters law = contact_law(scenario_);
+  if (phase_ == Phase::deposition) law.friction = law.wall_friction = scenario_.deposition.friction;
+  law.friction = friction_.value_or(law.friction);
+  return law;
+}
+
 StepSettings Session::settings() const {
   StepSettings settings = step_settings(scenario_, world_);
-  if (phase_ == Phase::deposition)
-    settings.law.friction = settings.law.wall_friction = scenario_.deposition.friction;
+  settings.law = law();
   settings.solver.threads = threads_;
   return settings;
 }
@@ -97,6 +103,30 @@ StepSettings Session::settings() const {
 bool Session::is_quiet() const {
   return rms_velocity(world_.grains) <=
          scenario_.deposition.rest_velocity * world_.gravity * time_step(scenario_);
+}
+
+void Session::apply(Command command) {
+  if (phase_ == Phase::done)
+    throw Error(ExitCode::usage, std::string(name_of(command.kind)) + ": the run has ended");
+  check_command(command, scenario_, world_);
+  switch (command.kind) {
+    case CommandKind::push:
+      world_.grains.vx[command.grain] += command.x;
+      world_.grains.vy[command.grain] += command.y;
+      break;
+    case CommandKind::drop:
+      drop_grains(world_, command.grain, command.x, command.y, scenario_.grains.mean_diameter);
+      break;
+    case CommandKind::friction:
+      friction_ = command.x;
+      break;
+    case CommandKind::tilt_rate:
+      if (phase_ == Phase::flow)
+        throw Error(ExitCode::usage, "tilt_rate: the slope has failed; its tilt goes by tilt.after_failure");
+      course_ = TiltCourse{command.x, scheduled_tilt(), tilt_steps_};
+  }
+  command.step = world_.step;
+  segment_.commands.push_back(command);
 }
 
 const StepReport& Session::advance() {
@@ -127,14 +157,18 @@ void Session::begin_tilt() {
   phase_ = Phase::tilt;
   baseline_ = measure_baseline(world_, scenario_.grains.mean_diameter);
   record_row();
-  segment_.frames.push_back(make_frame(world_, contact_law(scenario_)));
+  segment_.frames.push_back(make_frame(world_, law()));
 }
 
-double Session::step_angle() const { return radians(scenario_.tilt.step); }
+double Session::scheduled_tilt() const {
+  if (!course_) return static_cast<double>(tilt_steps_) * radians(scenario_.tilt.step);
+  return course_->from +
+         static_cast<double>(tilt_steps_ - course_->since) * radians(course_->rate) * time_step(scenario_);
+}
 
 void Session::advance_tilt() {
   ++tilt_steps_;
-  world_.tilt = static_cast<double>(tilt_steps_) * step_angle();
+  world_.tilt = scheduled_tilt();
   const double velocity = take_step_and_follow();
   const bool failed_before = flow_.failed;
   follow_surface(flow_, velocity, world_.tilt, time_step(scenario_),
@@ -154,9 +188,7 @@ void Session::advance_flow() {
   ++flow_steps_;
   const double time = static_cast<double>(flow_steps_) * time_step(scenario_);
   const bool lowered = scenario_.tilt.after_failure == AfterFailure::lower;
-  if (lowered)
-    world_.tilt = std::max(
-        0.0, static_cast<double>(tilt_steps_) * step_angle() - time * radians(scenario_.tilt.lowering_rate));
+  if (lowered) world_.tilt = std::max(0.0, scheduled_tilt() - time * radians(scenario_.tilt.lowering_rate));
   take_step_and_follow();
 
   const bool rests = is_at_rest() && report_.solver.converged;
@@ -182,8 +214,7 @@ void Session::record(bool row, bool frame) {
     return (tilt_steps_ + flow_steps_) % steps_between(every, scenario_.tilt.step) == 0;
   };
   if (row || due(scenario_.output.observable_every)) record_row();
-  if (frame || due(scenario_.output.frame_every))
-    segment_.frames.push_back(make_frame(world_, contact_law(scenario_)));
+  if (frame || due(scenario_.output.frame_every)) segment_.frames.push_back(make_frame(world_, law()));
 }
 
 void Session::take_step() {
@@ -208,7 +239,7 @@ void Session::take_step() {
 void Session::record_row() {
   RowContext context;
   context.baseline = baseline_;
-  context.law = contact_law(scenario_);
+  context.law = law();
   context.mean_diameter = scenario_.grains.mean_diameter;
   context.surface_displacement = surface_displacement_;
   context.largest_overlap = report_.largest_overlap;

@@ -9,6 +9,7 @@
 #include "dynamics/failure.h"
 #include "dynamics/step.h"
 #include "io/run_store.h"
+#include "session/command.h"
 #include "session/measure.h"
 #include "session/scenario.h"
 
@@ -26,6 +27,13 @@ struct SolverRecord {
   double residual_max_moving = 0.0;  ///< worst eta of the other steps of the tilt
 };
 
+/// A tilt whose rate a command has changed: from then on `rate` h a step.
+struct TiltCourse {
+  double rate = 0.0;       ///< deg/s
+  double from = 0.0;       ///< rad, the tilt when the rate was changed
+  std::int64_t since = 0;  ///< steps of the tilt taken by then
+};
+
 /// The tolerance asked of a step grows with the velocity of the bed, from solver.tolerance at rest to
 /// solver.moving_tolerance at an rms velocity of g h: an error of the solver is a velocity too, and stays
 /// well below the real one, so that a bed can always come to rest.
@@ -40,6 +48,12 @@ class Session {
   /// Throws Error(bad_data) when the bed does not come to rest within deposition.max_time.
   const StepReport& advance();
 
+  /// Does a command before the next step, and records it with the number of steps taken. Friction holds from
+  /// then on, in a deposition for what is left of it as well; a rate of the tilt set in a deposition is that
+  /// with which the tilt begins. Throws Error(usage), with nothing changed, where check_command or
+  /// drop_grains refuses it, once the run is done, and for a rate of the tilt after failure.
+  void apply(Command command);
+
   /// Threads of the solver; the result does not depend on them.
   void use_threads(int threads) { threads_ = threads; }
 
@@ -48,6 +62,10 @@ class Session {
   Phase phase() const { return phase_; }
   const StepReport& last_report() const { return report_; }
   const SolverRecord& solver_record() const { return record_; }
+  /// The contact law of the next step.
+  ContactLawParameters law() const;
+  /// deg/s, of the scenario or as a command has set it; 0: the tilt is held.
+  double tilt_rate() const { return course_ ? course_->rate : scenario_.tilt.rate; }
   /// rad; no value while the slope has not failed.
   std::optional<double> angle_of_repose() const;
   /// Slope of the free surface against the horizontal where the flow after failure has come to rest, rad; no
@@ -76,7 +94,9 @@ class Session {
   /// Records a row of observables and a frame where they are due, or where `row` or `frame` is true.
   void record(bool row, bool frame);
   void record_row();
-  double step_angle() const;  ///< rad of tilt per step
+  double scheduled_tilt() const;  ///< rad, after tilt_steps_ steps
+  void add_commanded(Checkpoint& checkpoint) const;
+  void take_commanded(const Checkpoint& checkpoint);
   void add_flow(Checkpoint& checkpoint) const;
   void take_flow(const Checkpoint& checkpoint);
 
@@ -87,6 +107,8 @@ class Session {
   std::int64_t flow_steps_ = 0;
   std::int64_t quiet_steps_ = 0;  ///< in a row, until now
   Baseline baseline_;
+  std::optional<double> friction_;    ///< set by a command
+  std::optional<TiltCourse> course_;  ///< set by a command
   SurfaceFlow flow_;
   std::optional<double> angle_at_rest_;
   double surface_height_ = 0.0;        ///< m, mean free surface at the last row

@@ -17,10 +17,10 @@ auto value_of(const Pairs& pairs, const std::string& name) {
               "the checkpoint has no value '" + name + "': it was written by another version");
 }
 
-double or_zero(const Figures& figures, const std::string& name) {
+std::optional<double> find(const Figures& figures, const std::string& name) {
   for (const auto& [key, value] : figures)
     if (key == name) return value;
-  return 0.0;
+  return std::nullopt;
 }
 
 }  // namespace
@@ -48,12 +48,29 @@ Checkpoint Session::checkpoint(double seconds_writing) const {
                         {"residual_max_moving", record_.residual_max_moving},
                         {"unconverged_steps_deposition", static_cast<double>(record_.unconverged_deposition)},
                         {"unconverged_steps", static_cast<double>(record_.unconverged_tilt)}};
+  add_commanded(checkpoint);
   if (scenario_.tilt.after_failure != AfterFailure::stop) add_flow(checkpoint);
   checkpoint.timing = {{"deposition", deposition_seconds_}, {"tilt", tilt_seconds_}};
   for (std::size_t k = 0; k < stage_count; ++k)
     checkpoint.timing.emplace_back(std::string("stage_") + std::string(stage_names[k]), stage_seconds_[k]);
   checkpoint.timing.emplace_back("write", seconds_writing);
   return checkpoint;
+}
+
+/// What no command has changed is not there, as in runs of before there were commands: it is the scenario's.
+void Session::add_commanded(Checkpoint& checkpoint) const {
+  if (friction_) checkpoint.reals.emplace_back("friction", *friction_);
+  if (!course_) return;
+  checkpoint.reals.emplace_back("tilt_rate", course_->rate);
+  checkpoint.reals.emplace_back("tilt_from", course_->from);
+  checkpoint.integers.emplace_back("tilt_since", course_->since);
+}
+
+void Session::take_commanded(const Checkpoint& checkpoint) {
+  friction_ = find(checkpoint.reals, "friction");
+  if (const std::optional<double> rate = find(checkpoint.reals, "tilt_rate"))
+    course_ = TiltCourse{*rate, value_of(checkpoint.reals, "tilt_from"),
+                         value_of(checkpoint.integers, "tilt_since")};
 }
 
 void Session::add_flow(Checkpoint& checkpoint) const {
@@ -95,11 +112,13 @@ Session::Session(const Scenario& scenario, Checkpoint checkpoint)
   surface_height_ = value_of(reals, "surface_height");
   surface_displacement_ = value_of(reals, "surface_displacement");
   residual_since_row_ = value_of(reals, "residual_since_row");
+  take_commanded(checkpoint);
   if (scenario_.tilt.after_failure != AfterFailure::stop) take_flow(checkpoint);
-  deposition_seconds_ = or_zero(checkpoint.timing, "deposition");
-  tilt_seconds_ = or_zero(checkpoint.timing, "tilt");
+  deposition_seconds_ = find(checkpoint.timing, "deposition").value_or(0.0);
+  tilt_seconds_ = find(checkpoint.timing, "tilt").value_or(0.0);
   for (std::size_t k = 0; k < stage_count; ++k)
-    stage_seconds_[k] = or_zero(checkpoint.timing, std::string("stage_") + std::string(stage_names[k]));
+    stage_seconds_[k] =
+        find(checkpoint.timing, std::string("stage_") + std::string(stage_names[k])).value_or(0.0);
 }
 
 }  // namespace talus

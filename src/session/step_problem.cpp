@@ -1,6 +1,7 @@
 #include "session/step_problem.h"
 
 #include <cmath>
+#include <optional>
 
 #include "core/errors.h"
 #include "core/trigonometry.h"
@@ -42,6 +43,29 @@ double weight(const World& world) {
   return mass * world.gravity;
 }
 
+/// What the commands of a run have made of its scenario by a step.
+struct InForce {
+  double friction = 0.0;
+  std::optional<double> tilt_rate;  ///< deg/s, where it was changed
+};
+InForce in_force(const RunFile& run, const Scenario& scenario, std::int64_t step) {
+  InForce now{scenario.contact.friction, {}};
+  for (const Command& command : run.commands()) {
+    if (command.step > step) break;
+    if (command.kind == CommandKind::friction) now.friction = command.x;
+    if (command.kind == CommandKind::tilt_rate) now.tilt_rate = command.x;
+  }
+  return now;
+}
+
+/// Of the step after a frame. Where no command has changed the rate it is a whole number of steps of the
+/// tilt, as in a run.
+double next_tilt(double tilt, const Scenario& scenario, const InForce& now) {
+  if (now.tilt_rate) return tilt + radians(*now.tilt_rate) * time_step(scenario);
+  const double step_angle = radians(scenario.tilt.step);
+  return static_cast<double>(std::llround(tilt / step_angle) + 1) * step_angle;
+}
+
 }  // namespace
 
 World world_at_frame(const RunFile& run, std::size_t k) {
@@ -66,11 +90,11 @@ StepProblem problem_after_frame(const RunFile& run, std::size_t k) {
   const Scenario scenario = parse_scenario(run.header().scenario_resolved, "/parameters/scenario_resolved");
   World world = world_at_frame(run, k);
   const bool rounded = world.step != run.checkpoint().world.step;
-  // The angle of a step is a whole number of steps of the tilt, as in a run.
-  const double step_angle = radians(scenario.tilt.step);
-  world.tilt = static_cast<double>(std::llround(world.tilt / step_angle) + 1) * step_angle;
+  const InForce now = in_force(run, scenario, world.step);
+  world.tilt = next_tilt(world.tilt, scenario, now);
 
-  const StepSettings settings = step_settings(scenario);
+  StepSettings settings = step_settings(scenario);
+  settings.law.friction = now.friction;
   StepWorkspace workspace;
   form_problem(world, settings, workspace);
   if (rounded) {

@@ -32,6 +32,10 @@ const std::map<std::string, std::vector<std::string>> rooms = {
     {"maps",
      {"maps/", "analysis/", "core/", "stress/", "render/frame_view.h", "render/colour.h",
       "render/colour_map.h"}},
+    {"view",
+     {"view/", "session/", "maps/", "analysis/", "stress/", "io/", "core/", "render/frame_view.h",
+      "render/colour.h", "render/colour_map.h"}},
+    {"gui", {"gui/", "view/", "maps/", "core/", "render/"}},
     {"render", {"render/", "core/errors.h"}},
     {"app", {""}},
 };
@@ -44,6 +48,7 @@ struct Home {
 const std::vector<Home> homes = {
     {"hdf5", "src/io/"},
     {"imgui", "src/gui/"},
+    {"GLFW/", "src/gui/window.cpp"},
     {"toml++/", "src/session/scenario_toml.cpp"},
     {"CLI/", "src/app/"},
 };

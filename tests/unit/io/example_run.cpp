@@ -79,6 +79,9 @@ Segment segment(int k) {
     for (double& value : row) value = random.uniform();
   for (StepRow& row : s.steps)
     for (double& value : row) value = random.uniform();
+  for (int i = 0; i < k / 2; ++i)
+    s.commands.push_back(
+        {100 * k + i, static_cast<CommandKind>((k + i) % 4), i - 1, random.uniform(), -1.0 / 3.0});
   return s;
 }
 

@@ -133,6 +133,7 @@ void expect_example_run(const RunFile& run) {
   std::size_t frames = 0;
   std::vector<ObservableRow> observables;
   std::vector<StepRow> steps;
+  std::vector<Command> commands;
   for (int k = 0; k < commits; ++k) {
     const Segment written = example::segment(k);
     for (const Frame& frame : written.frames) {
@@ -146,10 +147,12 @@ void expect_example_run(const RunFile& run) {
     }
     observables.insert(observables.end(), written.observables.begin(), written.observables.end());
     steps.insert(steps.end(), written.steps.begin(), written.steps.end());
+    commands.insert(commands.end(), written.commands.begin(), written.commands.end());
   }
   EXPECT_EQ(run.frame_count(), frames);
   EXPECT_EQ(run.all_observables(), observables);
   EXPECT_EQ(run.steps(), steps);
+  EXPECT_EQ(run.commands(), commands);
 }
 
 TEST(RoundTrip, of_a_folder_under_both_its_names) {
@@ -224,6 +227,7 @@ TEST(RoundTrip, equal_runs_give_equal_bytes_however_they_were_committed) {
     all.frames.insert(all.frames.end(), part.frames.begin(), part.frames.end());
     all.observables.insert(all.observables.end(), part.observables.begin(), part.observables.end());
     all.steps.insert(all.steps.end(), part.steps.begin(), part.steps.end());
+    all.commands.insert(all.commands.end(), part.commands.begin(), part.commands.end());
   }
   together.commit(all, example::checkpoint(commits - 1));
   together.pack();

@@ -1,0 +1,115 @@
+/// `talus replay`: computes a run again from its scenario and its commands, and compares the end.
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <thread>
+
+#include "app/command_line.h"
+#include "app/commands.h"
+#include "app/open_run.h"
+#include "app/progress.h"
+#include "core/errors.h"
+#include "core/hash.h"
+#include "io/run_file.h"
+#include "session/run_header.h"
+
+namespace talus {
+namespace {
+
+struct ReplayArguments {
+  std::string run;
+  std::string output;  ///< empty: nothing is kept
+  int threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  bool overwrite = false;
+  bool quiet = false;
+};
+
+std::string fact(const Facts& facts, const std::string& name) {
+  for (const auto& [key, value] : facts)
+    if (key == name) return value;
+  return "unknown";
+}
+
+std::string end_text(const World& world) {
+  return hash_text(state_hash(world)) + " after " + std::to_string(world.step) + " steps";
+}
+
+/// A run is never replaced by its own replay.
+void refuse_same(const ReplayArguments& arguments) {
+  const auto whole = [](const std::string& path) {
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(path)).string();
+  };
+  const std::string output = whole(arguments.output), run = whole(arguments.run);
+  if (output == run || run_folder(output) == run)
+    throw Error(ExitCode::usage,
+                arguments.output + " is the run that is replayed; choose another output with -o");
+}
+
+std::optional<RunStore> begin_output(const ReplayArguments& arguments, const Session& session,
+                                     const RunHeader& replayed) {
+  if (arguments.output.empty()) return std::nullopt;
+  refuse_same(arguments);
+  const RunHeader header =
+      run_header(session, {replayed.scenario_given, fact(replayed.provenance, "scenario_file"),
+                           command_line(), arguments.threads});
+  return RunStore::create(arguments.output, header, arguments.overwrite);
+}
+
+void compare(const ReplayArguments& arguments, const RunFile& run, const World& recomputed) {
+  const World& stored = run.checkpoint().world;
+  if (!arguments.quiet)
+    std::printf("stored      %s\nrecomputed  %s\n", end_text(stored).c_str(), end_text(recomputed).c_str());
+  if (state_hash(stored) == state_hash(recomputed)) return;
+  const Facts& provenance = run.header().provenance;
+  throw Error(ExitCode::internal,
+              arguments.run + ": its scenario and commands give another end state than the " +
+                  "stored one; it was computed by version " + fact(provenance, "version") + " (" +
+                  fact(provenance, "git_hash") + "), which may give other bits");
+}
+
+void replay_run(const ReplayArguments& arguments) {
+  const RunFile run = RunFile::open(arguments.run);
+  const std::vector<Command> commands = run.commands();
+  Session session(parse_scenario(run.header().scenario_resolved, arguments.run + ":/parameters"));
+  session.use_threads(arguments.threads);
+  std::optional<RunStore> store = begin_output(arguments, session, run.header());
+  ProgressLine line(arguments.quiet);
+  RunControl control;
+  control.stop = catch_stop_signals();
+  control.on_step = [&line](const RunProgress& progress) { line.show(progress); };
+  if (!arguments.quiet)
+    std::printf("%s: %lld steps, %zu commands\n", arguments.run.c_str(),
+                static_cast<long long>(run.checkpoint().world.step), commands.size());
+  const RunEnd end =
+      replay(session, store ? &*store : nullptr, commands, run.checkpoint().world.step, control);
+  line.finish();
+  if (end == RunEnd::stopped)
+    throw Error(ExitCode::stopped, "stopped after " + std::to_string(session.world().step) + " of " +
+                                       std::to_string(run.checkpoint().world.step) +
+                                       " steps: nothing was compared; replay it again from its beginning");
+  compare(arguments, run, session.world());
+}
+
+}  // namespace
+
+void add_replay_command(CLI::App& app) {
+  auto arguments = std::make_shared<ReplayArguments>();
+  CLI::App* command = app.add_subcommand(
+      "replay", "Compute a run again from its scenario and its commands, and compare its end state");
+  command->add_option("run", arguments->run, "Run file, or the name of a run that is not complete")
+      ->required();
+  CLI::Option* output =
+      command->add_option("-o,--output", arguments->output, "Keep the recomputed run in this file (HDF5)");
+  command
+      ->add_option("--threads", arguments->threads, "Threads of the solver; the result does not depend on it")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 256));
+  command->add_flag("--overwrite", arguments->overwrite, "Replace a run of this name")->needs(output);
+  command->add_flag("-q,--quiet", arguments->quiet, "Print errors only");
+  command->callback([arguments] { replay_run(*arguments); });
+}
+
+}  // namespace talus

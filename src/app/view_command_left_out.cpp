@@ -1,0 +1,19 @@
+/// `talus view` where the window was not built.
+
+#include "app/commands.h"
+#include "core/errors.h"
+
+namespace talus {
+
+void add_view_command(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("view", "Look into a run in a window (left out of this build)");
+  command->allow_extras();
+  command->callback([] {
+    throw Error(
+        ExitCode::unavailable,
+        "this talus was built without its window; apt-get install libimgui-dev libglfw3-dev, then configure "
+        "it with -DTALUS_GUI=ON and build it again");
+  });
+}
+
+}  // namespace talus

@@ -1,0 +1,29 @@
+#pragma once
+/// What a user does to a run while it goes on. A run is its scenario and its commands: replaying both gives
+/// the same bits.
+
+#include <cstdint>
+
+#include "core/types.h"
+
+namespace talus {
+
+enum class CommandKind : std::int8_t {
+  push = 0,  ///< adds (x, y), m/s, to the velocity of the free grain `grain`
+  drop = 1,  ///< lifts `grain` (a count) grains from the free surface, those farthest from x (m) along the
+             ///< bed, and lets them fall at x, from y (m) above the free surface there
+  friction = 2,   ///< sets the friction between grains, and between grains and floor, to x
+  tilt_rate = 3,  ///< sets the rate of the tilt to x, deg/s; the time step stays
+};
+inline constexpr std::int8_t command_kind_count = 4;
+
+struct Command {
+  std::int64_t step = 0;  ///< steps taken when it is applied: it acts from the next step on
+  CommandKind kind = CommandKind::push;
+  Index grain = -1;
+  double x = 0.0, y = 0.0;
+
+  bool operator==(const Command&) const = default;
+};
+
+}  // namespace talus

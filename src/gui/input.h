@@ -1,0 +1,65 @@
+#pragma once
+/// Mouse and keys on their way to Dear ImGui: the same for a window and without one.
+
+#include <imgui.h>
+
+#include <deque>
+
+namespace talus {
+
+/// Numbers of keys, as GLFW has them: printable keys are their ASCII code, letters as capitals. In ImGui
+/// before 1.87 they are the indices of io.KeysDown.
+enum Key : int {
+  key_space = 32,
+  key_escape = 256,
+  key_enter = 257,
+  key_tab = 258,
+  key_backspace = 259,
+  key_insert = 260,
+  key_delete = 261,
+  key_right = 262,
+  key_left = 263,
+  key_down = 264,
+  key_up = 265,
+  key_page_up = 266,
+  key_page_down = 267,
+  key_home = 268,
+  key_end = 269,
+  key_f1 = 290,
+  key_f12 = 301,
+  key_keypad_enter = 335,
+  key_left_shift = 340,
+  key_left_control = 341,
+  key_left_alt = 342,
+  key_left_super = 343,
+  key_right_shift = 344,
+  key_right_super = 347,
+};
+
+/// Something that a user did.
+struct InputEvent {
+  enum class Kind { position, button, wheel, key, character };
+  Kind kind = Kind::position;
+  float x = 0.0f, y = 0.0f;  ///< position: px; wheel: steps
+  int code = 0;              ///< button 0 left, 1 right, 2 middle; key; or Unicode character
+  bool down = false;         ///< button, key
+};
+
+/// Hands events over so that none is lost: a button or key that goes down and up between two pictures is down
+/// in one of them.
+class InputQueue {
+ public:
+  void add(const InputEvent& event) { events_.push_back(event); }
+  /// Whether there are events that wait for another picture.
+  bool waiting() const { return !events_.empty(); }
+  /// Before ImGui::NewFrame: hands over what one picture can take.
+  void hand_over(ImGuiIO& io);
+
+ private:
+  std::deque<InputEvent> events_;
+};
+
+/// Tells a new ImGui context what our key numbers mean.
+void name_keys(ImGuiIO& io);
+
+}  // namespace talus

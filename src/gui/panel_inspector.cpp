@@ -1,0 +1,131 @@
+#include <algorithm>
+#include <cmath>
+
+#include "core/trigonometry.h"
+#include "gui/panels.h"
+#include "gui/plot_widget.h"
+
+namespace talus {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+const char* status_text(ContactStatus status) {
+  switch (status) {
+    case ContactStatus::sticking:
+      return "sticks";
+    case ContactStatus::sliding:
+      return "slides";
+    case ContactStatus::open:
+      break;
+  }
+  return "open";
+}
+
+void draw_contacts(const Inspection& grain, double weight) {
+  const ImGuiTableFlags flags =
+      ImGuiTableFlags_RowBg | ImGuiTableFlags_BordersInnerV | ImGuiTableFlags_SizingStretchProp;
+  if (!ImGui::BeginTable("contacts", 4, flags)) return;
+  for (const char* title : {"with", "f_n/mg", "f_t/mg", ""}) {
+    ImGui::TableNextColumn();
+    rich_text(title);
+  }
+  for (const GrainContact& contact : grain.contacts) {
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(contact.other_name.c_str());
+    ImGui::TableNextColumn();
+    ImGui::Text("%.3g", contact.fn / weight);
+    ImGui::TableNextColumn();
+    ImGui::Text("%.3g", contact.ft / weight);
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(status_text(contact.status));
+  }
+  ImGui::EndTable();
+}
+
+/// Mohr's circle of a mean stress p and a deviator q, over p: principal values (1 +- gamma) / 2, and the line
+/// of Coulomb's threshold sin(theta_c).
+void draw_mohr_circle(Gui& gui, const Inspection& grain, double theta_c) {
+  const ImVec2 corner = ImGui::GetCursorScreenPos();
+  const float width = ImGui::GetContentRegionAvail().x, em = gui.em;
+  const ImVec2 size{width, 0.62f * width + 1.5f * em};
+  ImGui::Dummy(size);
+  note_place(gui, "mohr circle");
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const ImU32 ink = IM_COL32(0, 0, 0, 255), law = IM_COL32(213, 94, 0, 255);
+  const float scale = 0.85f * width;  // px for p
+  const ImVec2 origin{corner.x + 0.05f * width, corner.y + 0.5f * size.y};
+  list.AddLine({corner.x, origin.y}, {corner.x + size.x, origin.y}, ink);
+  list.AddLine({origin.x, corner.y + em}, {origin.x, corner.y + size.y}, ink);
+  list.AddCircle({origin.x + 0.5f * scale, origin.y},
+                 std::max(1.0f, static_cast<float>(0.5 * grain.state.ratio) * scale), ink, 64, 1.5f);
+  const auto slope = static_cast<float>(std::tan(theta_c));
+  for (const float side : {-1.0f, 1.0f}) {
+    const float reach = std::min(0.9f * width, (0.5f * size.y - em) / slope);
+    list.AddLine(origin, {origin.x + reach, origin.y + side * slope * reach}, law);
+  }
+  add_rich_text(list, {origin.x + 0.3f * em, corner.y}, ink, "τ/p, σ/p; line: θ_c");
+}
+
+void draw_curve(Gui& gui, const Inspection& grain) {
+  const double diameter = gui.model.mean_diameter();
+  const double gamma_c = sine(gui.model.theta_c()) * gui.model.state.map.threshold_factor;
+  Plot plot;
+  plot.name = "neighbourhood";
+  plot.title = "γ_ℓ";
+  plot.x_title = "ℓ/D";
+  plot.over_tilt = false;
+  PlotSeries curve{"γ_ℓ", {}, grain.curve.gamma, false}, threshold{"Γ_c", {}, {}, true};
+  for (const double l : grain.curve.l) curve.x.push_back(l / diameter);
+  if (!curve.x.empty()) {
+    threshold.x = {curve.x.front(), curve.x.back()};
+    threshold.y = {gamma_c, gamma_c};
+  }
+  plot.series = {std::move(curve), std::move(threshold)};
+  std::optional<double> mark = gui.model.state.neighbourhood;
+  draw_plot(gui, plot, {ImGui::GetContentRegionAvail().x, 12.0f * gui.em}, mark);
+}
+
+void draw_state(const Inspection& grain, double diameter) {
+  fact("radius", formatted("%.3f D", grain.radius / diameter));
+  fact("place", formatted("%.2f, %.2f D", grain.x / diameter, grain.y / diameter));
+  fact("velocity", formatted("%.3g, %.3g m/s", grain.vx, grain.vy));
+  fact("spin", formatted("%.3g rad/s", grain.omega));
+  if (!grain.free) return;
+  fact("M_x_x, M_y_y", formatted("%.3g, %.3g J/m", grain.internal_moment.xx, grain.internal_moment.yy));
+  fact("M_x_y, M_y_x", formatted("%.3g, %.3g J/m", grain.internal_moment.xy, grain.internal_moment.yx));
+  if (std::isnan(grain.gamma)) {
+    fact("γ", "carries nothing");
+    return;
+  }
+  fact("p = s_1 + s_2", formatted("%.3g J/m", grain.state.mean));
+  fact("q = s_1 − s_2", formatted("%.3g J/m", grain.state.deviator));
+  fact("γ = q/p", formatted("%.3f%s", grain.gamma, grain.overloaded ? ", overloaded" : ""));
+  fact("major axis", formatted("%.1f° to the bed", grain.state.axis * 180.0 / pi));
+  if (grain.cluster >= 0) fact("cluster", formatted("%d grains", grain.cluster_size));
+  if (grain.coarse_graining_length)
+    fact("ℓ_c", formatted("%.2f D", *grain.coarse_graining_length / diameter));
+}
+
+}  // namespace
+
+void draw_inspector(Gui& gui) {
+  const Inspection* grain = gui.model.inspection();
+  if (!grain) {
+    ImGui::TextWrapped("Click a grain to see its stress, its contacts and its neighbourhood.");
+    return;
+  }
+  ImGui::Text("%s %d", grain->free ? "grain" : "floor grain", grain->grain);
+  ImGui::Separator();
+  draw_state(*grain, gui.model.mean_diameter());
+  if (!grain->contacts.empty()) draw_contacts(*grain, grain->mass * gui.model.statics().gravity);
+  if (!grain->free || std::isnan(grain->gamma)) return;
+  draw_mohr_circle(gui, *grain, gui.model.theta_c());
+  ImGui::SetNextItemWidth(9.0f * gui.em);
+  named_slider(gui, "neighbourhood", "D", gui.model.state.neighbourhood, 1.0, 40.0, "l = %.1f",
+               "the neighbourhood drawn: ; and '");
+  fact("γ_ℓ there", formatted("%.3f", grain->neighbourhood_gamma));
+  draw_curve(gui, *grain);
+}
+
+}  // namespace talus

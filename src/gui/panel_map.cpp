@@ -1,0 +1,87 @@
+#include <algorithm>
+
+#include "core/trigonometry.h"
+#include "gui/panels.h"
+#include "gui/run_actions.h"
+
+namespace talus {
+namespace {
+
+std::vector<std::string> kind_names(bool with_none) {
+  std::vector<std::string> names;
+  if (with_none) names.emplace_back("nothing");
+  for (const MapKind kind : map_kinds()) names.emplace_back(map_name(kind));
+  return names;
+}
+
+int place_of(MapKind kind) {
+  const auto kinds = map_kinds();
+  return static_cast<int>(std::ranges::find(kinds, kind) - kinds.begin());
+}
+
+void choose_layers(Gui& gui) {
+  MapLayers& layers = gui.model.state.map.layers;
+  int base = place_of(layers.at(0));
+  if (named_choice(gui, "map kind", "map", kind_names(false), base)) {
+    layers[0] = map_kinds()[static_cast<std::size_t>(base)];
+    if (layers.size() > 1 && layers[1] == layers[0]) layers.pop_back();
+  }
+  ImGui::TextWrapped("%s", std::string(map_help(layers[0])).c_str());
+  int over = layers.size() > 1 ? place_of(layers[1]) + 1 : 0;
+  if (named_choice(gui, "overlay", "over it", kind_names(true), over)) {
+    layers.resize(1);
+    const bool other = over > 0 && map_kinds()[static_cast<std::size_t>(over - 1)] != layers[0];
+    if (other) layers.push_back(map_kinds()[static_cast<std::size_t>(over - 1)]);
+  }
+}
+
+void choose_colours(Gui& gui) {
+  MapSettings& map = gui.model.state.map;
+  std::vector<std::string> names = {"its own"};
+  for (const ColourMap colours : colour_maps()) names.emplace_back(colour_map_name(colours));
+  int chosen = 0;
+  for (std::size_t k = 0; k < colour_maps().size(); ++k)
+    if (map.colours == colour_maps()[k]) chosen = static_cast<int>(k) + 1;
+  if (!named_choice(gui, "colours", "colours", names, chosen)) return;
+  map.colours.reset();
+  if (chosen > 0) map.colours = colour_maps()[static_cast<std::size_t>(chosen - 1)];
+}
+
+void choose_reference(Gui& gui) {
+  ViewState& state = gui.model.state;
+  bool since = state.since.has_value();
+  if (named_checkbox(gui, "since", "moved since an angle", since,
+                     "displacement and rotation since that tilt, instead of per degree"))
+    state.since = since ? std::optional(gui.model.frame().tilt) : std::nullopt;
+  if (!state.since) return;
+  double angle = degrees(*state.since);
+  if (named_slider(gui, "since angle", "deg", angle, 0.0, 60.0, "%.2f")) state.since = radians(angle);
+}
+
+}  // namespace
+
+void draw_map_panel(Gui& gui) {
+  ViewState& state = gui.model.state;
+  ImGui::PushItemWidth(9.0f * gui.em);
+  choose_layers(gui);
+  choose_colours(gui);
+  ImGui::Separator();
+  named_slider(gui, "threshold", "Gamma_c", state.map.threshold_factor, 0.1, 4.0, "%.2f",
+               "grains are overloaded from this times Gamma_c on: [ and ]");
+  named_slider(gui, "length", "D", state.map.length, 1.0, 40.0, "l = %.1f",
+               "diameter of the neighbourhoods of the map coarse: , and .");
+  choose_reference(gui);
+  ImGui::Separator();
+  named_checkbox(gui, "turned", "turned to the slope", state.map.turned, "t");
+  named_checkbox(gui, "neighbours", "clusters of neighbours", state.map.joined_by_neighbours,
+                 "grains closer than 1.1 times the sum of their radii join, instead of those that touch");
+  named_checkbox(gui, "cluster", "mark the grain's cluster", state.highlight_cluster);
+  named_checkbox(gui, "neighbourhoods", "draw its neighbourhoods", state.show_neighbourhoods);
+  ImGui::Separator();
+  if (named_button(gui, "whole bed", "Whole bed", "f")) show_whole_bed(gui);
+  ImGui::SameLine();
+  ImGui::Text("zoom %.1f", state.camera.zoom);
+  ImGui::PopItemWidth();
+}
+
+}  // namespace talus

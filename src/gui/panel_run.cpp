@@ -1,0 +1,117 @@
+#include "core/errors.h"
+#include "core/trigonometry.h"
+#include "gui/panels.h"
+#include "gui/run_actions.h"
+
+namespace talus {
+namespace {
+
+/// How a live run stands, in lines.
+void draw_status(const LiveStatus& status, bool theta_c_known, double theta_c) {
+  if (!status.error.empty()) {
+    ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0.7f, 0.1f, 0.0f, 1.0f));
+    ImGui::TextWrapped("%s", status.error.c_str());
+    ImGui::PopStyleColor();
+  }
+  fact("phase", status.done ? "ended" : status.depositing ? "deposition" : "tilt");
+  fact("θ", formatted("%.3f°", degrees(status.tilt)));
+  fact("step", formatted("%lld", static_cast<long long>(status.step)));
+  fact("time", formatted("%.3f s", status.time));
+  fact("speed", status.running ? formatted("%.0f steps/s", status.steps_per_second) : std::string("paused"));
+  if (theta_c_known) fact("θ_c", formatted("%.2f°", degrees(theta_c)));
+  if (!status.state_hash.empty()) fact("state", status.state_hash);
+}
+
+void draw_live(Gui& gui, LiveRun& live) {
+  const LiveStatus status = live.status();
+  ViewState& state = gui.model.state;
+  if (named_button(gui, "play", status.running ? "Pause" : "Play", "space")) toggle_playing(gui);
+  for (const auto& [name, label, count] :
+       {std::tuple{"step 1", "+1", 1}, {"step 10", "+10", 10}, {"step 100", "+100", 100}}) {
+    ImGui::SameLine();
+    if (named_button(gui, name, label, "steps: right arrow; with shift 10, with ctrl 100"))
+      advance(gui, count);
+  }
+  if (status.depositing) {
+    if (named_button(gui, "deposit", "Deposit the bed", "compute until the bed rests and the tilt begins"))
+      live.finish_deposition();
+  }
+  ImGui::SetNextItemWidth(6.0f * gui.em);
+  named_number(gui, "run to angle", "deg", state.run_to_tilt, "%.2f", "the tilt to run to");
+  ImGui::SameLine();
+  if (named_button(gui, "run to", "Run to", "compute until the tilt is reached, then pause"))
+    live.run_to(radians(state.run_to_tilt));
+  ImGui::Separator();
+  draw_status(status, gui.model.theta_c_known(), gui.model.theta_c());
+  ImGui::Separator();
+  ImGui::SetNextItemWidth(6.0f * gui.em);
+  named_number(gui, "seed", "seed", state.seed, "of the random deposition");
+  ImGui::SameLine();
+  if (named_button(gui, "reset", "Reset", "begin the run anew with this seed"))
+    gui.model.restart(static_cast<std::uint64_t>(std::max(state.seed, 0)));
+}
+
+void draw_landmarks(Gui& gui) {
+  ViewModel& model = gui.model;
+  struct Place {
+    const char* name;
+    const char* label;
+    Landmark landmark;
+    const char* tip;
+  };
+  const Place places[] = {{"first", "First", Landmark::first, "home"},
+                          {"theta_d", "theta_d", Landmark::theta_d, "where dilation sets in: d"},
+                          {"percolation", "Spans", Landmark::percolation, "a cluster first spans the bed: p"},
+                          {"theta_c", "theta_c", Landmark::theta_c, "the last frame before failure: c"},
+                          {"last", "Last", Landmark::last, "end"}};
+  bool first = true;
+  for (const Place& place : places) {
+    if (!model.has(place.landmark)) continue;
+    if (!first) ImGui::SameLine();
+    first = false;
+    if (named_button(gui, place.name, place.label, place.tip)) model.go_to(place.landmark);
+  }
+}
+
+void draw_replay(Gui& gui) {
+  ViewModel& model = gui.model;
+  if (named_button(gui, "play", model.playing() ? "Pause" : "Play", "space")) toggle_playing(gui);
+  ImGui::SameLine();
+  if (named_button(gui, "back", "<", "one frame back: left arrow; with shift 10")) advance(gui, -1);
+  ImGui::SameLine();
+  if (named_button(gui, "forward", ">", "one frame on: right arrow; with shift 10")) advance(gui, 1);
+  int frame = static_cast<int>(model.frame_index());
+  ImGui::SetNextItemWidth(-1.0f);
+  if (ImGui::SliderInt("##frame", &frame, 0, static_cast<int>(model.frame_count()) - 1,
+                       formatted("frame %%d of %zu", model.frame_count()).c_str(),
+                       ImGuiSliderFlags_AlwaysClamp))
+    model.go_to(static_cast<std::size_t>(frame));
+  note_place(gui, "frame");
+  draw_landmarks(gui);
+  double speed = model.speed();
+  ImGui::SetNextItemWidth(8.0f * gui.em);
+  if (named_slider(gui, "speed", "deg/s", speed, 0.1, 20.0, "%.1f", "how fast a replay goes", true))
+    model.set_speed(speed);
+  ImGui::Separator();
+  fact("θ", formatted("%.3f°", degrees(model.frame().tilt)));
+  if (model.theta_c_known()) {
+    fact("θ_c", formatted("%.2f°", degrees(model.theta_c())));
+    fact("θ_c − θ", formatted("%.2f°", degrees(model.theta_c() - model.frame().tilt)));
+  }
+  fact("step", formatted("%lld", static_cast<long long>(model.frame().step)));
+  fact("time", formatted("%.3f s", model.frame().time));
+  fact("contacts", formatted("%d", model.frame().contacts.count()));
+}
+
+}  // namespace
+
+void draw_run_panel(Gui& gui) {
+  ImGui::TextWrapped("%s", gui.model.path().c_str());
+  ImGui::Separator();
+  if (LiveRun* live = gui.model.live())
+    draw_live(gui, *live);
+  else
+    draw_replay(gui);
+}
+
+}  // namespace talus

@@ -1,0 +1,188 @@
+#include "gui/plot_widget.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "maps/texts.h"
+
+namespace talus {
+namespace {
+
+constexpr ImU32 ink = IM_COL32(0, 0, 0, 255);
+constexpr ImU32 faint = IM_COL32(0, 0, 0, 90);
+constexpr ImU32 paper = IM_COL32(255, 255, 255, 255);
+constexpr ImU32 mark_colour = IM_COL32(90, 90, 90, 255);
+
+/// Colours of the curves, in their order; they differ in lightness.
+ImU32 curve_colour(std::size_t k) {
+  constexpr ImU32 colours[] = {IM_COL32(0, 0, 0, 255), IM_COL32(213, 94, 0, 255), IM_COL32(0, 114, 178, 255),
+                               IM_COL32(120, 120, 120, 255)};
+  return colours[k % std::size(colours)];
+}
+
+struct Range {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -std::numeric_limits<double>::infinity();
+
+  void take(double value) {
+    if (!std::isfinite(value)) return;
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+  bool empty() const { return !(low <= high); }
+  /// A little wider than its values, and never without width.
+  void widen() {
+    const double room = high > low ? 0.05 * (high - low) : std::max(0.5 * std::abs(high), 0.5);
+    low -= room;
+    high += room;
+  }
+};
+
+/// From values to pixels.
+struct Axes {
+  Range x, y;
+  ImVec2 low, high;  ///< upper left and lower right corner of the frame
+  bool log_y = false;
+
+  double shown_y(double value) const { return log_y ? std::log10(value) : value; }
+  float px(double value) const {
+    return low.x + static_cast<float>((value - x.low) / (x.high - x.low)) * (high.x - low.x);
+  }
+  float py(double value) const {
+    return high.y - static_cast<float>((shown_y(value) - y.low) / (y.high - y.low)) * (high.y - low.y);
+  }
+};
+
+void find_ranges(const Plot& plot, Axes& axes) {
+  for (const PlotSeries& series : plot.series)
+    for (std::size_t k = 0; k < series.x.size(); ++k) {
+      if (!std::isfinite(series.y[k]) || (plot.log_y && !(series.y[k] > 0.0))) continue;
+      axes.x.take(series.x[k]);
+      axes.y.take(axes.shown_y(series.y[k]));
+    }
+}
+
+void draw_ticks(ImDrawList& list, const Axes& axes, float em) {
+  const int most_x = std::max(2, static_cast<int>((axes.high.x - axes.low.x) / (4.0f * em)));
+  for (const RoundTick& tick : round_ticks(axes.x.low, axes.x.high, most_x)) {
+    const float x = axes.px(tick.value);
+    list.AddLine({x, axes.high.y}, {x, axes.high.y - 0.3f * em}, ink);
+    const float width = ImGui::CalcTextSize(tick.label.c_str()).x;
+    list.AddText({x - 0.5f * width, axes.high.y + 0.1f * em}, ink, tick.label.c_str());
+  }
+  const int most_y = std::max(2, static_cast<int>((axes.high.y - axes.low.y) / (2.0f * em)));
+  for (const RoundTick& tick : round_ticks(axes.y.low, axes.y.high, most_y)) {
+    const float share = static_cast<float>((tick.value - axes.y.low) / (axes.y.high - axes.y.low));
+    const float y = axes.high.y - share * (axes.high.y - axes.low.y);
+    list.AddLine({axes.low.x, y}, {axes.low.x + 0.3f * em, y}, ink);
+    if (axes.log_y && tick.value != std::round(tick.value)) continue;
+    const std::string label = axes.log_y ? formatted("1e%.0f", tick.value) : tick.label;
+    const float width = ImGui::CalcTextSize(label.c_str()).x;
+    list.AddText({axes.low.x - width - 0.2f * em, y - 0.5f * ImGui::GetFontSize()}, ink, label.c_str());
+  }
+}
+
+/// Points of a curve that lie in one column of pixels: more than these four would draw over each other.
+struct Column {
+  ImVec2 first, low, high, last;
+};
+
+/// A curve of any number of points, thinned to what can be seen.
+void draw_curve(ImDrawList& list, const Axes& axes, const PlotSeries& series, ImU32 colour, bool log_y,
+                float width) {
+  std::vector<ImVec2> line;
+  std::optional<Column> column;
+  const auto end_column = [&] {
+    if (column) line.insert(line.end(), {column->first, column->low, column->high, column->last});
+    column.reset();
+  };
+  const auto end_line = [&] {
+    end_column();
+    list.AddPolyline(line.data(), static_cast<int>(line.size()), colour, ImDrawFlags_None, width);
+    line.clear();
+  };
+  for (std::size_t k = 0; k < series.x.size(); ++k) {
+    if (!std::isfinite(series.y[k]) || (log_y && !(series.y[k] > 0.0))) {
+      end_line();
+      continue;
+    }
+    const ImVec2 now{axes.px(series.x[k]), axes.py(series.y[k])};
+    if (column && std::floor(now.x) != std::floor(column->first.x)) end_column();
+    if (!column) column = Column{now, now, now, now};
+    if (now.y < column->low.y) column->low = now;
+    if (now.y > column->high.y) column->high = now;
+    column->last = now;
+  }
+  end_line();
+}
+
+/// The value of a curve nearest to x.
+double value_near(const PlotSeries& series, double x) {
+  if (series.x.empty()) return std::numeric_limits<double>::quiet_NaN();
+  const auto above = std::ranges::lower_bound(series.x, x);
+  auto k = static_cast<std::size_t>(above - series.x.begin());
+  if (k == series.x.size() || (k > 0 && x - series.x[k - 1] < series.x[k] - x)) --k;
+  return series.y[k];
+}
+
+void show_values(const Plot& plot, const Axes& axes) {
+  const float share = (ImGui::GetIO().MousePos.x - axes.low.x) / (axes.high.x - axes.low.x);
+  if (share < 0.0f || share > 1.0f) return;
+  const double x = axes.x.low + static_cast<double>(share) * (axes.x.high - axes.x.low);
+  ImGui::BeginTooltip();
+  rich_text(std::string(plot.x_title).append(": ").append(formatted("%.4g", x)));
+  for (const PlotSeries& series : plot.series)
+    rich_text(std::string(series.name).append(": ").append(formatted("%.4g", value_near(series, x))));
+  ImGui::EndTooltip();
+}
+
+void draw_names(ImDrawList& list, const Plot& plot, const ImVec2& place, float right, float em) {
+  add_rich_text(list, place, ink, plot.title);
+  if (plot.series.size() < 2) return;
+  float x = right;
+  for (std::size_t k = plot.series.size(); k-- > 0;) {
+    x -= rich_width(*ImGui::GetFont(), ImGui::GetFontSize(), plot.series[k].name) + 0.8f * em;
+    if (x < place.x + rich_width(*ImGui::GetFont(), ImGui::GetFontSize(), plot.title)) return;
+    add_rich_text(list, {x, place.y}, curve_colour(k), plot.series[k].name);
+  }
+}
+
+}  // namespace
+
+void draw_plot(Gui& gui, const Plot& plot, const ImVec2& size, std::optional<double> mark) {
+  const ImVec2 corner = ImGui::GetCursorScreenPos();
+  ImGui::InvisibleButton(std::string("plot ").append(plot.name).c_str(), size);
+  note_place(gui, std::string("plot ").append(plot.name));
+  if (!ImGui::IsItemVisible()) return;
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const float em = gui.em;
+  Axes axes;
+  axes.log_y = plot.log_y;
+  axes.low = {corner.x + 3.6f * em, corner.y + 1.4f * em};
+  axes.high = {corner.x + size.x - 0.8f * em, corner.y + size.y - 2.4f * em};
+  list.PushClipRect(corner, {corner.x + size.x, corner.y + size.y}, true);
+  draw_names(list, plot, {axes.low.x, corner.y}, axes.high.x, em);
+  list.PopClipRect();
+  list.AddRectFilled(axes.low, axes.high, paper);
+  list.AddRect(axes.low, axes.high, ink);
+  const float title = rich_width(*ImGui::GetFont(), ImGui::GetFontSize(), plot.x_title);
+  add_rich_text(list, {0.5f * (axes.low.x + axes.high.x - title), axes.high.y + 1.1f * em}, ink,
+                plot.x_title);
+  find_ranges(plot, axes);
+  if (axes.x.empty()) {
+    list.AddText({axes.low.x + 0.5f * em, axes.low.y + 0.5f * em}, faint, "nothing yet");
+    return;
+  }
+  axes.x.widen();
+  axes.y.widen();
+  draw_ticks(list, axes, em);
+  list.PushClipRect(axes.low, axes.high, true);
+  if (mark) list.AddLine({axes.px(*mark), axes.low.y}, {axes.px(*mark), axes.high.y}, mark_colour);
+  for (std::size_t k = plot.series.size(); k-- > 0;)
+    draw_curve(list, axes, plot.series[k], curve_colour(k), plot.log_y, plot.series[k].law ? 1.0f : 1.5f);
+  list.PopClipRect();
+  if (ImGui::IsItemHovered()) show_values(plot, axes);
+}
+
+}  // namespace talus

@@ -1,0 +1,72 @@
+#include "gui/run_actions.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/errors.h"
+#include "core/trigonometry.h"
+
+namespace talus {
+
+void toggle_playing(Gui& gui) {
+  ViewModel& model = gui.model;
+  if (LiveRun* live = model.live())
+    live->status().running ? live->pause() : live->play();
+  else
+    model.play(!model.playing());
+}
+
+void advance(Gui& gui, int count) {
+  ViewModel& model = gui.model;
+  if (LiveRun* live = model.live()) {
+    if (count > 0) live->step(count);
+    return;
+  }
+  model.play(false);
+  const auto last = static_cast<long>(model.frame_count()) - 1;
+  model.go_to(static_cast<std::size_t>(
+      std::clamp(static_cast<long>(model.frame_index()) + count, 0L, std::max(last, 0L))));
+}
+
+void send(Gui& gui, const Command& command) {
+  LiveRun* live = gui.model.live();
+  if (!live) return;
+  try {
+    live->apply(command);
+    gui.model.state.message = "Applied before step " + std::to_string(live->status().step + 1) + ".";
+  } catch (const Error& error) {
+    gui.model.state.message = error.what();
+  }
+}
+
+void push_selected(Gui& gui) {
+  const ViewState& state = gui.model.state;
+  if (!state.selected) {
+    gui.model.state.message = "Click a grain first: the push goes to it.";
+    return;
+  }
+  const double speed = state.push_speed * std::sqrt(gui.model.statics().gravity * gui.model.mean_diameter());
+  const double angle = radians(state.push_angle);
+  send(gui, {0, CommandKind::push, *state.selected, speed * cosine(angle), speed * sine(angle)});
+}
+
+void drop_here(Gui& gui) {
+  const ViewState& state = gui.model.state;
+  const Frame& frame = gui.model.frame();
+  const double x = state.selected ? frame.x[*state.selected] : state.camera.centre_x;
+  send(gui, {0, CommandKind::drop, static_cast<Index>(state.drop_count), x,
+             state.drop_height * gui.model.mean_diameter()});
+}
+
+void zoom_about(Gui& gui, double factor, double x, double y) {
+  ViewCamera& camera = gui.model.state.camera;
+  const double zoom = std::clamp(camera.zoom * factor, 1.0, 400.0);
+  const double ratio = camera.zoom / zoom;
+  camera.centre_x = x + (camera.centre_x - x) * ratio;
+  camera.centre_y = y + (camera.centre_y - y) * ratio;
+  camera.zoom = zoom;
+}
+
+void show_whole_bed(Gui& gui) { gui.model.state.camera.zoom = 1.0; }
+
+}  // namespace talus

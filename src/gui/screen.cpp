@@ -1,0 +1,72 @@
+#include "gui/screen.h"
+
+#include <algorithm>
+#include <cstdint>
+
+#include "gui/font.h"
+#include "gui/map_texture.h"
+
+namespace talus {
+namespace {
+
+/// As ImGui names textures.
+void* texture_id(GLuint texture) { return reinterpret_cast<void*>(static_cast<std::uintptr_t>(texture)); }
+
+GLuint upload_font(const Gl& gl, ImFontAtlas& atlas) {
+  unsigned char* coverage = nullptr;
+  int width = 0, height = 0;
+  atlas.GetTexDataAsAlpha8(&coverage, &width, &height);
+  const GLuint texture = make_texture(gl, width, height, 1, coverage, GL_LINEAR);
+  widen(gl, texture, OneChannel::alpha);
+  atlas.SetTexID(texture_id(texture));
+  atlas.ClearTexData();
+  return texture;
+}
+
+}  // namespace
+
+void GuiScreen::ContextDeleter::operator()(ImGuiContext* context) const { ImGui::DestroyContext(context); }
+
+GuiScreen::GuiScreen(std::unique_ptr<Context> context, float scale) : gl_(load_gl(*context)) {
+  map_ = std::make_unique<MapTexture>(std::move(context), gl_);
+  painter_ = std::make_unique<DrawDataPainter>(gl_);
+  imgui_.reset(ImGui::CreateContext());
+  ImGuiIO& own = io();
+  own.IniFilename = nullptr;  // the layout follows from the size of the window
+  own.LogFilename = nullptr;
+  own.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
+  own.MousePos = {-1.0f, -1.0f};
+  name_keys(own);
+  add_embedded_font(*own.Fonts, scale);
+  font_texture_ = upload_font(gl_, *own.Fonts);
+  set_style(scale);
+}
+
+GuiScreen::~GuiScreen() { gl_.DeleteTextures(1, &font_texture_); }
+
+ImGuiIO& GuiScreen::io() {
+  ImGui::SetCurrentContext(imgui_.get());
+  return ImGui::GetIO();
+}
+
+GuiRequests GuiScreen::draw(ViewModel& model, const Surface& surface, int width, int height, double seconds) {
+  ImGuiIO& own = io();
+  const float pixels = static_cast<float>(surface.width) / static_cast<float>(width);
+  own.DisplaySize = {static_cast<float>(width), static_cast<float>(height)};
+  own.DisplayFramebufferScale = {pixels, static_cast<float>(surface.height) / static_cast<float>(height)};
+  own.DeltaTime = std::max(static_cast<float>(seconds), 1e-4f);  // ImGui accepts none that is zero
+  input_.hand_over(own);
+  ImGui::NewFrame();
+  const DrawMap draw_map = [&](const FrameView& view, int map_width, int /*map_height: that of the view*/) {
+    return texture_id(map_->draw(view, static_cast<int>(static_cast<float>(map_width) * pixels)));
+  };
+  places_.clear();
+  GuiRequests requests = draw_gui(model, draw_map, places_);
+  ImGui::Render();
+  painter_->draw(*ImGui::GetDrawData(), surface);
+  return requests;
+}
+
+Image GuiScreen::draw_image(const FrameView& view, int width) { return map_->draw_image(view, width); }
+
+}  // namespace talus

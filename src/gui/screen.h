@@ -1,0 +1,54 @@
+#pragma once
+/// What a window and a picture without a display share: an ImGui context with its font, what draws it, and
+/// the input on its way to it.
+
+#include <memory>
+#include <vector>
+
+#include "gui/draw_data.h"
+#include "gui/gui.h"
+#include "gui/input.h"
+#include "render/context.h"
+#include "render/image.h"
+
+struct ImGuiContext;
+
+namespace talus {
+
+class MapTexture;
+
+class GuiScreen {
+ public:
+  /// For a context that is current. `scale` is that of the display: 2 sets everything twice as large.
+  GuiScreen(std::unique_ptr<Context> context, float scale);
+  ~GuiScreen();
+  GuiScreen(const GuiScreen&) = delete;
+  GuiScreen& operator=(const GuiScreen&) = delete;
+
+  /// One picture of the whole window, `seconds` after the one before. `width` and `height` are those in which
+  /// mouse positions are given; the surface may have more pixels.
+  GuiRequests draw(ViewModel& model, const Surface& surface, int width, int height, double seconds);
+
+  InputQueue& input() { return input_; }
+  ImGuiIO& io();
+  /// Where the widgets are in the picture drawn last.
+  const std::vector<WidgetPlace>& places() const { return places_; }
+  /// A view as talus render draws it.
+  Image draw_image(const FrameView& view, int width);
+  const Gl& gl() const { return gl_; }
+
+ private:
+  struct ContextDeleter {
+    void operator()(ImGuiContext* context) const;
+  };
+
+  Gl gl_;
+  std::unique_ptr<MapTexture> map_;  ///< owns the OpenGL context: destroyed last
+  std::unique_ptr<DrawDataPainter> painter_;
+  std::unique_ptr<ImGuiContext, ContextDeleter> imgui_;
+  GLuint font_texture_ = 0;
+  InputQueue input_;
+  std::vector<WidgetPlace> places_;
+};
+
+}  // namespace talus

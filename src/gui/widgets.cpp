@@ -1,0 +1,171 @@
+#include "gui/widgets.h"
+
+#include <imgui_stdlib.h>
+
+#include <array>
+#include <cmath>
+#include <cstdarg>
+#include <cstdio>
+#include <limits>
+
+#include "render/font.h"
+
+namespace talus {
+namespace {
+
+void show_tip(const char* tip) {
+  if (tip != nullptr && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", tip);
+}
+
+/// Bytes of the UTF-8 character that begins with this byte.
+std::size_t character_size(char lead) {
+  const auto byte = static_cast<unsigned char>(lead);
+  return byte < 0x80 ? 1 : byte < 0xE0 ? 2 : byte < 0xF0 ? 3 : 4;
+}
+
+/// Calls piece(text, is_subscript) for the pieces of a rich text, in order.
+template <typename Piece>
+void for_pieces(std::string_view text, const Piece& piece) {
+  while (!text.empty()) {
+    const std::size_t mark = text.find('_');
+    if (mark > 0) piece(text.substr(0, mark), false);
+    if (mark == std::string_view::npos || mark + 1 >= text.size()) return;
+    const std::size_t size = character_size(text[mark + 1]);
+    piece(text.substr(mark + 1, size), true);
+    text.remove_prefix(std::min(text.size(), mark + 1 + size));
+  }
+}
+
+}  // namespace
+
+void note_place(Gui& gui, std::string name, const ImVec2& low, const ImVec2& high) {
+  gui.places.push_back({std::move(name), low.x, low.y, high.x, high.y});
+}
+
+void note_place(Gui& gui, std::string name) {
+  note_place(gui, std::move(name), ImGui::GetItemRectMin(), ImGui::GetItemRectMax());
+}
+
+bool named_button(Gui& gui, const char* name, const char* label, const char* tip) {
+  const bool pressed = ImGui::Button(std::string(label).append("##").append(name).c_str());
+  note_place(gui, name);
+  show_tip(tip);
+  return pressed;
+}
+
+bool named_checkbox(Gui& gui, const char* name, const char* label, bool& value, const char* tip) {
+  const bool changed = ImGui::Checkbox(std::string(label).append("##").append(name).c_str(), &value);
+  note_place(gui, name);
+  show_tip(tip);
+  return changed;
+}
+
+bool named_slider(Gui& gui, const char* name, const char* label, double& value, double low, double high,
+                  const char* format, const char* tip, bool logarithmic) {
+  const ImGuiSliderFlags flags =
+      ImGuiSliderFlags_AlwaysClamp | (logarithmic ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None);
+  const std::string id = std::string(label).append("##").append(name);
+  const bool changed =
+      ImGui::SliderScalar(id.c_str(), ImGuiDataType_Double, &value, &low, &high, format, flags);
+  note_place(gui, name);
+  show_tip(tip);
+  return changed;
+}
+
+std::optional<double> named_slider_when_done(Gui& gui, const char* name, const char* label, double current,
+                                             double low, double high, const char* format, const char* tip) {
+  // What it stands at while it is held; not a number else.
+  float& held =
+      *ImGui::GetStateStorage()->GetFloatRef(ImGui::GetID(name), std::numeric_limits<float>::quiet_NaN());
+  double value = std::isnan(held) ? current : static_cast<double>(held);
+  named_slider(gui, name, label, value, low, high, format, tip);
+  const bool done = ImGui::IsItemDeactivatedAfterEdit();
+  held = ImGui::IsItemActive() ? static_cast<float>(value) : std::numeric_limits<float>::quiet_NaN();
+  return done ? std::optional(value) : std::nullopt;
+}
+
+bool named_number(Gui& gui, const char* name, const char* label, double& value, const char* format,
+                  const char* tip) {
+  const bool changed =
+      ImGui::InputDouble(std::string(label).append("##").append(name).c_str(), &value, 0.0, 0.0, format);
+  note_place(gui, name);
+  show_tip(tip);
+  return changed;
+}
+
+bool named_number(Gui& gui, const char* name, const char* label, int& value, const char* tip) {
+  const bool changed = ImGui::InputInt(std::string(label).append("##").append(name).c_str(), &value, 0);
+  note_place(gui, name);
+  show_tip(tip);
+  return changed;
+}
+
+bool named_text(Gui& gui, const char* name, const char* label, std::string& value, const char* tip) {
+  const bool changed = ImGui::InputText(std::string(label).append("##").append(name).c_str(), &value);
+  note_place(gui, name);
+  show_tip(tip);
+  return changed;
+}
+
+bool named_choice(Gui& gui, const char* name, const char* label, const std::vector<std::string>& texts,
+                  int& chosen) {
+  bool changed = false;
+  const std::string id = std::string(label).append("##").append(name);
+  const bool open = ImGui::BeginCombo(id.c_str(), texts[static_cast<std::size_t>(chosen)].c_str(),
+                                      ImGuiComboFlags_HeightLargest);
+  note_place(gui, name);
+  if (!open) return false;
+  for (int k = 0; k < static_cast<int>(texts.size()); ++k) {
+    if (ImGui::Selectable(texts[static_cast<std::size_t>(k)].c_str(), k == chosen)) {
+      chosen = k;
+      changed = true;
+    }
+    note_place(gui, std::string(name).append(": ").append(texts[static_cast<std::size_t>(k)]));
+  }
+  ImGui::EndCombo();
+  return changed;
+}
+
+float rich_width(const ImFont& font, float size, std::string_view text) {
+  float width = 0.0f;
+  for_pieces(text, [&](std::string_view piece, bool subscript) {
+    const float piece_size = subscript ? static_cast<float>(subscript_size) * size : size;
+    width += font.CalcTextSizeA(piece_size, 1e9f, 0.0f, piece.data(), piece.data() + piece.size()).x;
+  });
+  return width;
+}
+
+void add_rich_text(ImDrawList& list, const ImVec2& place, ImU32 colour, std::string_view text) {
+  const ImFont& font = *ImGui::GetFont();
+  const float size = ImGui::GetFontSize();
+  ImVec2 pen = place;
+  for_pieces(text, [&](std::string_view piece, bool subscript) {
+    const float piece_size = subscript ? static_cast<float>(subscript_size) * size : size;
+    const ImVec2 at{pen.x, subscript ? pen.y + 0.42f * size : pen.y};
+    list.AddText(&font, piece_size, at, colour, piece.data(), piece.data() + piece.size());
+    pen.x += font.CalcTextSizeA(piece_size, 1e9f, 0.0f, piece.data(), piece.data() + piece.size()).x;
+  });
+}
+
+void rich_text(std::string_view text) {
+  const ImVec2 place = ImGui::GetCursorScreenPos();
+  add_rich_text(*ImGui::GetWindowDrawList(), place, ImGui::GetColorU32(ImGuiCol_Text), text);
+  ImGui::Dummy({rich_width(*ImGui::GetFont(), ImGui::GetFontSize(), text), ImGui::GetTextLineHeight()});
+}
+
+void fact(std::string_view label, const std::string& value) {
+  rich_text(label);
+  ImGui::SameLine(0.42f * ImGui::GetWindowContentRegionMax().x);
+  rich_text(value);
+}
+
+std::string formatted(const char* format, ...) {
+  std::array<char, 512> text{};
+  va_list values;
+  va_start(values, format);
+  std::vsnprintf(text.data(), text.size(), format, values);
+  va_end(values);
+  return text.data();
+}
+
+}  // namespace talus

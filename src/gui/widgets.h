@@ -1,0 +1,57 @@
+#pragma once
+/// Small helpers of the panels: widgets that are remembered by name, numbers and texts.
+
+#include <imgui.h>
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gui/gui.h"
+
+namespace talus {
+
+/// What all panels work on during one picture.
+struct Gui {
+  ViewModel& model;
+  const DrawMap& draw_map;
+  std::vector<WidgetPlace>& places;
+  GuiRequests& requests;
+  float em = 16.0f;  ///< height of the text, px
+};
+
+/// Remembers where the widget drawn last is.
+void note_place(Gui& gui, std::string name);
+void note_place(Gui& gui, std::string name, const ImVec2& low, const ImVec2& high);
+
+/// Widgets that are remembered under `name`; true where the user has used them. `tip` is shown under the
+/// mouse.
+bool named_button(Gui& gui, const char* name, const char* label, const char* tip = nullptr);
+bool named_checkbox(Gui& gui, const char* name, const char* label, bool& value, const char* tip = nullptr);
+bool named_slider(Gui& gui, const char* name, const char* label, double& value, double low, double high,
+                  const char* format, const char* tip = nullptr, bool logarithmic = false);
+bool named_number(Gui& gui, const char* name, const char* label, double& value, const char* format,
+                  const char* tip = nullptr);
+bool named_number(Gui& gui, const char* name, const char* label, int& value, const char* tip = nullptr);
+bool named_text(Gui& gui, const char* name, const char* label, std::string& value, const char* tip = nullptr);
+/// A slider that shows `current`, and has a value only when it is let go.
+std::optional<double> named_slider_when_done(Gui& gui, const char* name, const char* label, double current,
+                                             double low, double high, const char* format,
+                                             const char* tip = nullptr);
+/// A choice among texts; `chosen` is changed.
+bool named_choice(Gui& gui, const char* name, const char* label, const std::vector<std::string>& texts,
+                  int& chosen);
+
+/// A line of text in the syntax of pictures: "_c" sets c as a subscript.
+void rich_text(std::string_view text);
+float rich_width(const ImFont& font, float size, std::string_view text);
+void add_rich_text(ImDrawList& list, const ImVec2& place, ImU32 colour, std::string_view text);
+
+/// "label   value" in two columns.
+void fact(std::string_view label, const std::string& value);
+
+/// Numbers in a text, as the C library formats them.
+std::string formatted(const char* format, ...);
+
+}  // namespace talus

@@ -1,0 +1,261 @@
+#include "gui/window.h"
+
+// GLFW brings no OpenGL header: the renderer has its own.
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <algorithm>
+#include <array>
+#include <cfloat>
+#include <cstdio>
+#include <filesystem>
+#include <utility>
+
+#include "core/errors.h"
+#include "core/trigonometry.h"
+#include "gui/screen.h"
+
+namespace talus {
+namespace {
+
+constexpr double picture_time = 1.0 / 60.0;  ///< s, at least
+constexpr int smallest_side = 200;           ///< of the window
+constexpr float nowhere = -FLT_MAX;          ///< ImGui: the mouse is outside
+constexpr double longest_wait = 0.1;         ///< s, before the model is asked again
+/// Pictures after the last change: ImGui knows what is under the mouse one picture later, and hints fade in.
+constexpr int settling_pictures = 4;
+constexpr double fast_after_change = 0.5;  ///< s, in which the model is asked for every picture
+constexpr double blink_time = 0.25;        ///< s, of the cursor in a text field
+
+/// The OpenGL of a window that is current.
+class WindowContext final : public Context {
+ public:
+  Function function(const char* name) const override { return glfwGetProcAddress(name); }
+};
+
+/// The library, from its start to its end.
+class Glfw {
+ public:
+  Glfw() {
+    if (glfwInit()) return;
+    const char* reason = nullptr;
+    glfwGetError(&reason);
+    throw Error(
+        ExitCode::unavailable,
+        std::string("no window: ") + (reason ? reason : "GLFW does not start") +
+            "; talus view needs a display (is DISPLAY set?); talus render and talus view --screenshot "
+            "draw without");
+  }
+  ~Glfw() { glfwTerminate(); }
+  Glfw(const Glfw&) = delete;
+  Glfw& operator=(const Glfw&) = delete;
+};
+
+struct WindowDeleter {
+  void operator()(GLFWwindow* window) const { glfwDestroyWindow(window); }
+};
+using WindowHandle = std::unique_ptr<GLFWwindow, WindowDeleter>;
+
+WindowHandle make_window(int width, int height) {
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
+  glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+  glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
+  glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
+  glfwWindowHint(GLFW_DEPTH_BITS, 0);
+  glfwWindowHint(GLFW_STENCIL_BITS, 0);
+  glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
+  WindowHandle window(glfwCreateWindow(width, height, "Talus", nullptr, nullptr));
+  if (!window) {
+    const char* reason = nullptr;
+    glfwGetError(&reason);
+    throw Error(ExitCode::unavailable, std::string("no window with OpenGL 3.3: ") +
+                                           (reason ? reason : "unknown") +
+                                           "; apt-get install libgl1 libgl1-mesa-dri");
+  }
+  glfwMakeContextCurrent(window.get());
+  glfwSwapInterval(1);
+  return window;
+}
+
+/// Text and widgets are so many times larger than on a usual display. Where the window has more pixels than
+/// its size says, those are finer and not more.
+float display_scale(GLFWwindow* window) {
+  float scale = 1.0f;
+  int width = 1, pixels = 1, height = 0;
+  glfwGetWindowContentScale(window, &scale, nullptr);
+  glfwGetWindowSize(window, &width, &height);
+  glfwGetFramebufferSize(window, &pixels, &height);
+  return std::clamp(scale * static_cast<float>(width) / static_cast<float>(std::max(pixels, 1)), 0.5f, 4.0f);
+}
+
+}  // namespace
+
+struct WindowState {
+  WindowState(int width, int height)
+      : window(make_window(width, height)),
+        screen(std::make_unique<WindowContext>(), display_scale(window.get())) {}
+
+  Glfw glfw;
+  WindowHandle window;
+  GuiScreen screen;
+  std::string title;
+  std::string dropped;         ///< a file
+  int pictures_due = 1;        ///< to be drawn even where the model does not change
+  double last_picture = -1.0;  ///< s, GLFW's clock
+  double last_update = -1.0, last_change = -1.0;
+};
+
+namespace {
+
+/// What GLFW's callbacks change.
+WindowState& state_of(GLFWwindow* window) {
+  return *static_cast<WindowState*>(glfwGetWindowUserPointer(window));
+}
+
+void add(GLFWwindow* window, const InputEvent& event) {
+  WindowState& state = state_of(window);
+  state.screen.input().add(event);
+  state.pictures_due = settling_pictures;
+}
+
+void catch_mouse(GLFWwindow* window) {
+  using Kind = InputEvent::Kind;
+  glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) {
+    add(w, {Kind::position, static_cast<float>(x), static_cast<float>(y), 0, false});
+  });
+  glfwSetCursorEnterCallback(window, [](GLFWwindow* w, int entered) {
+    if (!entered) add(w, {Kind::position, nowhere, nowhere, 0, false});
+  });
+  glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int button, int action, int) {
+    add(w, {Kind::button, 0.0f, 0.0f, button, action == GLFW_PRESS});
+  });
+  glfwSetScrollCallback(window, [](GLFWwindow* w, double x, double y) {
+    add(w, {Kind::wheel, static_cast<float>(x), static_cast<float>(y), 0, false});
+  });
+}
+
+void catch_keys(GLFWwindow* window) {
+  using Kind = InputEvent::Kind;
+  glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int) {
+    if (action != GLFW_REPEAT)
+      add(w, {Kind::key, 0.0f, 0.0f, key, action == GLFW_PRESS});  // ImGui repeats itself
+  });
+  glfwSetCharCallback(window, [](GLFWwindow* w, unsigned character) {
+    add(w, {Kind::character, 0.0f, 0.0f, static_cast<int>(character), false});
+  });
+}
+
+void catch_the_rest(GLFWwindow* window) {
+  glfwSetWindowFocusCallback(window, [](GLFWwindow* w, int focused) {
+    state_of(w).screen.io().AddFocusEvent(focused != 0);  // keys that are down are released
+    state_of(w).pictures_due = settling_pictures;
+  });
+  glfwSetFramebufferSizeCallback(
+      window, [](GLFWwindow* w, int, int) { state_of(w).pictures_due = settling_pictures; });
+  glfwSetWindowRefreshCallback(window, [](GLFWwindow* w) { state_of(w).pictures_due = settling_pictures; });
+  glfwSetDropCallback(window, [](GLFWwindow* w, int count, const char** paths) {
+    if (count > 0) state_of(w).dropped = paths[0];
+  });
+}
+
+void lend_clipboard(WindowState& state) {
+  ImGuiIO& io = state.screen.io();
+  io.ClipboardUserData = state.window.get();
+  io.SetClipboardTextFn = [](void* window, const char* text) {
+    glfwSetClipboardString(static_cast<GLFWwindow*>(window), text);
+  };
+  io.GetClipboardTextFn = [](void* window) {
+    return glfwGetClipboardString(static_cast<GLFWwindow*>(window));
+  };
+}
+
+/// Waits for events, or until the model may have something new, or until the next picture is due.
+void wait(WindowState& state, const ViewModel& model) {
+  const double now = glfwGetTime();
+  const bool busy = state.pictures_due > 0 || state.screen.input().waiting() || model.playing() ||
+                    now - state.last_change < fast_after_change;
+  const double seconds = busy ? state.last_picture + picture_time - now : longest_wait;
+  if (seconds > 0.0)
+    glfwWaitEventsTimeout(seconds);
+  else
+    glfwPollEvents();
+}
+
+/// Lets the model go on, and notes whether there is something to draw.
+void update(WindowState& state, ViewModel& model) {
+  const double now = glfwGetTime();
+  const double seconds = state.last_update < 0.0 ? 0.0 : now - state.last_update;
+  state.last_update = now;
+  if (model.update(seconds)) {
+    state.last_change = now;
+    state.pictures_due = std::max(state.pictures_due, 1);
+  }
+  if (state.screen.input().waiting()) state.pictures_due = settling_pictures;
+  if (state.screen.io().WantTextInput && now - state.last_picture > blink_time)
+    state.pictures_due = std::max(state.pictures_due, 1);
+}
+
+/// "bed.h5, 12.25° – Talus".
+void set_title(WindowState& state, const ViewModel& model) {
+  std::array<char, 32> tilt{};
+  std::snprintf(tilt.data(), tilt.size(), ", %.2f° – Talus", degrees(model.frame().tilt));
+  const std::string title = std::filesystem::path(model.path()).filename().string() + tilt.data();
+  if (title == state.title) return;
+  state.title = title;
+  glfwSetWindowTitle(state.window.get(), title.c_str());
+}
+
+GuiRequests draw(WindowState& state, ViewModel& model, int width, int height) {
+  const double now = glfwGetTime();
+  Surface surface;
+  glfwGetFramebufferSize(state.window.get(), &surface.width, &surface.height);
+  const double seconds = state.last_picture < 0.0 ? picture_time : now - state.last_picture;
+  state.last_picture = now;
+  --state.pictures_due;
+  GuiRequests requests = state.screen.draw(model, surface, width, height, seconds);
+  glfwSwapBuffers(state.window.get());
+  return requests;
+}
+
+}  // namespace
+
+GuiWindow::GuiWindow(int width, int height) : state_(std::make_unique<WindowState>(width, height)) {
+  GLFWwindow* window = state_->window.get();
+  glfwSetWindowUserPointer(window, state_.get());
+  glfwSetWindowSizeLimits(window, smallest_side, smallest_side, GLFW_DONT_CARE, GLFW_DONT_CARE);
+  catch_mouse(window);
+  catch_keys(window);
+  catch_the_rest(window);
+  lend_clipboard(*state_);
+}
+
+GuiWindow::~GuiWindow() = default;
+
+GuiRequests GuiWindow::next_picture(ViewModel& model) {
+  WindowState& state = *state_;
+  if (state.last_picture < 0.0) glfwShowWindow(state.window.get());
+  wait(state, model);
+  update(state, model);
+  GuiRequests requests;
+  int width = 0, height = 0;
+  glfwGetWindowSize(state.window.get(), &width, &height);
+  const bool visible = width > 0 && height > 0 && !glfwGetWindowAttrib(state.window.get(), GLFW_ICONIFIED);
+  const bool due = state.pictures_due > 0 && glfwGetTime() - state.last_picture >= 0.9 * picture_time;
+  if (visible && due) {
+    requests = draw(state, model, width, height);
+    set_title(state, model);
+  }
+  if (!state.dropped.empty()) requests.open_path = std::exchange(state.dropped, {});
+  return requests;
+}
+
+bool GuiWindow::closed() const { return glfwWindowShouldClose(state_->window.get()); }
+
+const std::vector<WidgetPlace>& GuiWindow::places() const { return state_->screen.places(); }
+
+Image GuiWindow::draw_image(const FrameView& view, int width) {
+  return state_->screen.draw_image(view, width);
+}
+
+}  // namespace talus

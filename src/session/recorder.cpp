@@ -1,0 +1,17 @@
+#include "session/recorder.h"
+
+namespace talus {
+
+void Recorder::commit() {
+  store_->commit(session_->segment(), session_->checkpoint(store_->seconds_writing()));
+  session_->clear_segment();
+  last_ = Clock::now();
+}
+
+void Recorder::commit_if_due() {
+  const std::chrono::duration<double> since = Clock::now() - last_;
+  if (since.count() >= session_->scenario().output.checkpoint_every || !session_->segment().frames.empty())
+    commit();
+}
+
+}  // namespace talus

@@ -1,0 +1,27 @@
+#pragma once
+/// What a session records, into its store: when a commit is due, and the last of them.
+
+#include <chrono>
+
+#include "session/session.h"
+
+namespace talus {
+
+/// Commits a session to a store. Neither is owned.
+class Recorder {
+ public:
+  Recorder(Session& session, RunStore& store) : session_(&session), store_(&store) {}
+
+  /// Makes durable what the session has recorded since the last commit, and its state.
+  void commit();
+  /// The same where it is due: with a new frame, or output.checkpoint_every after the last commit.
+  void commit_if_due();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Session* session_;
+  RunStore* store_;
+  Clock::time_point last_ = Clock::now();
+};
+
+}  // namespace talus

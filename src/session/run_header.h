@@ -1,0 +1,21 @@
+#pragma once
+/// What is known of a run when it begins.
+
+#include <string>
+
+#include "session/session.h"
+
+namespace talus {
+
+/// Where a run comes from, for its provenance.
+struct RunOrigin {
+  std::string scenario_text;  ///< TOML as the user wrote it
+  std::string scenario_file;
+  std::string command_line;
+  int threads = 1;
+};
+
+/// The header of a run that this program begins now, on this host.
+RunHeader run_header(const Session& session, const RunOrigin& origin);
+
+}  // namespace talus

@@ -1,0 +1,68 @@
+#include "view/camera.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace talus {
+namespace {
+
+constexpr double smallest_part = 3.0;  // D, that fill the width of a picture
+
+/// The largest a cos(turn) + b sin(turn) for turns from 0 to turn_max: what a picture has room for.
+double largest_extent(double a, double b, double turn_max) {
+  const double turn = std::clamp(std::atan2(b, a), 0.0, turn_max);
+  return a * std::cos(turn) + b * std::sin(turn);
+}
+
+/// Width over height of a picture of a part that is 1 long and `depth` deep.
+double picture_aspect(double depth, double turn_max) {
+  return largest_extent(1.0, depth, turn_max) / largest_extent(depth, 1.0, turn_max);
+}
+
+/// Depth over length of the part that fills a picture of that aspect. Where it is turned, pictures can be so
+/// wide, or so high, that no part fills them.
+double shape_of(double aspect, double turn_max) {
+  if (turn_max == 0.0) return 1.0 / aspect;
+  double low = 1e-3, high = 1e3;  // the aspect falls from one to the other
+  for (int k = 0; k < 60; ++k) {
+    const double middle = std::sqrt(low * high);
+    (picture_aspect(middle, turn_max) > aspect ? low : high) = middle;
+  }
+  return std::sqrt(low * high);
+}
+
+/// Where a stretch about `centre` begins that shows no more beyond low ... high than it has to.
+double begin_of(double centre, double stretch, double low, double high) {
+  if (stretch >= high - low) return 0.5 * (low + high - stretch);
+  return std::clamp(centre - 0.5 * stretch, low, high - stretch);
+}
+
+}  // namespace
+
+ViewCamera clamped(const ViewCamera& camera, const MapExtent& bed, double mean_diameter) {
+  const double largest_zoom = std::max(1.0, (bed.x_max - bed.x_min) / (smallest_part * mean_diameter));
+  return {std::clamp(camera.centre_x, bed.x_min, bed.x_max),
+          std::clamp(camera.centre_y, bed.y_min, bed.y_max), std::clamp(camera.zoom, 1.0, largest_zoom)};
+}
+
+MapExtent shown_part(const ViewCamera& camera, const MapExtent& bed, double mean_diameter, double aspect,
+                     double turn_max) {
+  const ViewCamera of = clamped(camera, bed, mean_diameter);
+  const double shape = shape_of(aspect, turn_max);
+  const double length = std::max(bed.x_max - bed.x_min, (bed.y_max - bed.y_min) / shape) / of.zoom;
+  const double depth = length * shape;
+  const double x = begin_of(of.centre_x, length, bed.x_min, bed.x_max);
+  const double y = begin_of(of.centre_y, depth, bed.y_min, bed.y_max);
+  return {x, x + length, y, y + depth};
+}
+
+ViewCamera centred(const ViewCamera& camera, const MapExtent& part) {
+  return {0.5 * (part.x_min + part.x_max), 0.5 * (part.y_min + part.y_max), camera.zoom};
+}
+
+MapExtent common_part(const MapExtent& one, const MapExtent& other) {
+  return {std::max(one.x_min, other.x_min), std::min(one.x_max, other.x_max),
+          std::max(one.y_min, other.y_min), std::min(one.y_max, other.y_max)};
+}
+
+}  // namespace talus

@@ -1,0 +1,27 @@
+#pragma once
+/// What part of the bed a picture shows.
+
+#include "maps/maps.h"
+#include "view/view_state.h"
+
+namespace talus {
+
+/// The camera with its zoom not below 1, where all of the bed is seen, and not above what leaves 3 D, and its
+/// centre in the bed.
+ViewCamera clamped(const ViewCamera& camera, const MapExtent& bed, double mean_diameter);
+
+/// The part of the bed that fills a picture of that aspect (width / height). With zoom 1 it is all of the
+/// bed, and what is left of the picture is beside it; else no more is shown beyond an end of the bed than
+/// there has to be. `turn_max` (rad, >= 0): the part is drawn turned by up to that angle, and all of it is to
+/// fit.
+MapExtent shown_part(const ViewCamera& camera, const MapExtent& bed, double mean_diameter, double aspect,
+                     double turn_max);
+
+/// The camera in the middle of what it shows, so that a centre moved on at an end of the bed moves back at
+/// once.
+ViewCamera centred(const ViewCamera& camera, const MapExtent& part);
+
+/// What of one is within the other.
+MapExtent common_part(const MapExtent& one, const MapExtent& other);
+
+}  // namespace talus

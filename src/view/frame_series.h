@@ -1,0 +1,89 @@
+#pragma once
+/// What is worked out frame by frame, in the order of the run, while the view is used.
+
+#include <condition_variable>
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "maps/cluster_colours.h"
+#include "maps/maps.h"
+#include "view/frame_values.h"
+
+namespace talus {
+
+/// Reads frames in a thread of its own. All members are for one other thread.
+class FrameSeries {
+ public:
+  /// Frame k; called by the thread of the series.
+  using ReadFrame = std::function<std::shared_ptr<const Frame>(std::size_t k)>;
+
+  /// `read` lives as long as the series. Nothing is read before begin.
+  FrameSeries(const RunStatics& statics, ReadFrame read);
+  /// Finishes the frame under way.
+  ~FrameSeries() = default;
+  FrameSeries(const FrameSeries&) = delete;
+  FrameSeries& operator=(const FrameSeries&) = delete;
+
+  /// All frames anew, by this rule. Values that are `known`, of the first frames, are not worked out again.
+  void begin(const OverloadRule& rule, std::vector<FrameValues> known);
+  /// How many frames there are, and how many of them, the first, are of the tilt: only these have values.
+  void set_counts(std::size_t frames, std::size_t of_tilt);
+
+  /// Takes in what is ready; true where there was something. Only here does anything below change.
+  bool take_in();
+
+  const OverloadRule& rule() const { return rule_; }
+  /// Of the first frames of the tilt, as far as they are known.
+  const std::vector<FrameValues>& values() const { return values_; }
+  /// Whether all frames of the tilt have values.
+  bool has_all_values() const { return values_.size() >= of_tilt_; }
+  /// Clusters of the first frames, as far as they were met.
+  const std::vector<std::vector<ClusterColour>>& colours() const { return colours_; }
+  /// It has met as many frames as colours() has.
+  const ClusterColours& tracker() const { return tracker_; }
+  /// The bed in all frames met since the series was made.
+  const MapExtent& extent() const { return extent_; }
+  /// Why frames could not be read on; empty where they could.
+  const std::string& error() const { return error_; }
+
+ private:
+  struct Result {
+    FrameValues values;
+    std::vector<ClusterColour> colours;
+    MapExtent extent;
+  };
+  /// What both threads use, under `mutex`.
+  struct Shared {
+    std::mutex mutex;
+    std::condition_variable_any changed;
+    int turn = 0;  ///< counts the calls of begin; 0: none yet
+    OverloadRule rule;
+    std::size_t known = 0, frames = 0, of_tilt = 0;
+    std::vector<Result> ready;
+    ClusterColours tracker;  ///< after the last of `ready`
+    std::string error;
+  };
+
+  void work(const std::stop_token& stop);
+  Result measure(const Frame& frame, const OverloadRule& rule, bool with_values,
+                 ClusterColours& tracker) const;
+
+  RunStatics statics_;
+  ReadFrame read_;
+  OverloadRule rule_;
+  std::size_t of_tilt_ = 0, known_ = 0;
+  std::vector<FrameValues> values_;
+  std::vector<std::vector<ClusterColour>> colours_;
+  ClusterColours tracker_;
+  MapExtent extent_;
+  std::string error_;
+  Shared shared_;
+  std::jthread thread_;  ///< the last: it is joined before the rest goes
+};
+
+}  // namespace talus

@@ -1,0 +1,107 @@
+#include "view/inspection.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "analysis/free_grains.h"
+#include "stress/overload.h"
+
+namespace talus {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+/// A plane is named by where it is seen from the grain.
+std::string plane_name(double nx) {
+  if (nx < -0.5) return "left wall";
+  return nx > 0.5 ? "right wall" : "floor";
+}
+
+std::string body_name(const Frame& frame, const RunStatics& statics, Index body, double nx) {
+  if (body >= frame.grain_count()) return plane_name(nx);
+  return (body < statics.free_count ? std::string("grain ") : std::string("floor grain ")) +
+         std::to_string(body);
+}
+
+/// The normal turns where the grain is the second of its contact, and so does the force: its components along
+/// normal and tangent stay.
+std::vector<GrainContact> contacts_of(const Frame& frame, const RunStatics& statics, Index grain) {
+  const FrameContacts& all = frame.contacts;
+  std::vector<GrainContact> contacts;
+  for (Index c = 0; c < all.count(); ++c) {
+    if (all.a[c] != grain && all.b[c] != grain) continue;
+    const bool first = all.a[c] == grain;
+    const double sign = first ? 1.0 : -1.0;
+    GrainContact contact;
+    contact.other = first ? all.b[c] : all.a[c];
+    contact.nx = sign * all.nx[c];
+    contact.ny = sign * all.ny[c];
+    contact.fn = all.fn[c];
+    contact.ft = all.ft[c];
+    contact.status = all.status[c];
+    contact.other_name = body_name(frame, statics, contact.other, contact.nx);
+    contacts.push_back(contact);
+  }
+  return contacts;
+}
+
+/// l_c, as coarse_graining has it.
+double length_of(const NeighbourhoodCurve& curve, const InspectionRule& rule) {
+  for (std::size_t k = 0; k < curve.l.size() && curve.l[k] <= rule.cut; ++k)
+    if (curve.gamma[k] <= rule.threshold) return curve.l[k];
+  return rule.cut;
+}
+
+double gamma_at(const NeighbourhoodCurve& curve, double l) {
+  const auto after = std::ranges::upper_bound(curve.l, l);
+  return after == curve.l.begin() ? nan : curve.gamma[static_cast<std::size_t>(after - curve.l.begin()) - 1];
+}
+
+}  // namespace
+
+Inspection inspect(const Frame& frame, const RunStatics& statics, const Clusters& clusters,
+                   const InspectionRule& rule, Index grain) {
+  const auto i = static_cast<std::size_t>(grain);
+  Inspection of;
+  of.grain = grain;
+  of.free = grain < statics.free_count;
+  of.radius = statics.radius[i];
+  of.mass = statics.mass[i];
+  of.x = frame.x[i];
+  of.y = frame.y[i];
+  of.vx = frame.vx[i];
+  of.vy = frame.vy[i];
+  of.omega = frame.omega[i];
+  of.contacts = contacts_of(frame, statics, grain);
+  of.internal_moment = frame.internal_moment[i];
+  of.state = stress_state(of.internal_moment);
+  of.gamma = frame.gamma[i];
+  of.neighbourhood_gamma = nan;
+  if (!of.free) return of;
+  of.overloaded = is_overloaded(of.gamma, rule.threshold);
+  of.cluster = clusters.label[i];
+  if (of.cluster >= 0) of.cluster_size = clusters.size[static_cast<std::size_t>(of.cluster)];
+  const double widest = std::max(rule.cut, rule.neighbourhood);
+  of.curve = neighbourhood_curve(frame, statics, grain, widest);
+  if (of.overloaded) of.coarse_graining_length = length_of(of.curve, rule);
+  of.neighbourhood_gamma = gamma_at(of.curve, rule.neighbourhood);
+  return of;
+}
+
+std::optional<Index> find_grain(const Frame& frame, const RunStatics& statics, double x, double y) {
+  const double period = period_of(statics);
+  std::optional<Index> nearest;
+  double least = statics.mean_diameter;  // from the edge of a disc; negative within it
+  for (Index i = 0; i < frame.grain_count(); ++i) {
+    double dx = frame.x[i] - x;
+    if (period > 0.0) dx -= period * std::round(dx / period);
+    const double distance = std::hypot(dx, frame.y[i] - y) - statics.radius[i];
+    if (distance > least) continue;
+    least = distance;
+    nearest = i;
+  }
+  return nearest;
+}
+
+}  // namespace talus

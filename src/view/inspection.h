@@ -1,0 +1,59 @@
+#pragma once
+/// What there is to say of one grain.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/clusters.h"
+#include "analysis/coarse_graining.h"
+#include "core/snapshot.h"
+#include "stress/stress_state.h"
+
+namespace talus {
+
+/// A contact of the selected grain.
+struct GrainContact {
+  Index other = -1;           ///< grain, or a plane
+  std::string other_name;     ///< "grain 431", "floor grain 8012", "left wall"
+  double fn = 0.0, ft = 0.0;  ///< N (per metre of thickness)
+  double nx = 0.0, ny = 0.0;  ///< unit, from the grain outwards
+  ContactStatus status = ContactStatus::open;
+};
+
+/// All there is to say of one grain.
+struct Inspection {
+  Index grain = -1;
+  bool free = true;
+  double radius = 0.0, mass = 0.0;
+  double x = 0.0, y = 0.0, vx = 0.0, vy = 0.0, omega = 0.0;
+  std::vector<GrainContact> contacts;
+  Tensor2 internal_moment;
+  StressState state;   ///< of the internal moment
+  double gamma = 0.0;  ///< as the frame has it
+  bool overloaded = false;
+  Index cluster = -1;  ///< of the overloaded clusters; -1 for none
+  Index cluster_size = 0;
+  NeighbourhoodCurve curve;  ///< gamma_l over l (paper, Fig. 11)
+  std::optional<double>
+      coarse_graining_length;        ///< m; none where it is not overloaded; the cut where it is cut off
+  double neighbourhood_gamma = 0.0;  ///< gamma_l at ViewState::neighbourhood
+};
+
+/// What it depends on beside the frame.
+struct InspectionRule {
+  double threshold = 0.0;      ///< stress ratio from which on a grain is overloaded
+  double cut = 0.0;            ///< m: the search for l_c ends at this diameter
+  double neighbourhood = 0.0;  ///< m: diameter of neighbourhood_gamma
+};
+
+/// Of a grain, floor included; one of the floor has contacts, but no neighbourhoods. `clusters` are those of
+/// the overloaded grains of the frame.
+Inspection inspect(const Frame& frame, const RunStatics& statics, const Clusters& clusters,
+                   const InspectionRule& rule, Index grain);
+
+/// The grain whose disc holds the place (m, frame of the bed; in a periodic bed any image of it), else the
+/// one whose edge is nearest, not farther than a mean diameter.
+std::optional<Index> find_grain(const Frame& frame, const RunStatics& statics, double x, double y);
+
+}  // namespace talus

@@ -1,0 +1,31 @@
+#pragma once
+/// Places of a replayed run worth going to.
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "view/frame_values.h"
+
+namespace talus {
+
+enum class Landmark {
+  first,
+  theta_d,      ///< where the largest l_c jumps (paper, Fig. 12b)
+  percolation,  ///< the first frame in which a cluster of overloaded grains spans from floor to surface
+  theta_c,      ///< the last frame before the slope fails
+  last,
+};
+
+/// The frame in which a cluster first spans; none where none does.
+std::optional<std::size_t> percolation_frame(std::span<const FrameValues> frames);
+
+/// The frame after the largest jump of the largest l_c, up to theta_c (rad; NaN: not known) and to the first
+/// frame that reaches `cut` (m). All frames of the tilt are to be there.
+std::optional<std::size_t> length_jump_frame(std::span<const FrameValues> frames, const RunStatics& statics,
+                                             double theta_c);
+
+/// The frame nearest to a tilt (rad), none for NaN.
+std::optional<std::size_t> nearest_frame(const std::vector<double>& tilts, double tilt);
+
+}  // namespace talus

@@ -1,0 +1,365 @@
+#include "view/live_run.h"
+
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <functional>
+#include <limits>
+#include <mutex>
+#include <span>
+#include <thread>
+#include <utility>
+
+#include "core/errors.h"
+#include "core/hash.h"
+#include "session/measure.h"
+#include "session/recorder.h"
+#include "session/run_header.h"
+#include "view/live_history.h"
+
+namespace talus {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::duration<double> frame_interval(1.0 / 30.0);
+constexpr std::chrono::duration<double> speed_interval(0.5);
+constexpr double reached_within = 1e-9;  // rad: a tilt is a sum of steps, up to rounding
+
+/// Up to where the run plays.
+struct Goal {
+  std::int64_t step = std::numeric_limits<std::int64_t>::max();
+  double tilt = std::numeric_limits<double>::infinity();  ///< rad
+  bool end_of_deposition = false;
+};
+
+bool is_reached(const Goal& goal, const Session& session) {
+  return session.world().step >= goal.step || session.world().tilt >= goal.tilt - reached_within ||
+         (goal.end_of_deposition && session.phase() != Phase::deposition);
+}
+
+/// How much of the session's segment the history has.
+struct Taken {
+  std::size_t observables = 0, frames = 0, commands = 0, steps = 0;
+};
+
+/// The window needs a core of its own; where there are two, this is the other.
+int solver_threads() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency()) - 1); }
+
+std::string one_line(std::string text) {
+  std::ranges::replace(text, '\n', ' ');
+  return text;
+}
+
+}  // namespace
+
+/// The session, the store and what belongs to them are the solver's alone once it runs; the rest is shared,
+/// under the mutex.
+struct LiveRun::State {
+  Session session;
+  const RunStatics statics;
+  std::optional<RunStore> store;
+  std::optional<Recorder> recorder;
+  Taken taken;
+  Clock::time_point shown_at;
+  Clock::time_point speed_since;
+  std::int64_t speed_step = 0;
+
+  mutable std::mutex mutex;
+  std::condition_variable_any asked;
+  std::condition_variable answered;
+  std::optional<Goal> goal;
+  bool pause_asked = false;
+  bool save_asked = false;
+  std::optional<Command> command_asked;
+  std::exception_ptr refusal;  ///< of the command asked last
+  LiveStatus status;
+  std::shared_ptr<const Frame> frame;
+  LiveHistory history;
+
+  std::jthread solver;  ///< last: ends before what it uses
+
+  explicit State(const Scenario& scenario)
+      : session(scenario), statics(run_statics(scenario, session.world())) {}
+
+  void play_to(const Goal& next);
+  void ask(std::unique_lock<std::mutex>& lock);
+
+  void work(const std::stop_token& stop);
+  bool goes_on();
+  void answer();
+  void apply(const Command& command);
+  void take_step();
+  void keep(const std::function<void()>& store_something);
+  void take_in();
+  void describe();
+  void show_frame();
+  void show_pause();
+  void pack();
+  void end();
+  void fail(const std::exception& error);
+};
+
+// --- what is asked of the solver, from outside ---
+
+void LiveRun::State::play_to(const Goal& next) {
+  const std::lock_guard lock(mutex);
+  if (status.done) return;
+  goal = next;
+  pause_asked = false;
+  status.running = true;
+  status.state_hash.clear();
+  status.error.clear();
+  asked.notify_one();
+}
+
+/// Waits until the solver has done what was asked: between two steps, so at most a step.
+void LiveRun::State::ask(std::unique_lock<std::mutex>& lock) {
+  asked.notify_one();
+  answered.wait(lock, [this] { return !command_asked && !save_asked; });
+}
+
+// --- the solver's thread ---
+
+void LiveRun::State::work(const std::stop_token& stop) {
+  while (!stop.stop_requested()) {
+    answer();
+    if (goes_on()) {
+      take_step();
+      continue;
+    }
+    show_pause();
+    pack();
+    std::unique_lock lock(mutex);
+    asked.wait(lock, stop, [this] { return goal || command_asked || save_asked; });
+    speed_since = Clock::now();
+    speed_step = session.world().step;
+  }
+  end();
+}
+
+bool LiveRun::State::goes_on() {
+  const std::lock_guard lock(mutex);
+  if (pause_asked || session.phase() == Phase::done || (goal && is_reached(*goal, session))) goal.reset();
+  pause_asked = false;
+  return goal.has_value();
+}
+
+/// Commands and saves that are waited for.
+void LiveRun::State::answer() {
+  std::unique_lock lock(mutex);
+  if (!command_asked && !save_asked) return;
+  const std::optional<Command> command = command_asked;
+  const bool save = save_asked;
+  lock.unlock();
+  std::exception_ptr refused;
+  try {
+    if (command) apply(*command);
+  } catch (const Error&) {
+    refused = std::current_exception();
+  }
+  if (save && recorder) keep([this] { recorder->commit(); });
+  if (command || save) show_pause();
+  lock.lock();
+  refusal = refused;
+  command_asked.reset();
+  save_asked = false;
+  answered.notify_one();
+}
+
+void LiveRun::State::apply(const Command& command) {
+  session.apply(command);
+  take_in();
+  const std::lock_guard lock(mutex);
+  describe();
+}
+
+void LiveRun::State::take_step() {
+  bool failed = false;
+  try {
+    session.advance();
+  } catch (const std::exception& error) {
+    failed = true;
+    fail(error);
+  }
+  take_in();
+  keep([this, failed] {
+    if (!recorder)
+      session.clear_segment();
+    else if (failed)
+      recorder->commit();  // the state before what failed is whole
+    else
+      recorder->commit_if_due();
+  });
+  {
+    const std::lock_guard lock(mutex);
+    describe();
+  }
+  if (Clock::now() - shown_at >= frame_interval) show_frame();
+}
+
+/// Does something that empties the segment, unless it fails.
+void LiveRun::State::keep(const std::function<void()>& store_something) {
+  try {
+    store_something();
+  } catch (const std::exception& error) {
+    fail(error);
+  }
+  if (session.segment().steps.empty() && session.segment().commands.empty()) taken = {};
+}
+
+/// Copies what the segment has that is new to the history.
+void LiveRun::State::take_in() {
+  const Segment& segment = session.segment();
+  std::vector<std::shared_ptr<const Frame>> frames;
+  for (std::size_t k = taken.frames; k < segment.frames.size(); ++k)
+    frames.push_back(std::make_shared<const Frame>(segment.frames[k]));
+  const std::lock_guard lock(mutex);
+  const auto append = [](auto& to, const auto& from, std::size_t first) {
+    to.insert(to.end(), from.begin() + static_cast<std::ptrdiff_t>(first), from.end());
+  };
+  append(history.frames, frames, 0);
+  append(history.observables, segment.observables, taken.observables);
+  append(history.commands, segment.commands, taken.commands);
+  add_steps(std::span(segment.steps).subspan(taken.steps), history);
+  taken = {segment.observables.size(), segment.frames.size(), segment.commands.size(), segment.steps.size()};
+}
+
+/// The status as the session is now; under the mutex.
+void LiveRun::State::describe() {
+  const World& world = session.world();
+  status.step = world.step;
+  status.time = world.time;
+  status.tilt = world.tilt;
+  status.depositing = session.phase() == Phase::deposition;
+  status.done = session.phase() == Phase::done;
+  status.theta_c = session.angle_of_repose();
+  status.tilt_rate = session.tilt_rate();
+  status.friction = session.law().friction;
+  const std::chrono::duration<double> elapsed = Clock::now() - speed_since;
+  if (elapsed < speed_interval) return;
+  status.steps_per_second = static_cast<double>(world.step - speed_step) / elapsed.count();
+  speed_since = Clock::now();
+  speed_step = world.step;
+}
+
+void LiveRun::State::show_frame() {
+  auto next = std::make_shared<const Frame>(make_frame(session.world(), session.law()));
+  shown_at = Clock::now();
+  const std::lock_guard lock(mutex);
+  frame = std::move(next);
+}
+
+/// The frame, and where nothing is to go on, that the run waits, in which state.
+void LiveRun::State::show_pause() {
+  show_frame();
+  const std::string hash = hash_text(state_hash(session.world()));
+  const std::lock_guard lock(mutex);
+  describe();
+  status.running = goal.has_value();
+  if (status.running) return;
+  status.state_hash = hash;
+  status.steps_per_second = 0.0;
+}
+
+/// Packs a run that is done.
+void LiveRun::State::pack() {
+  if (!store || session.phase() != Phase::done) return;
+  keep([this] {
+    if (taken.steps > 0 || taken.commands > 0) recorder->commit();
+    store->pack();
+    recorder.reset();
+    store.reset();
+  });
+}
+
+void LiveRun::State::end() {
+  const Segment& segment = session.segment();
+  if (recorder && !(segment.steps.empty() && segment.commands.empty())) keep([this] { recorder->commit(); });
+  pack();
+}
+
+void LiveRun::State::fail(const std::exception& error) {
+  const std::lock_guard lock(mutex);
+  status.error = one_line(error.what());
+  goal.reset();
+}
+
+// --- the interface ---
+
+LiveRun::LiveRun(const Scenario& scenario, const std::string& scenario_text, const std::string& output,
+                 bool overwrite, const std::string& command_line)
+    : state_(std::make_unique<State>(scenario)) {
+  const int threads = solver_threads();
+  state_->session.use_threads(threads);
+  if (!output.empty()) {
+    const RunHeader header = run_header(state_->session, {scenario_text, {}, command_line, threads});
+    state_->store = RunStore::create(output, header, overwrite);
+    state_->recorder.emplace(state_->session, *state_->store);
+  }
+  state_->show_pause();
+  state_->solver = std::jthread([state = state_.get()](const std::stop_token& stop) { state->work(stop); });
+}
+
+LiveRun::~LiveRun() = default;
+
+void LiveRun::play() { state_->play_to({}); }
+
+void LiveRun::pause() {
+  const std::lock_guard lock(state_->mutex);
+  state_->pause_asked = true;
+}
+
+void LiveRun::step(std::int64_t count) { state_->play_to({.step = status().step + count}); }
+
+void LiveRun::run_to(double tilt) { state_->play_to({.tilt = tilt}); }
+
+void LiveRun::finish_deposition() { state_->play_to({.end_of_deposition = true}); }
+
+void LiveRun::apply(Command command) {
+  std::unique_lock lock(state_->mutex);
+  state_->command_asked = command;
+  state_->ask(lock);
+  if (state_->refusal) std::rethrow_exception(std::exchange(state_->refusal, nullptr));
+}
+
+void LiveRun::save() {
+  std::unique_lock lock(state_->mutex);
+  state_->save_asked = true;
+  state_->ask(lock);
+}
+
+const RunStatics& LiveRun::statics() const { return state_->statics; }
+
+LiveStatus LiveRun::status() const {
+  const std::lock_guard lock(state_->mutex);
+  return state_->status;
+}
+
+std::shared_ptr<const Frame> LiveRun::frame() const {
+  const std::lock_guard lock(state_->mutex);
+  return state_->frame;
+}
+
+std::vector<ObservableRow> LiveRun::observables(std::size_t from) const {
+  const std::lock_guard lock(state_->mutex);
+  return since(state_->history.observables, from);
+}
+
+std::vector<std::shared_ptr<const Frame>> LiveRun::recorded_frames(std::size_t from) const {
+  const std::lock_guard lock(state_->mutex);
+  return since(state_->history.frames, from);
+}
+
+std::vector<StepRow> LiveRun::steps(std::size_t from) const {
+  const std::lock_guard lock(state_->mutex);
+  return since(state_->history.steps, from);
+}
+
+std::vector<Command> LiveRun::commands() const {
+  const std::lock_guard lock(state_->mutex);
+  return state_->history.commands;
+}
+
+}  // namespace talus

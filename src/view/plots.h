@@ -1,0 +1,60 @@
+#pragma once
+/// The curves beside the map.
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/observables.h"
+#include "core/snapshot.h"
+#include "view/frame_values.h"
+
+namespace talus {
+
+/// One curve over the tilt, and what is known of it.
+struct PlotSeries {
+  std::string name;          ///< "p_o": short, for the legend
+  std::vector<double> x, y;  ///< tilt in deg; NaN where there is none
+  bool law = false;          ///< what theory says, beside what was measured
+};
+
+/// A plot beside the map: curves over the tilt, or over what `x_title` says.
+struct Plot {
+  std::string name;       ///< "stress", "overloaded", ...: also the name of its widget
+  std::string title;      ///< "Γ = Q/P, σ_T/σ_N"
+  std::string x_title;    ///< "θ in °"
+  bool over_tilt = true;  ///< the line at the frame shown stands at its tilt
+  bool log_y = false;
+  std::vector<PlotSeries> series;  ///< the first is what was measured, others laws or measures beside it
+};
+
+/// "stress", "overloaded", "cluster", "lengths", "strain", "energy", "gamma", "residual", "passes": the order
+/// in which they are shown.
+enum class PlotKind : std::size_t {
+  stress,      ///< Gamma and sigma_T/sigma_N of the packing, with the laws of a periodic bed
+  overloaded,  ///< p_o
+  cluster,     ///< share of the overloaded grains in their largest cluster
+  lengths,     ///< mean and largest l_c, D
+  strain,      ///< volume strain, %
+  energy,      ///< kinetic energy of a grain, the mean, over m g D, m the mean mass
+  gamma,       ///< probability density of gamma in the frame shown
+  residual,    ///< of the solver, over steps
+  passes,      ///< of the solver over all contacts, over steps
+  count
+};
+inline constexpr std::size_t plot_count = static_cast<std::size_t>(PlotKind::count);
+
+/// All plots, empty.
+std::vector<Plot> empty_plots();
+
+/// Fills those of the observables: stress, strain, energy.
+void plot_observables(std::span<const ObservableRow> rows, const RunStatics& statics,
+                      std::vector<Plot>& plots);
+/// Fills those of the frames: overloaded, cluster, lengths. Frames without values make a gap.
+void plot_frames(std::span<const FrameValues> frames, std::vector<Plot>& plots);
+/// Fills gamma; a frame in which no grain carries anything leaves it empty.
+void plot_gamma(const Frame& frame, const RunStatics& statics, std::vector<Plot>& plots);
+/// Fills residual and passes. Of many steps, groups in a row are drawn as one, at the largest value.
+void plot_steps(std::span<const StepRow> steps, std::vector<Plot>& plots);
+
+}  // namespace talus

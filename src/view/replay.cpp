@@ -1,0 +1,69 @@
+#include "view/replay.h"
+
+#include <algorithm>
+
+#include "core/errors.h"
+#include "core/trigonometry.h"
+
+namespace talus {
+namespace {
+
+constexpr std::size_t most_kept = 32;  // about 2 MB each in a bed of 8000 grains
+constexpr double slowest = 1e-3;       // deg/s
+
+}  // namespace
+
+RunFrames::RunFrames(const std::string& path) : file_(RunFile::open(path)) {
+  if (file_.all_frame_tilts().empty())
+    throw Error(ExitCode::bad_data,
+                path + " has no frames yet: there is nothing to show before the tilt begins");
+}
+
+std::shared_ptr<const Frame> RunFrames::read(std::size_t k) {
+  const std::scoped_lock lock(reading_);
+  return std::make_shared<const Frame>(file_.frame(k));
+}
+
+Replay::Replay(std::shared_ptr<RunFrames> frames) : frames_(std::move(frames)) {}
+
+void Replay::go_to(std::size_t frame) {
+  index_ = std::min(frame, count() - 1);
+  waited_ = 0.0;
+}
+
+void Replay::play(bool on) {
+  if (on && index_ + 1 == count()) go_to(0);
+  playing_ = on && count() > 1;
+  waited_ = 0.0;
+}
+
+void Replay::set_speed(double degrees_per_second) { speed_ = std::max(degrees_per_second, slowest); }
+
+double Replay::seconds_shown(std::size_t k) const {
+  const std::vector<double>& tilts = frames_->file().frame_tilts();
+  if (k + 1 < tilts.size()) return degrees(tilts[k + 1] - tilts[k]) / speed_;
+  const double spacing =
+      tilts.size() > 1 ? degrees(tilts.back() - tilts.front()) / static_cast<double>(tilts.size() - 1) : 1.0;
+  return spacing / speed_;
+}
+
+bool Replay::advance(double seconds) {
+  if (!playing_) return false;
+  const std::size_t before = index_;
+  for (waited_ += seconds; index_ + 1 < count() && waited_ >= seconds_shown(index_); ++index_)
+    waited_ -= seconds_shown(index_);
+  if (index_ + 1 == count()) playing_ = false;
+  return index_ != before;
+}
+
+std::shared_ptr<const Frame> Replay::frame(std::size_t k) {
+  const auto found =
+      std::ranges::find(kept_, k, &std::pair<std::size_t, std::shared_ptr<const Frame>>::first);
+  auto frame = found == kept_.end() ? frames_->read(k) : found->second;
+  if (found != kept_.end()) kept_.erase(found);
+  kept_.emplace_front(k, frame);
+  if (kept_.size() > most_kept) kept_.pop_back();
+  return frame;
+}
+
+}  // namespace talus

@@ -1,0 +1,186 @@
+#include "view/scene.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "analysis/free_grains.h"
+#include "core/errors.h"
+#include "core/trigonometry.h"
+#include "maps/bed_view.h"
+#include "maps/texts.h"
+
+namespace talus {
+namespace {
+
+constexpr Colour selection_colour{0, 90, 220}, length_colour{220, 50, 0}, circle_colour{70, 110, 170};
+constexpr Colour cluster_colour{240, 130, 0};
+constexpr int circle_lines = 64;
+
+bool reaches_into(const FrameView& view, double left, double right, double bottom, double top) {
+  return right > view.x_min && left < view.x_max && top > view.y_min && bottom < view.y_max;
+}
+
+/// A disc of a grain of the highlighted cluster, in single precision as it is drawn.
+using DrawnGrain = std::array<float, 3>;  // x, y, radius
+
+/// Sorted, with images that reach across a periodic edge.
+std::vector<DrawnGrain> drawn_cluster(const Frame& frame, const RunStatics& statics, const Clusters& clusters,
+                                      Index cluster) {
+  const auto period = static_cast<float>(period_of(statics));
+  std::vector<DrawnGrain> drawn;
+  for (Index i = 0; cluster >= 0 && i < statics.free_count; ++i) {
+    if (clusters.label[i] != cluster) continue;
+    const Disc disc = disc_of(frame, statics, i);
+    drawn.push_back({disc.x, disc.y, disc.radius});
+    if (disc.x - disc.radius < 0.0f) drawn.push_back({disc.x + period, disc.y, disc.radius});
+    if (disc.x + disc.radius > period) drawn.push_back({disc.x - period, disc.y, disc.radius});
+  }
+  std::ranges::sort(drawn);
+  return drawn;
+}
+
+/// A disc with a broad rim in the colour of the cluster: one in that colour, and its own fill within.
+void add_highlighted(FrameView& view, const Disc& disc) {
+  constexpr float inner = 0.7f;
+  Disc rim = disc, within = disc;
+  rim.fill = rim.rim = cluster_colour;
+  within.rim = within.fill;
+  within.radius *= inner;
+  view.discs.push_back(rim);
+  view.discs.push_back(within);
+}
+
+void add_grains(FrameView& view, const FrameView& map, const std::vector<DrawnGrain>& highlighted) {
+  view.discs.reserve(map.discs.size() + highlighted.size());
+  for (const Disc& disc : map.discs) {
+    if (!reaches_into(view, disc.x - disc.radius, disc.x + disc.radius, disc.y - disc.radius,
+                      disc.y + disc.radius))
+      continue;
+    if (std::ranges::binary_search(highlighted, DrawnGrain{disc.x, disc.y, disc.radius}))
+      add_highlighted(view, disc);
+    else
+      view.discs.push_back(disc);
+  }
+  for (const Line& line : map.lines) {
+    const auto [left, right] = std::minmax(line.x0, line.x1);
+    const auto [bottom, top] = std::minmax(line.y0, line.y1);
+    const float half = line.half_width;
+    if (reaches_into(view, left - half, right + half, bottom - half, top + half)) view.lines.push_back(line);
+  }
+}
+
+void add_circle(FrameView& view, Vec2 centre, double radius, double half_width, const Colour& colour,
+                const RunStatics& statics) {
+  const auto corner = [&](int k) {
+    const double angle = 2.0 * pi * k / circle_lines;
+    return Vec2{centre.x + radius * std::cos(angle), centre.y + radius * std::sin(angle)};
+  };
+  for (int k = 0; k < circle_lines; ++k) {
+    const Vec2 from = corner(k), to = corner(k + 1);
+    add_line(view,
+             {static_cast<float>(from.x), static_cast<float>(from.y), static_cast<float>(to.x),
+              static_cast<float>(to.y), static_cast<float>(half_width), colour},
+             statics);
+  }
+}
+
+/// On a white ground, to be seen over dark grains and light ones.
+void add_ring(FrameView& view, Vec2 centre, double radius, double half_width, const Colour& colour,
+              const RunStatics& statics) {
+  add_circle(view, centre, radius, 2.0 * half_width, white, statics);
+  add_circle(view, centre, radius, half_width, colour, statics);
+}
+
+void add_overlay(FrameView& view, const Frame& frame, const Overlay& overlay, const RunStatics& statics) {
+  if (!overlay.selected) return;
+  const double d = statics.mean_diameter;
+  const auto grain = static_cast<std::size_t>(*overlay.selected);
+  const Vec2 centre{frame.x[grain], frame.y[grain]};
+  for (const double diameter : overlay.diameters)
+    add_ring(view, centre, 0.5 * diameter, 0.05 * d, circle_colour, statics);
+  if (overlay.critical_length)
+    add_ring(view, centre, 0.5 * *overlay.critical_length, 0.09 * d, length_colour, statics);
+  add_ring(view, centre, statics.radius[grain] + 0.05 * d, 0.08 * d, selection_colour, statics);
+}
+
+/// Side walls, and a smooth floor.
+void add_boundary(FrameView& view, const Frame& frame, const RunStatics& statics) {
+  const auto add = [&](double x0, double y0, double x1, double y1) {
+    view.lines.push_back({static_cast<float>(x0), static_cast<float>(y0), static_cast<float>(x1),
+                          static_cast<float>(y1), static_cast<float>(0.1 * statics.mean_diameter), black});
+  };
+  const double low = std::max(view.y_min, std::min(0.0, view.y_max));
+  if (!statics.periodic)
+    for (const double x : {0.0, statics.length})
+      if (x >= view.x_min && x <= view.x_max) add(x, low, x, view.y_max);
+  const bool smooth = statics.free_count == frame.grain_count();
+  if (smooth && view.y_min <= 0.0 && view.y_max >= 0.0)
+    add(std::max(0.0, view.x_min), 0.0, std::min(statics.length, view.x_max), 0.0);
+}
+
+bool is_same(const MapExtent& one, const MapExtent& other) {
+  return one.x_min == other.x_min && one.x_max == other.x_max && one.y_min == other.y_min &&
+         one.y_max == other.y_max;
+}
+
+bool is_same(const MapSettings& one, const MapSettings& other) {
+  return one.layers == other.layers && one.colours == other.colours && one.range_low == other.range_low &&
+         one.range_high == other.range_high && one.theta_c == other.theta_c &&
+         one.theta_c_assumed == other.theta_c_assumed && one.threshold_factor == other.threshold_factor &&
+         one.length == other.length && one.joined_by_neighbours == other.joined_by_neighbours &&
+         one.turned == other.turned && one.tilt_max == other.tilt_max && one.furniture == other.furniture &&
+         one.transparent == other.transparent;
+}
+
+}  // namespace
+
+bool is_same(const MapSource& one, const MapSource& other) {
+  return one.frame == other.frame && one.reference == other.reference && one.per_degree == other.per_degree &&
+         std::ranges::equal(one.colours, other.colours, {}, &ClusterColour::palette_index,
+                            &ClusterColour::palette_index) &&
+         is_same(one.settings, other.settings) && is_same(one.extent, other.extent);
+}
+
+bool depends_on_extent(const MapLayers& layers) {
+  return layers.size() > 1 && layers[1] == MapKind::displacement;
+}
+
+FrameView draw_map(const MapSource& source, const RunStatics& statics) {
+  try {
+    const MapFrame frame{*source.frame, statics, source.reference.get(), source.per_degree, source.colours};
+    return make_map(frame, source.settings, source.extent);
+  } catch (const Error& error) {
+    const std::vector<double> none(static_cast<std::size_t>(statics.free_count), 0.0);
+    FrameView view = bare_map(*source.frame, statics, none, source.extent);
+    view.furniture = true;
+    view.tilt = source.frame->tilt;
+    view.title = error.what();
+    return view;
+  }
+}
+
+std::vector<double> growing_diameters(double largest) {
+  if (!(largest > 0.0)) return {};
+  const double step = round_step(largest, 5);
+  std::vector<double> diameters;
+  for (int k = 1; k * step < largest - 0.25 * step; ++k) diameters.push_back(k * step);
+  diameters.push_back(largest);
+  return diameters;
+}
+
+FrameView shown_map(const FrameView& map, const MapExtent& part, const Frame& frame, const Overlay& overlay,
+                    const Clusters& clusters, const RunStatics& statics) {
+  FrameView view = empty_view(part);
+  view.turn = map.turn;
+  view.turn_max = map.turn_max;
+  view.tilt = map.tilt;
+  view.coloured = true;  // one target for all that is shown
+  view.transparent = map.transparent;
+  add_grains(view, map, drawn_cluster(frame, statics, clusters, overlay.cluster));
+  add_boundary(view, frame, statics);
+  add_overlay(view, frame, overlay, statics);
+  return view;
+}
+
+}  // namespace talus

@@ -1,0 +1,139 @@
+#include "view/view_data.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/errors.h"
+#include "maps/frame_choice.h"
+
+namespace talus {
+namespace {
+
+std::optional<double> theta_c_of(const RunFile& run) {
+  for (const auto& [name, value] : run.checkpoint().results)
+    if (name == "theta_c" && std::isfinite(value)) return value;
+  return std::nullopt;
+}
+
+MapExtent extent_of(const Frame& frame, const RunStatics& statics) {
+  MapExtent extent = bed_extent(statics);
+  extend(extent, frame, statics);
+  return extent;
+}
+
+void join(MapExtent& extent, const MapExtent& other) {
+  extent.y_min = std::min(extent.y_min, other.y_min);
+  extent.y_max = std::max(extent.y_max, other.y_max);
+}
+
+}  // namespace
+
+void ViewModel::Data::open_replay() {
+  frames = std::make_shared<RunFrames>(path);
+  replay.emplace(frames);
+  const RunFile& file = frames->file();
+  statics = file.header().statics;
+  seed = file.header().seed;
+  theta_c = theta_c_of(file);
+  analysis = read_usable_analysis(path, file);
+  rows = file.observables();
+  plot_observables(rows, statics, plots);
+  plot_steps(file.steps(), plots);
+  // The bed is highest at its beginning or at its end.
+  bed = extent_of(*frames->read(replay->count() - 1), statics);
+  show(replay->frame(0));
+  series = std::make_unique<FrameSeries>(statics, [from = frames](std::size_t k) { return from->read(k); });
+  series->set_counts(replay->count(), file.frame_count());
+}
+
+void ViewModel::Data::start_live(bool overwrite) {
+  series.reset();
+  live.reset();  // it lets go of its output, which the next takes
+  live = std::make_unique<LiveRun>(scenario, scenario_text, output, overwrite, command_line);
+  statics = live->statics();
+  seed = scenario.seed;
+  theta_c.reset();
+  rows.clear();
+  plots = empty_plots();
+  show(live->frame());
+  recorded = std::make_shared<RecordedFrames>();
+  series = std::make_unique<FrameSeries>(statics, [from = recorded](std::size_t k) { return from->read(k); });
+}
+
+std::shared_ptr<const Frame> ViewModel::Data::read(std::size_t k) {
+  try {
+    return replay->frame(k);
+  } catch (const Error& failure) {
+    error = failure.what();
+    return nullptr;
+  }
+}
+
+void ViewModel::Data::show_replayed() {
+  auto next = read(replay->index());
+  if (next) return show(std::move(next));
+  replay->play(false);
+}
+
+void ViewModel::Data::show(std::shared_ptr<const Frame> next) {
+  if (next == frame) return;
+  frame = std::move(next);
+  // While a bed falls together its top goes down: then only the frame shown counts.
+  if (!replay) bed = series ? series->extent() : bed_extent(statics);
+  join(bed, extent_of(*frame, statics));
+  plot_gamma(*frame, statics, plots);
+}
+
+bool ViewModel::Data::take_live() {
+  auto next = live->frame();
+  const LiveStatus status = live->status();
+  theta_c = status.theta_c;
+  if (next == frame) return false;
+  recorded->add(live->recorded_frames(recorded->all().size()));
+  series->set_counts(recorded->all().size(), recorded->all().size());
+  const std::vector<ObservableRow> more = live->observables(rows.size());
+  rows.insert(rows.end(), more.begin(), more.end());
+  if (!more.empty()) plot_observables(rows, statics, plots);
+  plot_steps(live->steps(0), plots);
+  show(std::move(next));
+  return true;
+}
+
+bool ViewModel::Data::follow_frames(const OverloadRule& rule) {
+  bool changed = !(series->rule() == rule);
+  if (changed) {
+    const auto threshold = analysis ? find_threshold(*analysis, rule) : std::nullopt;
+    series->begin(rule, threshold
+                            ? stored_values(*analysis, *threshold, statics, frames->file().frame_tilts())
+                            : std::vector<FrameValues>{});
+  }
+  if (series->take_in()) {
+    if (replay) join(bed, series->extent());
+    if (!series->error().empty()) error = series->error();
+    changed = true;
+  }
+  if (changed) plot_frames(series->values(), plots);
+  return changed;
+}
+
+std::optional<std::size_t> ViewModel::Data::place_of(Landmark landmark) const {
+  if (!replay) return std::nullopt;
+  const std::vector<double>& tilts = frames->file().frame_tilts();
+  switch (landmark) {
+    case Landmark::first:
+      return 0;
+    case Landmark::last:
+      return replay->count() - 1;
+    case Landmark::theta_c:
+      if (!theta_c || tilts.front() > *theta_c) return std::nullopt;
+      return frame_at_repose(tilts, *theta_c);
+    case Landmark::percolation:
+      return percolation_frame(series->values());
+    case Landmark::theta_d:
+      if (!series->has_all_values()) return std::nullopt;
+      return length_jump_frame(series->values(), statics, theta_c.value_or(std::nan("")));
+  }
+  return std::nullopt;
+}
+
+}  // namespace talus

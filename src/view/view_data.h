@@ -1,0 +1,111 @@
+#pragma once
+/// What the view model holds, for the files it is made of.
+
+#include <mutex>
+
+#include "view/frame_series.h"
+#include "view/replay.h"
+#include "view/scene.h"
+#include "view/view_model.h"
+
+namespace talus {
+
+/// Frames that a live run has recorded; one thread adds, and another reads.
+class RecordedFrames {
+ public:
+  void add(std::vector<std::shared_ptr<const Frame>> more) {
+    const std::scoped_lock lock(mutex_);
+    frames_.insert(frames_.end(), more.begin(), more.end());
+  }
+  std::shared_ptr<const Frame> read(std::size_t k) {
+    const std::scoped_lock lock(mutex_);
+    return frames_.at(k);
+  }
+  /// For the thread that adds.
+  const std::vector<std::shared_ptr<const Frame>>& all() const { return frames_; }
+
+ private:
+  std::mutex mutex_;
+  std::vector<std::shared_ptr<const Frame>> frames_;
+};
+
+struct ViewModel::Data {
+  std::string path;
+  RunStatics statics;
+  std::uint64_t seed = 0;
+  std::shared_ptr<const Frame> frame;  ///< that is shown
+  std::optional<double> theta_c;       ///< rad
+  MapExtent bed;                       ///< as far as its frames are known
+  std::vector<ObservableRow> rows;
+  std::vector<Plot> plots = empty_plots();
+  std::string error;  ///< what has gone wrong since the last update
+
+  // Of a run that is replayed.
+  std::shared_ptr<RunFrames> frames;
+  std::optional<Replay> replay;
+  std::optional<Analysis> analysis;
+
+  // Of a run that is computed.
+  Scenario scenario;
+  std::string scenario_text, output, command_line;
+  std::unique_ptr<LiveRun> live;
+  std::shared_ptr<RecordedFrames> recorded;
+
+  std::unique_ptr<FrameSeries> series;
+
+  // What was made last of the frame shown, and what else from.
+  struct {
+    std::shared_ptr<const Frame> frame;
+    OverloadRule rule;
+    Clusters clusters;
+  } clusters;
+  struct {
+    std::shared_ptr<const Frame> frame;
+    OverloadRule rule;
+    std::size_t met = 0;
+    std::vector<ClusterColour> colours;
+  } colours;
+  struct {
+    std::shared_ptr<const Frame> frame;
+    OverloadRule rule;
+    double neighbourhood = 0.0;
+    Inspection of;
+  } inspection;
+  struct {
+    MapSource source;
+    FrameView view;
+  } map;
+  double aspect = 0.0;  ///< of the picture asked for last; 0: none was
+
+  // view_data.cpp: what is shown, and how it goes on.
+  void open_replay();
+  void start_live(bool overwrite);
+  /// Frame k of a replay; null, with the reason in `error`, where it cannot be read.
+  std::shared_ptr<const Frame> read(std::size_t k);
+  /// Shows the frame that a replay is at; where it cannot be read, the one before stays and playing ends.
+  void show_replayed();
+  /// Another frame is shown.
+  void show(std::shared_ptr<const Frame> next);
+  /// Takes over what a live run has made; true where its frame is another.
+  bool take_live();
+  /// Begins the series of frames anew where `rule` is another, and takes in what it has made; true where
+  /// something has changed.
+  bool follow_frames(const OverloadRule& rule);
+  std::optional<std::size_t> place_of(Landmark landmark) const;
+
+  // view_shown.cpp: what is made of it.
+  double shown_theta_c() const;
+  /// The settings of the map, with what the run has to say.
+  MapSettings settings(const ViewState& state) const;
+  const Clusters& shown_clusters(const MapSettings& settings);
+  const std::vector<ClusterColour>& shown_colours(const MapSettings& settings);
+  const Inspection* inspect_selected(const ViewState& state);
+  MapExtent part(const ViewState& state, double aspect) const;
+  /// The frame that displacements are measured from; null where there is none.
+  std::shared_ptr<const Frame> reference(const MapSettings& settings, std::optional<double> since);
+  const FrameView& whole_map(const ViewState& state, const MapExtent& part);
+  FrameView picture(const ViewState& state, const MapExtent& part);
+  std::string render_command(const ViewState& state) const;
+};
+
+}  // namespace talus

@@ -1,0 +1,150 @@
+#include "view/view_model.h"
+
+#include <array>
+#include <filesystem>
+#include <fstream>
+
+#include "core/errors.h"
+#include "maps/bed_view.h"
+#include "view/camera.h"
+#include "view/view_data.h"
+
+namespace talus {
+namespace {
+
+/// A run file, or the folder of a run; anything else is read as a scenario.
+bool is_run(const std::string& path) {
+  std::error_code unknown;
+  const std::string extension = std::filesystem::path(path).extension().string();
+  if (extension == ".h5" || extension == ".run" || std::filesystem::is_directory(path, unknown)) return true;
+  std::array<char, 4> begin{};
+  std::ifstream(path, std::ios::binary).read(begin.data(), begin.size());
+  return std::string_view(begin.data(), begin.size()) == "\x89HDF";
+}
+
+}  // namespace
+
+ViewModel ViewModel::open(const std::string& path, const std::vector<std::string>& settings,
+                          const std::string& output, bool overwrite, const std::string& command_line) {
+  auto data = std::make_unique<Data>();
+  data->path = path;
+  if (is_run(path)) {
+    if (!settings.empty() || !output.empty() || overwrite)
+      throw Error(ExitCode::usage, path +
+                                       " is a run, which is replayed: settings and an output are for a "
+                                       "scenario, which is computed");
+    data->open_replay();
+  } else {
+    data->scenario = read_scenario(path, settings, &data->scenario_text);
+    data->output = output;
+    data->command_line = command_line;
+    data->start_live(overwrite);
+  }
+  ViewModel model(std::move(data));
+  const MapExtent& bed = model.data_->bed;
+  model.state.map.layers = {MapKind::gamma};
+  model.state.camera = {0.5 * (bed.x_min + bed.x_max), 0.5 * (bed.y_min + bed.y_max), 1.0};
+  return model;
+}
+
+ViewModel::ViewModel(std::unique_ptr<Data> data) : data_(std::move(data)) {}
+ViewModel::ViewModel(ViewModel&&) noexcept = default;
+ViewModel& ViewModel::operator=(ViewModel&&) noexcept = default;
+ViewModel::~ViewModel() = default;
+
+bool ViewModel::is_live() const { return !data_->replay; }
+const std::string& ViewModel::path() const { return data_->path; }
+LiveRun* ViewModel::live() { return data_->live.get(); }
+std::uint64_t ViewModel::seed() const { return data_->seed; }
+
+void ViewModel::restart(std::uint64_t seed) {
+  if (!is_live()) return;
+  data_->scenario.seed = seed;
+  data_->start_live(true);
+  state.selected.reset();
+}
+
+// --- replay ---
+
+std::size_t ViewModel::frame_count() const { return data_->replay ? data_->replay->count() : 0; }
+std::size_t ViewModel::frame_index() const { return data_->replay ? data_->replay->index() : 0; }
+
+void ViewModel::go_to(std::size_t frame) {
+  if (!data_->replay) return;
+  data_->replay->go_to(frame);
+  data_->show_replayed();
+}
+
+void ViewModel::go_to(Landmark landmark) {
+  if (const auto frame = data_->place_of(landmark)) go_to(*frame);
+}
+
+bool ViewModel::has(Landmark landmark) const { return data_->place_of(landmark).has_value(); }
+
+bool ViewModel::playing() const { return data_->replay && data_->replay->playing(); }
+
+void ViewModel::play(bool on) {
+  if (!data_->replay) return;
+  data_->replay->play(on);
+  data_->show_replayed();
+}
+
+void ViewModel::set_speed(double degrees_per_second) {
+  if (data_->replay) data_->replay->set_speed(degrees_per_second);
+}
+
+double ViewModel::speed() const { return data_->replay ? data_->replay->speed() : 0.0; }
+
+bool ViewModel::update(double seconds) {
+  Data& data = *data_;
+  bool changed = data.live && data.take_live();
+  if (data.replay && data.replay->advance(seconds)) {
+    data.show_replayed();
+    changed = true;
+  }
+  changed = data.follow_frames(overload_rule(data.settings(state))) || changed;
+  state.camera = centred(clamped(state.camera, data.bed, mean_diameter()), data.part(state, data.aspect));
+  if (!data.error.empty()) state.message = std::exchange(data.error, {});
+  return changed;
+}
+
+// --- what is shown ---
+
+const RunStatics& ViewModel::statics() const { return data_->statics; }
+const Frame& ViewModel::frame() const { return *data_->frame; }
+double ViewModel::theta_c() const { return data_->shown_theta_c(); }
+bool ViewModel::theta_c_known() const { return data_->theta_c.has_value(); }
+double ViewModel::mean_diameter() const { return data_->statics.mean_diameter; }
+
+FrameView ViewModel::map(double aspect) const {
+  data_->aspect = aspect;
+  return data_->picture(state, data_->part(state, aspect));
+}
+
+FrameView ViewModel::furnished_map() const {
+  const MapExtent part = common_part(data_->part(state, data_->aspect), data_->bed);
+  const FrameView& whole = data_->whole_map(state, part);
+  FrameView view = data_->picture(state, part);
+  add_surroundings(view, *data_->frame, data_->statics);
+  view.furniture = true;
+  view.transparent = whole.transparent;
+  view.title = whole.title;
+  view.caption = whole.caption;
+  view.legends = whole.legends;
+  return view;
+}
+
+std::array<double, 4> ViewModel::shown_region(double aspect) const {
+  const MapExtent part = data_->part(state, aspect);
+  return {part.x_min, part.x_max, part.y_min, part.y_max};
+}
+
+std::optional<Index> ViewModel::grain_at(double x, double y) const {
+  return find_grain(*data_->frame, data_->statics, x, y);
+}
+
+const Inspection* ViewModel::inspection() const { return data_->inspect_selected(state); }
+std::span<const Plot> ViewModel::plots() const { return data_->plots; }
+std::string ViewModel::render_command() const { return data_->render_command(state); }
+
+}  // namespace talus

@@ -1,0 +1,90 @@
+#pragma once
+/// The interactive view without its widgets: a run file that is replayed or a run that is computed, the frame
+/// shown, its map, what is known of the grain selected, and the curves beside the map.
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "render/frame_view.h"
+#include "view/inspection.h"
+#include "view/landmarks.h"
+#include "view/live_run.h"
+#include "view/plots.h"
+#include "view/view_state.h"
+
+namespace talus {
+
+class ViewModel {
+ public:
+  /// A run file (replay) or a scenario (live), by what the file is. `output` of a live run may be empty:
+  /// nothing is recorded. Throws Error as opening does.
+  static ViewModel open(const std::string& path, const std::vector<std::string>& settings,
+                        const std::string& output, bool overwrite, const std::string& command_line);
+  ViewModel(ViewModel&&) noexcept;
+  ViewModel& operator=(ViewModel&&) noexcept;
+  ~ViewModel();
+
+  ViewState state;  ///< changed by whoever shows it
+
+  bool is_live() const;
+  const std::string& path() const;
+  LiveRun* live();  ///< null where a run file is replayed
+  /// A live run anew from its scenario, with this seed. Commands made before are gone with the run before.
+  void restart(std::uint64_t seed);
+  std::uint64_t seed() const;
+
+  // Replay. Frames are those of RunFile::all_frame_tilts().
+  std::size_t frame_count() const;  ///< 0 for a live run
+  std::size_t frame_index() const;
+  void go_to(std::size_t frame);
+  void go_to(Landmark landmark);  ///< does nothing where the run has no such place
+  bool has(Landmark landmark) const;
+  bool playing() const;
+  void play(bool on);  ///< from the start where it is at the end
+  void set_speed(double degrees_per_second);
+  double speed() const;
+
+  /// Call once a picture: takes the newest frame of a live run, moves a playing replay on by so many seconds,
+  /// takes in what background work has finished, and brings the camera back to the bed. What went wrong, as a
+  /// frame that cannot be read, is put into state.message. True where what is shown has changed.
+  bool update(double seconds);
+
+  const RunStatics& statics() const;
+  const Frame& frame() const;
+  double theta_c() const;  ///< rad; what maps are scaled by: of the run, or assumed (20 deg) while not known
+  bool theta_c_known() const;
+  double mean_diameter() const;
+
+  /// The map of the frame shown, for a picture of that aspect (width / height), with the selection, the
+  /// growing neighbourhoods and the highlighted cluster drawn into it; without furniture: that is drawn by
+  /// widgets.
+  FrameView map(double aspect) const;
+  /// The same with its legends, its title and its caption, and without what is beside the bed; of the aspect
+  /// that map was asked for last. A map that cannot be drawn has the reason as its title.
+  FrameView furnished_map() const;
+  /// The part of the bed that map(aspect) shows, m: x_min, x_max, y_min, y_max.
+  std::array<double, 4> shown_region(double aspect) const;
+  /// The grain whose disc holds the place (m, frame of the bed), or is nearest to it within a D.
+  std::optional<Index> grain_at(double x, double y) const;
+
+  /// Of state.selected in the frame shown; none where nothing is selected. Made once for a frame and a
+  /// selection.
+  const Inspection* inspection() const;
+  /// Plots in the order in which they are shown; values that are worked out in the background come in later.
+  std::span<const Plot> plots() const;
+
+  /// "talus render RUN --map ... --at 12.25 ...": draws what is shown. Empty for a live run that is not
+  /// recorded.
+  std::string render_command() const;
+
+ private:
+  struct Data;
+  explicit ViewModel(std::unique_ptr<Data> data);
+  std::unique_ptr<Data> data_;
+};
+
+}  // namespace talus

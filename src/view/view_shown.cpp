@@ -1,0 +1,158 @@
+#include <algorithm>
+#include <cmath>
+
+#include "core/trigonometry.h"
+#include "maps/cluster_frame.h"
+#include "view/camera.h"
+#include "view/render_command.h"
+#include "view/view_data.h"
+
+namespace talus {
+namespace {
+
+constexpr double assumed_theta_c = 20.0;  // deg, while the slope has not failed
+
+bool draws_clusters(const MapLayers& layers) { return std::ranges::count(layers, MapKind::clusters) > 0; }
+
+/// Of the frames recorded, the last before a step; null where there is none.
+std::shared_ptr<const Frame> recorded_before(const RecordedFrames& recorded, std::int64_t step) {
+  const auto& all = recorded.all();
+  const auto after = std::ranges::partition_point(
+      all, [step](const std::shared_ptr<const Frame>& frame) { return frame->step < step; });
+  return after == all.begin() ? nullptr : *std::prev(after);
+}
+
+std::vector<double> tilts_of(const RecordedFrames& recorded) {
+  std::vector<double> tilts;
+  for (const auto& frame : recorded.all()) tilts.push_back(frame->tilt);
+  return tilts;
+}
+
+}  // namespace
+
+double ViewModel::Data::shown_theta_c() const { return theta_c.value_or(radians(assumed_theta_c)); }
+
+MapSettings ViewModel::Data::settings(const ViewState& state) const {
+  MapSettings settings = state.map;
+  if (settings.layers.empty()) settings.layers = {MapKind::gamma};
+  settings.theta_c = shown_theta_c();
+  settings.theta_c_assumed = !theta_c;
+  settings.length = std::clamp(settings.length, 1.0, statics.length / statics.mean_diameter);
+  settings.furniture = true;
+  settings.tilt_max = 0.0;
+  if (settings.turned)  // all frames in one size
+    settings.tilt_max =
+        replay ? std::ranges::max(frames->file().all_frame_tilts()) : std::max(shown_theta_c(), frame->tilt);
+  return settings;
+}
+
+const Clusters& ViewModel::Data::shown_clusters(const MapSettings& settings) {
+  const OverloadRule rule = overload_rule(settings);
+  if (clusters.frame != frame || !(clusters.rule == rule))
+    clusters = {frame, rule, overloaded_clusters(*frame, statics, settings)};
+  return clusters.clusters;
+}
+
+const std::vector<ClusterColour>& ViewModel::Data::shown_colours(const MapSettings& settings) {
+  const OverloadRule rule = overload_rule(settings);
+  // Colours of another rule are of other clusters.
+  const std::size_t met = series->rule() == rule ? series->colours().size() : 0;
+  if (colours.frame == frame && colours.rule == rule && colours.met == met) return colours.colours;
+  colours = {frame, rule, met, {}};
+  for (std::size_t k = 0; k < met && !replay; ++k)
+    if (recorded->all()[k]->step == frame->step) return colours.colours = series->colours()[k];
+  if (replay && replay->index() < met) return colours.colours = series->colours()[replay->index()];
+  // A frame that was not met yet follows the last that was.
+  ClusterColours tracker = met > 0 ? series->tracker() : ClusterColours();
+  return colours.colours = tracker.next(shown_clusters(settings));
+}
+
+const Inspection* ViewModel::Data::inspect_selected(const ViewState& state) {
+  if (!state.selected || *state.selected < 0 || *state.selected >= frame->grain_count()) return nullptr;
+  const MapSettings by = settings(state);
+  const OverloadRule rule = overload_rule(by);
+  if (inspection.frame != frame || !(inspection.rule == rule) ||
+      inspection.neighbourhood != state.neighbourhood || inspection.of.grain != *state.selected) {
+    const double widest = statics.periodic ? statics.length : 2.0 * std::max(statics.length, statics.depth);
+    const double neighbourhood = std::clamp(state.neighbourhood * statics.mean_diameter, 0.0, widest);
+    inspection = {frame, rule, state.neighbourhood,
+                  inspect(*frame, statics, shown_clusters(by),
+                          {threshold_of(rule), length_cut(statics), neighbourhood}, *state.selected)};
+  }
+  return &inspection.of;
+}
+
+MapExtent ViewModel::Data::part(const ViewState& state, double shown_aspect) const {
+  const double own = (bed.x_max - bed.x_min) / (bed.y_max - bed.y_min);
+  const double turn_max = std::max(0.0, settings(state).tilt_max);
+  return shown_part(state.camera, bed, statics.mean_diameter, shown_aspect > 0.0 ? shown_aspect : own,
+                    turn_max);
+}
+
+std::shared_ptr<const Frame> ViewModel::Data::reference(const MapSettings& settings,
+                                                        std::optional<double> since) {
+  if (!std::ranges::any_of(settings.layers, needs_reference)) return nullptr;
+  if (!since && replay) return replay->index() > 0 ? read(replay->index() - 1) : nullptr;
+  if (!since) return recorded_before(*recorded, frame->step);
+  const auto nearest = nearest_frame(replay ? frames->file().frame_tilts() : tilts_of(*recorded), *since);
+  if (!nearest) return nullptr;
+  if (replay) return *nearest < replay->index() ? read(*nearest) : nullptr;
+  const auto& candidate = recorded->all()[*nearest];
+  return candidate->step < frame->step ? candidate : nullptr;
+}
+
+const FrameView& ViewModel::Data::whole_map(const ViewState& state, const MapExtent& shown) {
+  MapSource source;
+  source.settings = settings(state);
+  source.frame = frame;
+  source.reference = reference(source.settings, state.since);
+  source.per_degree = !state.since;
+  if (draws_clusters(source.settings.layers)) source.colours = shown_colours(source.settings);
+  source.extent = depends_on_extent(source.settings.layers) ? common_part(shown, bed) : bed;
+  if (!is_same(map.source, source)) {
+    map.view = draw_map(source, statics);
+    map.source = std::move(source);
+  }
+  return map.view;
+}
+
+FrameView ViewModel::Data::picture(const ViewState& state, const MapExtent& shown) {
+  Overlay overlay;
+  if (const Inspection* of = inspect_selected(state)) {
+    overlay.selected = of->grain;
+    if (state.highlight_cluster) overlay.cluster = of->cluster;
+    if (state.show_neighbourhoods && of->free) {
+      for (const double diameter : growing_diameters(state.neighbourhood))
+        overlay.diameters.push_back(diameter * statics.mean_diameter);
+      overlay.critical_length = of->coarse_graining_length;
+    }
+  }
+  return shown_map(whole_map(state, shown), shown, *frame, overlay, shown_clusters(settings(state)), statics);
+}
+
+std::string ViewModel::Data::render_command(const ViewState& state) const {
+  RenderRequest shown;
+  shown.run = path;
+  shown.settings = settings(state);
+  shown.tilt = frame->tilt;
+  shown.since = state.since;
+  shown.mean_diameter = statics.mean_diameter;
+  if (replay && replay->index() >= frames->file().frame_count()) {
+    shown.in_flow = true;
+    shown.tilt = frames->file().frame_tilts().back();
+  }
+  if (!replay) {
+    if (output.empty()) return {};
+    const auto nearest = nearest_frame(tilts_of(*recorded), frame->tilt);
+    if (!nearest) return {};
+    shown.run = output;
+    shown.tilt = recorded->all()[*nearest]->tilt;
+  }
+  const MapExtent seen = common_part(part(state, aspect), bed);
+  const bool all = seen.x_min == bed.x_min && seen.x_max == bed.x_max && seen.y_min == bed.y_min &&
+                   seen.y_max == bed.y_max;
+  if (!all) shown.part = seen;
+  return render_command_line(shown);
+}
+
+}  // namespace talus

@@ -1,0 +1,43 @@
+#pragma once
+/// What the interactive view shows, and how: plain data that widgets change and drawing reads.
+
+#include <array>
+#include <optional>
+#include <string>
+
+#include "core/types.h"
+#include "maps/maps.h"
+
+namespace talus {
+
+/// What part of the bed fills the window.
+struct ViewCamera {
+  double centre_x = 0.0, centre_y = 0.0;  ///< m, frame of the bed
+  double zoom = 1.0;                      ///< 1: all of the bed is seen
+};
+
+struct ViewState {
+  MapSettings map;  ///< layers, colours, threshold, length, turned, ...
+  ViewCamera camera;
+  std::optional<double> since;    ///< rad: displacement and rotation since that tilt; without: per degree
+  std::optional<Index> selected;  ///< grain
+  double neighbourhood = 10.0;    ///< D: diameter of the neighbourhood drawn about the selected grain
+  bool show_neighbourhoods = true;
+  bool highlight_cluster = true;
+  bool show_help = false;
+  bool show_controls = true, show_inspector = true, show_plots = true;
+  float text_scale = 1.0f;
+  std::string message;  ///< last thing worth telling: a file written, an error
+
+  // What the action widgets hold.
+  double push_speed = 1.0;  ///< sqrt(g D)
+  double push_angle = 0.0;  ///< deg to the bed
+  int drop_count = 5;
+  double drop_height = 5.0;   ///< D
+  double run_to_tilt = 10.0;  ///< deg
+  int seed = 1;               ///< of the next reset
+  std::string folder;         ///< that the list of files shows; empty: where the program was started
+  std::string picture_path = "talus.png";
+};
+
+}  // namespace talus

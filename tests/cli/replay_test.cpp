@@ -1,0 +1,132 @@
+/// `talus replay`, and what `talus info` tells of commands.
+
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <thread>
+
+#include "core/trigonometry.h"
+#include "io/run_file.h"
+#include "process.h"
+#include "session/run.h"
+#include "session/run_header.h"
+
+namespace talus::test {
+namespace {
+
+const char* const small_bed =
+    "[bed]\nlength = 10\ndepth = 3\n[deposition]\nrest_velocity = 0.1\n"
+    "[tilt]\nrate = 20\nstep = 0.02\nend_angle = 4\n[output]\nframe_every = 0.5\nobservable_every = 0.2\n";
+
+class Replay : public testing::Test {
+ protected:
+  Outcome talus(const std::vector<std::string>& arguments) { return run_talus(arguments, folder_.path()); }
+  std::string info(const std::string& run, const std::string& key) {
+    return json_value(talus({"info", run, "--json"}).out, key);
+  }
+
+  /// A run of the small bed that is left half-way: pushed while it falls, and meddled with at 1 deg.
+  void write_left_run() {
+    write_file(folder_, "bed.toml", small_bed);
+    Session session(parse_scenario(small_bed, "bed.toml"));
+    RunStore store =
+        RunStore::create(folder_.path("bed.h5"), run_header(session, {small_bed, "bed.toml", {}, 1}), false);
+    for (int k = 0; k < 10; ++k) session.advance();
+    session.apply({0, CommandKind::push, 7, 0.25, 0.5});
+    while (session.world().tilt < radians(0.999)) session.advance();
+    session.apply({0, CommandKind::drop, 4, 0.05, 0.02});
+    session.apply({0, CommandKind::friction, -1, 0.3, 0.0});
+    session.apply({0, CommandKind::tilt_rate, -1, 10.0, 0.0});
+    store.commit(session.segment(), session.checkpoint(0.0));
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(Replay, of_a_plain_run_finds_its_end) {
+  write_file(folder_, "bed.toml", small_bed);
+  ASSERT_EQ(talus({"run", "bed.toml", "-o", "bed.h5"}).exit_code, 0);
+  const Outcome replay = talus({"replay", "bed.h5"});
+  EXPECT_EQ(replay.exit_code, 0) << replay.err;
+  const std::string hash = info("bed.h5", "state_hash");
+  EXPECT_NE(replay.out.find("stored      " + hash), std::string::npos) << replay.out;
+  EXPECT_NE(replay.out.find("recomputed  " + hash), std::string::npos) << replay.out;
+  EXPECT_EQ(info("bed.h5", "commands"), "0");
+  EXPECT_EQ(talus({"info", "bed.h5"}).out.find("commands"), std::string::npos);
+  EXPECT_EQ(talus({"replay", "bed.h5", "--quiet"}).out, "");
+}
+
+TEST_F(Replay, of_a_run_with_commands_that_was_left_and_resumed_finds_its_end) {
+  write_left_run();
+  const Outcome left = talus({"replay", "bed.h5"});
+  EXPECT_EQ(left.exit_code, 0) << left.err;
+  ASSERT_EQ(talus({"run", "bed.toml", "-o", "bed.h5", "--resume"}).exit_code, 0);
+  EXPECT_EQ(info("bed.h5", "complete"), "true");
+  const Outcome whole = talus({"replay", "bed.h5", "-o", "again.h5"});
+  EXPECT_EQ(whole.exit_code, 0) << whole.err;
+  for (const char* key : {"complete", "commands", "state_hash", "steps", "frames"})
+    EXPECT_EQ(info("again.h5", key), info("bed.h5", key)) << key;
+  EXPECT_EQ(talus({"replay", "again.h5"}).exit_code, 0);
+}
+
+TEST_F(Replay, keeps_a_run_that_was_left_as_one_that_can_be_resumed) {
+  write_left_run();
+  ASSERT_EQ(talus({"replay", "bed.h5", "-o", "again.h5"}).exit_code, 0);
+  EXPECT_EQ(info("again.h5", "complete"), "false");
+  for (const char* run : {"bed.h5", "again.h5"})
+    ASSERT_EQ(talus({"run", "bed.toml", "-o", run, "--resume"}).exit_code, 0);
+  EXPECT_EQ(info("again.h5", "state_hash"), info("bed.h5", "state_hash"));
+}
+
+TEST_F(Replay, commands_are_listed) {
+  write_left_run();
+  const std::string text = talus({"info", "bed.h5"}).out;
+  for (const char* line : {"commands            4\n", "deposition   push grain 7 by (0.25, 0.5) m/s\n",
+                           "1.000 deg    drop 4 grains at x = 0.05 m from 0.02 m above the surface\n",
+                           "1.000 deg    friction 0.3\n", "1.000 deg    tilt rate 10 deg/s\n"})
+    EXPECT_NE(text.find(line), std::string::npos) << line << text;
+  EXPECT_EQ(info("bed.h5", "commands"), "4");
+}
+
+/// A run that says another scenario than it was computed from.
+TEST_F(Replay, that_finds_another_end_says_so) {
+  const Scenario scenario = parse_scenario(small_bed, "bed.toml");
+  Session session(scenario);
+  RunHeader header = run_header(session, {small_bed, "bed.toml", {}, 1});
+  Scenario other = scenario;
+  other.contact.restitution = 0.5;
+  header.scenario_resolved = resolved_toml(other);
+  RunStore store = RunStore::create(folder_.path("bed.h5"), header, false);
+  for (int k = 0; k < 100; ++k) session.advance();
+  store.commit(session.segment(), session.checkpoint(0.0));
+  const Outcome replay = talus({"replay", "bed.h5", "--quiet"});
+  EXPECT_EQ(replay.exit_code, 70);
+  EXPECT_NE(replay.err.find("another end state"), std::string::npos) << replay.err;
+}
+
+TEST_F(Replay, of_nothing_and_over_what_exists_is_refused) {
+  EXPECT_EQ(talus({"replay", "none.h5"}).exit_code, 66);
+  write_left_run();
+  write_file(folder_, "other.h5", "precious");
+  EXPECT_EQ(talus({"replay", "bed.h5", "-o", "other.h5"}).exit_code, 73);
+  EXPECT_EQ(talus({"replay", "bed.h5", "--overwrite"}).exit_code, 64);
+  EXPECT_EQ(talus({"replay", "bed.h5", "-o", "./bed.h5", "--overwrite"}).exit_code, 64);
+  EXPECT_EQ(talus({"replay", "bed.h5"}).exit_code, 0) << "it is still there";
+}
+
+/// A run whose tilt is held, and that says it took more steps than anybody waits for.
+TEST_F(Replay, stops_when_asked) {
+  Session session(parse_scenario(small_bed, "bed.toml"));
+  RunStore store = RunStore::create(folder_.path("bed.h5"), run_header(session, {}), false);
+  session.apply({0, CommandKind::tilt_rate, -1, 0.0, 0.0});
+  Checkpoint checkpoint = session.checkpoint(0.0);
+  checkpoint.world.step = 1'000'000'000;
+  store.commit(session.segment(), checkpoint);
+  const pid_t process = start_talus({"replay", "bed.h5"}, folder_.path());
+  std::this_thread::sleep_for(std::chrono::milliseconds(150));
+  kill(process, SIGINT);
+  EXPECT_EQ(wait_for(process), 75);
+}
+
+}  // namespace
+}  // namespace talus::test

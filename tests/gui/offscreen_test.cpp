@@ -1,0 +1,311 @@
+/// The window without a display: widgets are clicked by name, what they do is seen in the model and in the
+/// picture.
+
+#include "gui/offscreen.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <functional>
+#include <thread>
+
+#include "cli/process.h"
+#include "core/trigonometry.h"
+
+namespace talus {
+namespace {
+
+using test::run_talus;
+using test::TemporaryFolder;
+
+/// 40 grains, tilted to 1 deg in five frames.
+const char* const small_bed =
+    "seed = 3\n[bed]\nlength = 10\ndepth = 4\n[tilt]\nstep = 0.01\nend_angle = 1.0\n[output]\nframe_every = "
+    "0.25\n";
+
+/// The share of the pixels of a place that differ.
+double difference(const Image& a, const Image& b, const WidgetPlace& place) {
+  int differing = 0, all = 0;
+  for (int y = std::max(0, static_cast<int>(place.y0)); y < std::min(a.height, static_cast<int>(place.y1));
+       ++y)
+    for (int x = std::max(0, static_cast<int>(place.x0)); x < std::min(a.width, static_cast<int>(place.x1));
+         ++x) {
+      const std::size_t at = 3 * static_cast<std::size_t>(y * a.width + x);
+      const bool same = std::equal(a.pixels.begin() + static_cast<std::ptrdiff_t>(at),
+                                   a.pixels.begin() + static_cast<std::ptrdiff_t>(at) + 3,
+                                   b.pixels.begin() + static_cast<std::ptrdiff_t>(at));
+      differing += same ? 0 : 1;
+      ++all;
+    }
+  return all == 0 ? 0.0 : static_cast<double>(differing) / all;
+}
+
+/// A small run that is replayed in a window of 1400 x 900 px.
+class Replay : public testing::Test {
+ protected:
+  Replay() : model_(open_run()), gui_(model_, 1400, 900) {}
+
+  ViewModel open_run() {
+    test::write_file(folder_, "bed.toml", small_bed);
+    const test::Outcome run = run_talus({"run", "bed.toml", "-q"}, folder_.path());
+    if (run.exit_code != 0) throw std::runtime_error(run.err);
+    return ViewModel::open(folder_.path("bed.h5"), {}, "", false, "");
+  }
+
+  /// Where a grain is in the map: shares of its width and height.
+  std::pair<float, float> share_of(Index grain) {
+    const WidgetPlace map = gui_.place("map");
+    const double aspect = static_cast<double>(map.x1 - map.x0) / static_cast<double>(map.y1 - map.y0);
+    const auto [x_min, x_max, y_min, y_max] = model_.shown_region(aspect);
+    const auto k = static_cast<std::size_t>(grain);
+    return {static_cast<float>((model_.frame().x[k] - x_min) / (x_max - x_min)),
+            static_cast<float>((y_max - model_.frame().y[k]) / (y_max - y_min))};
+  }
+
+  TemporaryFolder folder_;
+  ViewModel model_;
+  OffscreenGui gui_;
+};
+
+TEST_F(Replay, plays_and_pauses) {
+  gui_.click("play");
+  EXPECT_TRUE(model_.playing());
+  gui_.frame(0.6 / model_.speed());
+  EXPECT_EQ(model_.frame_index(), 2u) << "0, 0.25, 0.5 deg: the last at or before 0.6 deg";
+  gui_.click("play");
+  EXPECT_FALSE(model_.playing());
+  gui_.frame(10.0);
+  EXPECT_EQ(model_.frame_index(), 2u);
+}
+
+TEST_F(Replay, scrubs_with_the_mouse) {
+  const Image before = gui_.frame();
+  gui_.click("frame", 0.98f);
+  EXPECT_EQ(model_.frame_index(), 4u);
+  EXPECT_GT(difference(before, gui_.frame(), gui_.place("map")), 0.001);
+  gui_.drag("frame", 0.98f, 0.5f, 0.5f, 0.5f);
+  EXPECT_EQ(model_.frame_index(), 2u);
+}
+
+TEST_F(Replay, moves_by_keys) {
+  gui_.key(key_right);
+  gui_.key(key_right);
+  EXPECT_EQ(model_.frame_index(), 2u);
+  gui_.key(key_left);
+  EXPECT_EQ(model_.frame_index(), 1u);
+  gui_.key(key_end);
+  EXPECT_EQ(model_.frame_index(), 4u);
+  gui_.key(key_home);
+  EXPECT_EQ(model_.frame_index(), 0u);
+}
+
+TEST_F(Replay, a_map_is_chosen_in_the_list) {
+  const Image before = gui_.frame();
+  gui_.click("tab map");
+  gui_.click("map kind");
+  gui_.click("map kind: pressure");
+  ASSERT_EQ(model_.state.map.layers, (MapLayers{MapKind::pressure}));
+  EXPECT_GT(difference(before, gui_.frame(), gui_.place("map")), 0.1);
+  gui_.key('1');
+  EXPECT_EQ(model_.state.map.layers, (MapLayers{MapKind::gamma}));
+}
+
+TEST_F(Replay, a_grain_is_selected_where_it_is_clicked) {
+  for (const Index grain : {Index{7}, Index{31}}) {
+    const auto [x, y] = share_of(grain);
+    gui_.click("map", x, y);
+    ASSERT_TRUE(model_.state.selected.has_value());
+    EXPECT_EQ(*model_.state.selected, grain);
+  }
+  gui_.key(key_escape);
+  EXPECT_FALSE(model_.state.selected.has_value());
+}
+
+TEST_F(Replay, the_wheel_zooms_about_the_mouse) {
+  const auto [x, y] = share_of(12);
+  gui_.scroll("map", 4.0f, x, y);
+  EXPECT_GT(model_.state.camera.zoom, 2.0);
+  gui_.click("map", x, y);
+  EXPECT_EQ(model_.state.selected, 12) << "what was under the mouse is there still";
+  gui_.key('f');
+  EXPECT_EQ(model_.state.camera.zoom, 1.0);
+}
+
+TEST_F(Replay, a_drag_moves_the_picture_and_selects_nothing) {
+  gui_.scroll("map", 4.0f);
+  const double before = model_.state.camera.centre_x;
+  gui_.drag("map", 0.5f, 0.5f, 0.3f, 0.5f);
+  EXPECT_GT(model_.state.camera.centre_x, before) << "the bed follows the mouse to the left";
+  EXPECT_FALSE(model_.state.selected.has_value());
+}
+
+TEST_F(Replay, a_question_mark_lists_the_keys) {
+  const Image before = gui_.frame();
+  EXPECT_FALSE(gui_.has("help"));
+  gui_.key('?');
+  EXPECT_TRUE(model_.state.show_help);
+  EXPECT_GT(difference(before, gui_.frame(), gui_.place("help")), 0.05);
+  gui_.key(key_escape);
+  EXPECT_FALSE(gui_.has("help"));
+  EXPECT_EQ(gui_.frame().pixels, before.pixels) << "all is as it was";
+}
+
+TEST_F(Replay, the_same_state_is_the_same_picture) { EXPECT_EQ(gui_.frame().pixels, gui_.frame().pixels); }
+
+/// How many pixels of the map differ from those of the same view drawn alone, right of and below the arrow of
+/// gravity.
+int differing_from_render(const Image& window, const WidgetPlace& map, const Image& alone) {
+  int differing = 0;
+  for (int y = 60; y < alone.height - 1; ++y)
+    for (int x = 60; x < alone.width; ++x) {
+      const int column = x + static_cast<int>(map.x0), row = y + static_cast<int>(map.y0);
+      const std::uint8_t* shown = window.pixels.data() + 3 * (row * window.width + column);
+      const std::uint8_t* drawn = alone.pixels.data() + alone.channels * (y * alone.width + x);
+      for (int channel = 0; channel < 3; ++channel)
+        if (shown[channel] != drawn[alone.channels == 1 ? 0 : channel]) {
+          ++differing;
+          break;
+        }
+    }
+  return differing;
+}
+
+TEST_F(Replay, the_map_is_the_one_of_talus_render) {
+  const WidgetPlace map = gui_.place("map");
+  const double aspect = static_cast<double>(map.x1 - map.x0) / static_cast<double>(map.y1 - map.y0);
+  for (const char key : {'1', '3'}) {  // gamma, all gray, and clusters in colour
+    gui_.key(key);
+    const Image window = gui_.frame();
+    const Image alone = gui_.draw_image(model_.map(aspect), static_cast<int>(map.x1 - map.x0));
+    ASSERT_GT(alone.width * alone.height, 100000);
+    EXPECT_LT(differing_from_render(window, map, alone), alone.width * alone.height / 1000);
+  }
+}
+
+TEST_F(Replay, a_name_is_typed_and_a_picture_asked_for) {
+  gui_.click("tab files");
+  gui_.click("picture path");
+  gui_.key('a', true);
+  gui_.type("bed_at_rest.png");
+  gui_.click("save picture");
+  EXPECT_EQ(gui_.requests().save_png_path, "bed_at_rest.png");
+  EXPECT_EQ(model_.frame_index(), 0u) << "what is typed into a field is no key";
+}
+
+/// Widgets lie inside of the window, or in a part of it that scrolls; those of the first tab are always
+/// there.
+void expect_inside(const OffscreenGui& gui, float width, float height) {
+  for (const char* name : {"play", "frame", "map", "tab run", "tab map"}) {
+    const WidgetPlace place = gui.place(name);
+    EXPECT_GE(place.x0, 0.0f) << name;
+    EXPECT_GE(place.y0, 0.0f) << name;
+    EXPECT_LE(place.x1, width) << name;
+    EXPECT_LE(place.y1, height) << name;
+    EXPECT_GE(place.x1 - place.x0, 10.0f) << name;
+    EXPECT_GE(place.y1 - place.y0, 10.0f) << name;
+  }
+}
+
+TEST_F(Replay, a_small_window_has_what_is_needed) {
+  gui_.resize(640, 400);
+  expect_inside(gui_, 640.0f, 400.0f);
+  gui_.click("frame", 0.98f);
+  EXPECT_EQ(model_.frame_index(), 4u);
+  gui_.key('?');
+  const WidgetPlace help = gui_.place("help");
+  EXPECT_GE(help.x0, 0.0f);
+  EXPECT_GE(help.y0, 0.0f);
+  EXPECT_LE(help.x1, 640.0f);
+  EXPECT_LE(help.y1, 400.0f);
+}
+
+TEST_F(Replay, ends_on_request) {
+  EXPECT_FALSE(gui_.requests().quit);
+  gui_.key('q');
+  EXPECT_TRUE(gui_.requests().quit);
+}
+
+TEST(Scale, two_doubles_text_and_widgets) {
+  TemporaryFolder folder;
+  test::write_file(folder, "bed.toml", small_bed);
+  ViewModel model = ViewModel::open(folder.path("bed.toml"), {}, "", false, "");
+  float height = 0.0f;
+  {
+    const OffscreenGui plain(model, 1400, 900);
+    const WidgetPlace play = plain.place("play");
+    height = play.y1 - play.y0;
+  }
+  OffscreenGui large(model, 1400, 900, 2.0f);
+  const WidgetPlace play = large.place("play");
+  EXPECT_NEAR(play.y1 - play.y0, 2.0f * height, 2.0f);
+  EXPECT_LE(large.place("map").x1, 1400.0f);
+}
+
+/// A bed that is computed, in a window of 1200 x 800 px.
+class Live : public testing::Test {
+ protected:
+  Live() : model_(ViewModel::open(scenario(), {}, "", false, "")), gui_(model_, 1200, 800) {}
+
+  std::string scenario() {
+    test::write_file(folder_, "bed.toml", small_bed);
+    return folder_.path("bed.toml");
+  }
+
+  /// Draws until it is so; false after ten seconds.
+  bool wait_until(const std::function<bool()>& so) {
+    for (int wait = 0; wait < 1000; ++wait) {
+      gui_.frame();
+      if (so()) return true;
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    return false;
+  }
+  LiveStatus status() { return model_.live()->status(); }
+
+  TemporaryFolder folder_;
+  ViewModel model_;
+  OffscreenGui gui_;
+};
+
+TEST_F(Live, steps_are_counted) {
+  EXPECT_EQ(status().step, 0);
+  gui_.click("step 1");
+  EXPECT_TRUE(wait_until([&] { return status().step == 1 && !status().running; }));
+  gui_.click("step 10");
+  EXPECT_TRUE(wait_until([&] { return status().step == 11 && !status().running; }));
+  EXPECT_TRUE(wait_until([&] { return model_.frame().step == 11; })) << "the picture follows";
+}
+
+TEST_F(Live, plays_pauses_and_begins_anew) {
+  const Image before = gui_.frame();
+  gui_.click("play");
+  EXPECT_TRUE(wait_until([&] { return model_.frame().step > 50; }));
+  EXPECT_GT(difference(before, gui_.frame(), gui_.place("map")), 0.005);
+  gui_.click("play");
+  EXPECT_TRUE(wait_until([&] { return !status().running; }));
+  const std::int64_t step = status().step;
+  EXPECT_FALSE(wait_until([&, k = 0]() mutable { return status().step != step || ++k > 10; }) &&
+               status().step != step);
+  gui_.click("reset");
+  EXPECT_TRUE(wait_until([&] { return status().step == 0; }));
+}
+
+TEST_F(Live, friction_and_pushes_are_commands) {
+  gui_.click("deposit");
+  ASSERT_TRUE(wait_until([&] { return !status().depositing && !status().running; }));
+  gui_.key('n');
+  gui_.click("tab act");
+  gui_.click("push");
+  gui_.click("friction", 0.5f);
+  const std::vector<Command> commands = model_.live()->commands();
+  ASSERT_GE(commands.size(), 2u);
+  EXPECT_EQ(commands[0].kind, CommandKind::push);
+  EXPECT_EQ(commands[0].grain, 0);
+  EXPECT_EQ(commands[0].step, status().step);
+  EXPECT_EQ(commands.back().kind, CommandKind::friction);
+  EXPECT_NEAR(commands.back().x, status().friction, 1e-12);
+  EXPECT_NE(commands.back().x, 0.5) << "which it was before";
+}
+
+}  // namespace
+}  // namespace talus

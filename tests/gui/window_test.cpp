@@ -1,0 +1,201 @@
+/// `talus view` as a user meets it: a window on a display in memory, a mouse, keys, and what is seen.
+
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <fstream>
+#include <memory>
+#include <set>
+#include <thread>
+
+#include "cli/process.h"
+#include "gui/desktop.h"
+
+namespace talus::test {
+namespace {
+
+const char* const small_bed =
+    "seed = 3\n[bed]\nlength = 10\ndepth = 4\n[tilt]\nstep = 0.01\nend_angle = 1.0\n[output]\nframe_every = "
+    "0.25\n";
+
+TEST(View, without_a_display_says_so_in_one_line) {
+  const TemporaryFolder folder;
+  write_file(folder, "bed.toml", small_bed);
+  unsetenv("DISPLAY");
+  unsetenv("WAYLAND_DISPLAY");
+  const Outcome outcome = run_talus({"view", "bed.toml", "-o", "bed.h5"}, folder.path());
+  EXPECT_EQ(outcome.exit_code, 69);
+  EXPECT_NE(outcome.err.find("DISPLAY"), std::string::npos) << outcome.err;
+  EXPECT_EQ(outcome.err.find('\n'), outcome.err.size() - 1) << outcome.err;
+  EXPECT_FALSE(std::filesystem::exists(folder.path("bed.h5.run"))) << "no run was begun";
+}
+
+TEST(View, takes_a_picture_of_itself_without_a_display) {
+  const TemporaryFolder folder;
+  write_file(folder, "bed.toml", small_bed);
+  unsetenv("DISPLAY");
+  const std::vector<std::string> command = {"view",     "bed.toml", "--screenshot",
+                                            "view.png", "--size",   "640x480"};
+  const Outcome outcome = run_talus(command, folder.path());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(output_of("od -An -tu1 -j18 -N2 " + folder.path("view.png") + " | tr -s ' '"), " 2 128")
+      << "640 px";
+  EXPECT_EQ(run_talus(command, folder.path()).exit_code, 73) << "it is there already";
+}
+
+TEST(View, refuses_sizes_that_are_none) {
+  const TemporaryFolder folder;
+  write_file(folder, "bed.toml", small_bed);
+  for (const char* size : {"640", "640x", "x480", "640x480x3", "10x10", "99999x500", "a x b"}) {
+    const Outcome outcome =
+        run_talus({"view", "bed.toml", "--screenshot", "view.png", "--size", size}, folder.path());
+    EXPECT_EQ(outcome.exit_code, 64) << size;
+    EXPECT_NE(outcome.err.find("WIDTHxHEIGHT"), std::string::npos) << outcome.err;
+  }
+}
+
+/// talus view on a desktop of its own.
+class Window : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (const std::string missing = missing_for_desktop(); !missing.empty()) GTEST_SKIP() << missing;
+    desktop_ = std::make_unique<Desktop>();
+    write_file(folder_, "bed.toml", small_bed);
+  }
+  void TearDown() override {
+    if (process_ > 0) {
+      kill(process_, SIGKILL);
+      wait_for(process_);
+    }
+  }
+
+  void start(std::vector<std::string> arguments) {
+    for (const char* word : {"--places", "places", "--size", "1200x800"}) arguments.emplace_back(word);
+    arguments.insert(arguments.begin(), "view");
+    process_ = start_talus(arguments, folder_.path());
+    ASSERT_TRUE(desktop_->wait_for_window("– Talus")) << "no window";
+  }
+  int end() {
+    const int code = wait_for(process_);
+    process_ = -1;
+    return code;
+  }
+
+  /// Middle of a widget, px of the window; waits until it is there.
+  std::pair<double, double> middle_of(const std::string& name) {
+    for (int wait = 0; wait < 200; ++wait) {
+      std::ifstream places(folder_.path("places"));
+      for (std::string line; std::getline(places, line);) {
+        double x0 = 0.0, y0 = 0.0, x1 = 0.0, y1 = 0.0;
+        if (line.starts_with(name + "\t") &&
+            std::sscanf(line.c_str() + name.size(), "%lf %lf %lf %lf", &x0, &y0, &x1, &y1) == 4)
+          return {0.5 * (x0 + x1), 0.5 * (y0 + y1)};
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+    ADD_FAILURE() << "no widget " << name;
+    return {0.0, 0.0};
+  }
+  void move_to(const std::string& name) {
+    const auto [x, y] = middle_of(name);
+    desktop_->move(x, y);
+  }
+  void click(const std::string& name) {
+    move_to(name);
+    desktop_->click();
+  }
+
+  TemporaryFolder folder_;
+  std::unique_ptr<Desktop> desktop_;
+  pid_t process_ = -1;
+};
+
+/// How many colours there are in a picture.
+std::size_t colours_of(const Image& image) {
+  std::set<std::array<std::uint8_t, 3>> colours;
+  for (std::size_t k = 0; k + 2 < image.pixels.size(); k += 3)
+    colours.insert({image.pixels[k], image.pixels[k + 1], image.pixels[k + 2]});
+  return colours.size();
+}
+
+TEST_F(Window, replays_a_run) {
+  ASSERT_EQ(run_talus({"run", "bed.toml", "-q"}, folder_.path()).exit_code, 0);
+  start({"bed.h5"});
+  EXPECT_TRUE(desktop_->wait_for_title("bed.h5, 0.00° ")) << desktop_->title();
+  move_to("map");  // the window under the mouse has the keys
+  desktop_->key("Right");
+  EXPECT_TRUE(desktop_->wait_for_title("0.25°")) << desktop_->title();
+  const Image before = desktop_->screenshot(folder_.path());
+  EXPECT_GT(colours_of(before), 50u) << "grains and text with soft edges";
+  desktop_->key("End");
+  EXPECT_TRUE(desktop_->wait_for_title("1.00°")) << desktop_->title();
+  click("back");
+  EXPECT_TRUE(desktop_->wait_for_title("0.75°")) << desktop_->title();
+  const Image after = desktop_->screenshot(folder_.path());
+  EXPECT_NE(before.pixels, after.pixels);
+  click("first");
+  EXPECT_TRUE(desktop_->wait_for_title("0.00°")) << desktop_->title();
+  click("play");
+  EXPECT_TRUE(desktop_->wait_for_title("1.00°")) << desktop_->title();
+  desktop_->key("q");
+  EXPECT_EQ(end(), 0);
+}
+
+TEST_F(Window, lists_its_keys_and_follows_its_size) {
+  ASSERT_EQ(run_talus({"run", "bed.toml", "-q"}, folder_.path()).exit_code, 0);
+  start({"bed.h5"});
+  move_to("map");
+  desktop_->key("question");
+  middle_of("help");
+  desktop_->resize(640, 400);
+  desktop_->key("Escape");
+  for (int wait = 0; wait < 100 && middle_of("map").first > 640.0; ++wait)
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  EXPECT_LT(middle_of("map").first, 640.0);
+  EXPECT_LT(middle_of("map").second, 400.0);
+  kill(process_, SIGTERM);
+  EXPECT_EQ(end(), 75);
+}
+
+TEST_F(Window, computes_a_run_and_records_it) {
+  start({"bed.toml", "-o", "bed.h5"});
+  click("play");
+  EXPECT_TRUE(desktop_->wait_for_title("1.00°")) << desktop_->title();
+  move_to("map");
+  for (int wait = 0; wait < 200 && std::filesystem::exists(folder_.path("bed.h5.run/manifest")) &&
+                     !std::filesystem::exists(folder_.path("bed.h5"));
+       ++wait)
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  desktop_->key("q");
+  EXPECT_EQ(end(), 0);
+  const Outcome info = run_talus({"info", "bed.h5", "--json"}, folder_.path());
+  ASSERT_EQ(info.exit_code, 0) << info.err;
+  EXPECT_EQ(json_value(info.out, "complete"), "true");
+  ASSERT_EQ(run_talus({"run", "bed.toml", "-q", "-o", "headless.h5"}, folder_.path()).exit_code, 0);
+  const Outcome headless = run_talus({"info", "headless.h5", "--json"}, folder_.path());
+  EXPECT_EQ(json_value(info.out, "state_hash"), json_value(headless.out, "state_hash"))
+      << "looking changes nothing";
+}
+
+TEST_F(Window, a_recorded_run_that_was_left_can_go_on) {
+  start({"bed.toml", "-o", "bed.h5"});
+  click("step 10");
+  middle_of("map");
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  kill(process_, SIGTERM);
+  EXPECT_EQ(end(), 75);
+  ASSERT_EQ(run_talus({"run", "bed.toml", "-q", "-o", "bed.h5", "--resume"}, folder_.path()).exit_code, 0);
+  EXPECT_EQ(json_value(run_talus({"info", "bed.h5", "--json"}, folder_.path()).out, "complete"), "true");
+}
+
+TEST_F(Window, bad_files_are_said_before_it_opens) {
+  const Outcome missing = run_talus({"view", "none.toml"}, folder_.path());
+  EXPECT_EQ(missing.exit_code, 66) << missing.err;
+  write_file(folder_, "bad.toml", "[bed]\nlength = -1\n");
+  const Outcome bad = run_talus({"view", "bad.toml"}, folder_.path());
+  EXPECT_EQ(bad.exit_code, 65) << bad.err;
+  EXPECT_NE(bad.err.find("bad.toml:2:10"), std::string::npos) << bad.err;
+}
+
+}  // namespace
+}  // namespace talus::test

@@ -1,0 +1,290 @@
+/// What commands do to worlds laid out by hand and to a session, and what is refused.
+
+#include "session/command.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/errors.h"
+#include "core/trigonometry.h"
+#include "session/session.h"
+
+namespace talus {
+namespace {
+
+constexpr double diameter = 0.01;
+using Ids = std::vector<Index>;
+
+/// Two layers of ten touching disks: ids 0 ... 9 at the floor, 10 ... 19 on them; contacts up each column.
+World layers(bool periodic) {
+  World world;
+  world.boundary.periodic = periodic;
+  world.boundary.length = 10 * diameter;
+  for (int layer = 0; layer < 2; ++layer)
+    for (int k = 0; k < 10; ++k)
+      add_disk(world.grains, {(k + 0.5) * diameter, (layer + 0.5) * diameter}, 0.5 * diameter, 2500.0, false);
+  Contacts& contacts = world.contacts;
+  contacts.resize(10);
+  for (Index k = 0; k < 10; ++k) {
+    contacts.a[k] = k;
+    contacts.b[k] = k + 10;
+    contacts.fn[k] = 1.0 + k;
+  }
+  return world;
+}
+
+/// Smallest gap between two disks, across the edge of a periodic bed as well.
+double smallest_gap(const World& world) {
+  const Grains& grains = world.grains;
+  double smallest = std::numeric_limits<double>::infinity();
+  for (Index i = 0; i < grains.count(); ++i)
+    for (Index k = 0; k < i; ++k) {
+      double dx = grains.x[i] - grains.x[k];
+      if (world.boundary.periodic) dx = std::remainder(dx, world.boundary.length);
+      smallest =
+          std::min(smallest, std::hypot(dx, grains.y[i] - grains.y[k]) - grains.radius[i] - grains.radius[k]);
+    }
+  return smallest;
+}
+
+TEST(Drop, finds_the_grains_that_nothing_covers) {
+  World world = layers(true);
+  EXPECT_EQ(surface_grains(world, diameter), (Ids{10, 11, 12, 13, 14, 15, 16, 17, 18, 19}));
+  world.grains.x[19] = 0.5 * diameter;  // over grain 10: that one is covered, 9 comes to light
+  world.grains.y[19] = 5.0 * diameter;
+  EXPECT_EQ(surface_grains(world, diameter), (Ids{9, 11, 12, 13, 14, 15, 16, 17, 18, 19}));
+}
+
+TEST(Drop, takes_the_farthest_around_a_periodic_bed) {
+  World world = layers(true);
+  drop_grains(world, 3, 2.5 * diameter, 4.0 * diameter, diameter);  // at grain 12: 17 is opposite
+  for (const Index lifted : {16, 17, 18}) EXPECT_GE(world.grains.y[lifted], 6.5 * diameter) << lifted;
+  for (Index i = 0; i < 16; ++i) EXPECT_LT(world.grains.y[i], 2.0 * diameter) << i;
+}
+
+TEST(Drop, takes_the_farthest_between_walls) {
+  World world = layers(false);
+  drop_grains(world, 2, 2.5 * diameter, 4.0 * diameter, diameter);
+  for (const Index lifted : {18, 19}) EXPECT_GE(world.grains.y[lifted], 6.5 * diameter) << lifted;
+}
+
+TEST(Drop, leaves_grains_at_rest_above_the_surface_that_touch_nothing) {
+  for (const bool periodic : {true, false})
+    for (const double x : {0.0, 0.3, 4.2, 9.9}) {
+      World world = layers(periodic);
+      Grains& grains = world.grains;
+      for (Index i = 0; i < grains.count(); ++i) {
+        grains.radius[i] *= 1.0 - 0.02 * (i % 7);
+        grains.vx[i] = grains.vy[i] = grains.omega[i] = 1.0;
+      }
+      drop_grains(world, 7, x * diameter, 0.0, diameter);
+      EXPECT_GT(smallest_gap(world), -1e-12) << x;
+      int lifted = 0;
+      for (Index i = 0; i < grains.count(); ++i) {
+        if (grains.vx[i] != 0.0) continue;
+        ++lifted;
+        EXPECT_EQ(grains.vy[i], 0.0);
+        EXPECT_EQ(grains.omega[i], 0.0);
+        EXPECT_GE(grains.x[i], periodic ? 0.0 : grains.radius[i]);
+        EXPECT_LE(grains.x[i], world.boundary.length - (periodic ? 1e-12 : grains.radius[i]));
+      }
+      EXPECT_EQ(lifted, 7);
+    }
+}
+
+TEST(Drop, falls_from_the_height_asked_for) {
+  World world = layers(true);
+  drop_grains(world, 1, 2.5 * diameter, 4.0 * diameter, diameter);
+  EXPECT_NEAR(world.grains.x[17], 2.5 * diameter, 1e-15);
+  EXPECT_NEAR(world.grains.y[17] - 0.5 * diameter, 6.0 * diameter, 0.011 * diameter) << "2 D of bed, and 4 D";
+}
+
+/// Unwrapped, a grain goes the shortest way: less than half the bed.
+TEST(Drop, counts_the_turns_of_a_periodic_bed) {
+  for (const double x : {-1.0, 0.0, 0.2, 2.5, 9.8, 23.0}) {
+    World world = layers(true);
+    std::ranges::fill(world.grains.image, 3);
+    const Grains before = world.grains;
+    drop_grains(world, 6, x * diameter, diameter, diameter);
+    const Grains& grains = world.grains;
+    for (Index i = 0; i < grains.count(); ++i) {
+      EXPECT_GE(grains.x[i], 0.0);
+      EXPECT_LT(grains.x[i], world.boundary.length);
+      const double way = grains.x[i] - before.x[i] + (grains.image[i] - 3) * world.boundary.length;
+      EXPECT_LE(std::fabs(way), 0.5 * world.boundary.length + 1e-12) << x << " grain " << i;
+    }
+  }
+}
+
+TEST(Drop, forgets_the_contacts_of_what_was_lifted) {
+  World world = layers(true);
+  drop_grains(world, 3, 2.5 * diameter, diameter, diameter);
+  EXPECT_EQ(world.contacts.a, (Ids{0, 1, 2, 3, 4, 5, 9}));
+  EXPECT_EQ(world.contacts.fn, (std::vector{1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 10.0}));
+}
+
+TEST(Drop, of_more_grains_than_the_surface_has_is_refused) {
+  World world = layers(true);
+  const std::uint64_t before = state_hash(world);
+  EXPECT_THROW(drop_grains(world, 11, 0.0, 0.0, diameter), Error);
+  EXPECT_EQ(state_hash(world), before);
+}
+
+Scenario small_bed() {
+  Scenario scenario;
+  scenario.bed.length = 10.0;
+  scenario.bed.depth = 3.0;
+  scenario.deposition.rest_velocity = 0.1;
+  scenario.tilt.end_angle = 30.0;
+  return scenario;
+}
+
+Session tilting(const Scenario& scenario) {
+  Session session(scenario);
+  while (session.phase() == Phase::deposition) session.advance();
+  return session;
+}
+
+ExitCode refusal(Session& session, const Command& command) {
+  try {
+    session.apply(command);
+  } catch (const Error& error) {
+    return error.code();
+  }
+  return ExitCode::done;
+}
+
+TEST(Command, that_cannot_be_done_is_refused_and_leaves_no_trace) {
+  const double nan = std::nan("");
+  const double infinite = std::numeric_limits<double>::infinity();
+  const double limit = 100.0 * std::sqrt(9.81 * diameter);
+  for (const BedBoundary boundary : {BedBoundary::periodic, BedBoundary::walls}) {
+    Scenario scenario = small_bed();
+    scenario.bed.boundary = boundary;
+    Session session(scenario);
+    const std::uint64_t before = state_hash(session.world());
+    std::vector<Command> refused = {{0, CommandKind::push, -1, 0.1, 0.0},
+                                    {0, CommandKind::push, 30, 0.1, 0.0},  // 30 free grains: a floor grain
+                                    {0, CommandKind::push, 3, nan, 0.0},
+                                    {0, CommandKind::push, 3, 0.0, infinite},
+                                    {0, CommandKind::push, 3, limit, 0.0},
+                                    {0, CommandKind::push, 3, 0.8 * limit, -0.8 * limit},
+                                    {0, CommandKind::drop, 0, 0.05, 0.0},
+                                    {0, CommandKind::drop, 1001, 0.05, 0.0},
+                                    {0, CommandKind::drop, 3, nan, 0.0},
+                                    {0, CommandKind::drop, 3, 0.05, -0.001},
+                                    {0, CommandKind::drop, 3, 0.05, 1.001},
+                                    {0, CommandKind::drop, 29, 0.05, 0.1},
+                                    {0, CommandKind::friction, -1, -0.1, 0.0},
+                                    {0, CommandKind::friction, -1, 10.1, 0.0},
+                                    {0, CommandKind::friction, -1, nan, 0.0},
+                                    {0, CommandKind::tilt_rate, -1, -0.1, 0.0},
+                                    {0, CommandKind::tilt_rate, -1, 101.0, 0.0},
+                                    {0, CommandKind::tilt_rate, -1, infinite, 0.0}};
+    if (boundary == BedBoundary::walls) refused.push_back({0, CommandKind::drop, 3, 0.101, 0.0});
+    for (const Command& command : refused)
+      EXPECT_EQ(refusal(session, command), ExitCode::usage) << command_text(command);
+    EXPECT_EQ(state_hash(session.world()), before);
+    EXPECT_TRUE(session.segment().commands.empty());
+    EXPECT_EQ(session.law().friction, 0.5);
+    EXPECT_EQ(session.tilt_rate(), 1.0);
+  }
+}
+
+TEST(Command, after_the_end_is_refused) {
+  Scenario scenario = small_bed();
+  scenario.tilt.end_angle = 0.001;
+  Session session = tilting(scenario);
+  session.advance();
+  ASSERT_EQ(session.phase(), Phase::done);
+  EXPECT_EQ(refusal(session, {0, CommandKind::push, 3, 0.1, 0.0}), ExitCode::usage);
+}
+
+TEST(Command, is_recorded_with_its_step) {
+  Session session(small_bed());
+  for (int k = 0; k < 5; ++k) session.advance();
+  session.apply({-7, CommandKind::push, 3, 0.1, -0.2});
+  session.apply({0, CommandKind::friction, -1, 0.3, 0.0});
+  EXPECT_EQ(session.segment().commands, (std::vector<Command>{{5, CommandKind::push, 3, 0.1, -0.2},
+                                                              {5, CommandKind::friction, -1, 0.3, 0.0}}));
+}
+
+TEST(Push, adds_to_the_velocity) {
+  Session session(small_bed());
+  session.advance();
+  const Grains before = session.world().grains;
+  session.apply({0, CommandKind::push, 3, 0.125, -0.25});
+  EXPECT_EQ(session.world().grains.vx[3], before.vx[3] + 0.125);
+  EXPECT_EQ(session.world().grains.vy[3], before.vy[3] - 0.25);
+  EXPECT_EQ(session.world().grains.vx[2], before.vx[2]);
+}
+
+/// A column on a plane that is suddenly without friction slides at g sin(theta).
+TEST(Friction, holds_from_the_next_step_on) {
+  Scenario scenario = small_bed();
+  scenario.bed.floor = BedFloor::smooth;
+  scenario.tilt.rate = 20.0;
+  scenario.tilt.step = 0.02;
+  Session session = tilting(scenario);
+  while (session.world().tilt < radians(3.0)) session.advance();
+  const auto momentum = [&session] {
+    double sum = 0.0, mass = 0.0;
+    const Grains& grains = session.world().grains;
+    for (Index i = 0; i < grains.free_count; ++i) {
+      sum += grains.mass[i] * grains.vx[i];
+      mass += grains.mass[i];
+    }
+    return sum / mass;
+  };
+  session.apply({0, CommandKind::friction, -1, 0.0, 0.0});
+  EXPECT_EQ(session.law().friction, 0.0);
+  EXPECT_EQ(session.law().wall_friction, 0.5);
+  const double before = momentum();
+  session.advance();
+  const World& world = session.world();
+  EXPECT_NEAR(momentum() - before, 1e-3 * world.gravity * sine(world.tilt), 1e-9);
+}
+
+TEST(Friction, holds_in_the_deposition_and_after_it) {
+  Scenario scenario = small_bed();
+  scenario.deposition.friction = 0.1;
+  Session session(scenario);
+  EXPECT_EQ(session.law().friction, 0.1);
+  session.apply({0, CommandKind::friction, -1, 0.3, 0.0});
+  EXPECT_EQ(session.law().friction, 0.3);
+  EXPECT_EQ(session.law().wall_friction, 0.1);
+  while (session.phase() == Phase::deposition) session.advance();
+  EXPECT_EQ(session.law().friction, 0.3);
+  EXPECT_EQ(session.law().wall_friction, 0.5);
+}
+
+TEST(TiltRate, is_that_of_the_next_steps_whose_length_stays) {
+  Session session = tilting(small_bed());
+  for (int k = 0; k < 10; ++k) session.advance();
+  const double time = session.world().time;
+  session.apply({0, CommandKind::tilt_rate, -1, 3.0, 0.0});
+  for (int k = 0; k < 10; ++k) session.advance();
+  EXPECT_NEAR(degrees(session.world().tilt), 0.010 + 0.030, 1e-12);
+  session.apply({0, CommandKind::tilt_rate, -1, 0.0, 0.0});
+  for (int k = 0; k < 10; ++k) session.advance();
+  EXPECT_NEAR(degrees(session.world().tilt), 0.040, 1e-12) << "held";
+  session.apply({0, CommandKind::tilt_rate, -1, 1.0, 0.0});
+  session.advance();
+  EXPECT_NEAR(degrees(session.world().tilt), 0.041, 1e-12);
+  EXPECT_NEAR(session.world().time - time, 0.021, 1e-12);
+}
+
+TEST(TiltRate, of_a_deposition_is_that_with_which_the_tilt_begins) {
+  Session session(small_bed());
+  session.apply({0, CommandKind::tilt_rate, -1, 5.0, 0.0});
+  while (session.phase() == Phase::deposition) session.advance();
+  EXPECT_EQ(session.world().tilt, 0.0);
+  session.advance();
+  EXPECT_NEAR(degrees(session.world().tilt), 0.005, 1e-12);
+}
+
+}  // namespace
+}  // namespace talus

@@ -1,0 +1,91 @@
+#include "unit/view/example_bed.h"
+
+#include <cmath>
+#include <utility>
+
+#include "core/trigonometry.h"
+#include "stress/stress_state.h"
+
+namespace talus::example {
+
+RunStatics bed_statics() {
+  RunStatics statics;
+  statics.free_count = columns * rows;
+  statics.radius.assign(statics.free_count + columns, 0.5);
+  statics.mass.assign(statics.free_count + columns, 2.0);
+  statics.periodic = true;
+  statics.length = columns;
+  statics.depth = rows;
+  statics.mean_diameter = 1.0;
+  statics.gravity = 10.0;
+  statics.friction = 0.5;
+  return statics;
+}
+
+Frame bed_frame(double tilt, Index overloaded) {
+  const RunStatics statics = bed_statics();
+  Frame frame;
+  frame.tilt = radians(tilt);
+  frame.step = std::lround(1000.0 * tilt);
+  for (Index i = 0; i < columns * (rows + 1); ++i) {
+    const bool floor = i >= statics.free_count;
+    const Index column = i % columns, row = floor ? -1 : i / columns;
+    const bool over = column == 0 && row < overloaded;
+    frame.x.push_back(column + 0.5);
+    frame.y.push_back(row + 0.5);
+    frame.internal_moment.push_back(floor ? Tensor2{} : Tensor2{1.0, 0.0, 0.0, over ? 0.0 : 1.0});
+    frame.gamma.push_back(stress_state(frame.internal_moment.back()).ratio);
+  }
+  frame.angle = frame.vx = frame.vy = frame.omega = std::vector(frame.x.size(), 0.0);
+  frame.image.assign(frame.x.size(), 0);
+  FrameContacts& c = frame.contacts;
+  for (Index i = 0; i < statics.free_count; ++i) {
+    const bool lowest = i < columns;
+    c.a.push_back(lowest ? i : i - columns);
+    c.b.push_back(lowest ? statics.free_count + i : i);
+    c.shift.push_back(0);
+    c.nx.push_back(0.0);
+    c.ny.push_back(lowest ? -1.0 : 1.0);
+    c.px.push_back(frame.x[i]);
+    c.py.push_back(frame.y[i] - 0.5);
+    c.fn.push_back(1.0);
+    c.ft.push_back(0.0);
+    c.status.push_back(ContactStatus::sticking);
+  }
+  return frame;
+}
+
+void write_run(const std::string& path, double theta_c, std::vector<Frame> frames) {
+  RunHeader header;
+  header.statics = bed_statics();
+  header.seed = 7;
+  Segment segment;
+  segment.frames = std::move(frames);
+  for (int i = 0; i <= 50; ++i) {
+    ObservableRow row{};
+    at(row, Observable::tilt) = radians(0.5 * i);
+    segment.observables.push_back(row);
+  }
+  Checkpoint checkpoint;
+  for (std::size_t i = 0; i < header.statics.radius.size(); ++i)
+    add_disk(checkpoint.world.grains, {static_cast<double>(i), 0.0}, 0.5, 1.0,
+             i >= static_cast<std::size_t>(header.statics.free_count));
+  checkpoint.results = {{"theta_c", radians(theta_c)}};
+  RunStore store = RunStore::create(path, header, true);
+  store.commit(segment, checkpoint);
+  store.pack();
+}
+
+void write_bed_run(const std::string& path, double theta_c) {
+  std::vector<Frame> frames;
+  for (std::size_t k = 0; k < overloaded_of_frames.size(); ++k)
+    frames.push_back(bed_frame(5.0 * static_cast<double>(k), overloaded_of_frames[k]));
+  frames[2].y[39] += 1.0;
+  for (const double tilt : {24.0, 23.0}) {
+    frames.push_back(bed_frame(tilt, 1));
+    frames.back().step = 30000 + std::lround(100.0 * (25.0 - tilt));
+  }
+  write_run(path, theta_c, std::move(frames));
+}
+
+}  // namespace talus::example

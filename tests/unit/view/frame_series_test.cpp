@@ -1,0 +1,199 @@
+/// What is worked out frame by frame beside the view: the bed made by hand, theta_c = 20 deg.
+
+#include "view/frame_series.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <stdexcept>
+
+#include "core/trigonometry.h"
+#include "maps/cluster_frame.h"
+#include "unit/view/example_bed.h"
+#include "view/landmarks.h"
+
+namespace talus {
+namespace {
+
+const OverloadRule rule{radians(20.0), 1.0, false};
+
+std::shared_ptr<const Frame> read_bed(std::size_t k) {
+  return std::make_shared<const Frame>(
+      example::bed_frame(5.0 * static_cast<double>(k), example::overloaded_of_frames.at(k)));
+}
+
+/// Takes in until so many frames were met.
+void wait_for(FrameSeries& series, std::size_t frames) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  while (series.colours().size() < frames && series.error().empty() &&
+         std::chrono::steady_clock::now() < end) {
+    series.take_in();
+    std::this_thread::yield();
+  }
+}
+
+TEST(FrameSeries, has_the_values_of_each_frame) {
+  FrameSeries series(example::bed_statics(), read_bed);
+  series.set_counts(6, 6);
+  EXPECT_FALSE(series.take_in()) << "nothing was begun";
+  series.begin(rule, {});
+  EXPECT_FALSE(series.has_all_values());
+  wait_for(series, 6);
+  ASSERT_EQ(series.values().size(), 6u);
+  EXPECT_TRUE(series.has_all_values());
+  for (std::size_t k = 0; k < 6; ++k) {
+    const FrameValues& values = series.values()[k];
+    EXPECT_NEAR(values.tilt, radians(5.0 * static_cast<double>(k)), 1e-12);
+    EXPECT_NEAR(values.overloaded, example::overloaded_of_frames[k] / 40.0, 1e-12);
+    EXPECT_EQ(values.spans, k >= 3) << k;
+  }
+  EXPECT_TRUE(std::isnan(series.values()[0].largest_share));
+  EXPECT_TRUE(std::isnan(series.values()[0].largest_length));
+  EXPECT_EQ(series.values()[2].largest_share, 1.0);
+  // One overloaded grain and the three beside it have Q/P = 1/7, below sin 20 deg; from the middle of a
+  // column of four it takes those across its corners.
+  EXPECT_NEAR(series.values()[1].largest_length, 2.0, 1e-12);
+  EXPECT_NEAR(series.values()[3].largest_length, std::sqrt(8.0), 1e-12);
+  EXPECT_NEAR(series.values()[3].mean_length, 1.0 + std::sqrt(2.0), 1e-12);
+  EXPECT_EQ(series.extent().y_min, -1.0);
+  EXPECT_EQ(series.extent().y_max, 4.0);
+}
+
+TEST(FrameSeries, has_values_of_the_tilt_and_colours_of_all_frames) {
+  FrameSeries series(example::bed_statics(), read_bed);
+  series.set_counts(6, 4);
+  series.begin(rule, {});
+  wait_for(series, 6);
+  EXPECT_EQ(series.values().size(), 4u);
+  ASSERT_EQ(series.colours().size(), 6u);
+  EXPECT_TRUE(series.colours()[0].empty());
+  ASSERT_EQ(series.colours()[5].size(), 1u);
+  EXPECT_EQ(series.colours()[5][0].track, series.colours()[1][0].track) << "the same cluster, grown";
+}
+
+TEST(FrameSeries, does_not_work_out_what_is_known) {
+  FrameSeries series(example::bed_statics(), read_bed);
+  series.set_counts(6, 6);
+  series.begin(rule, std::vector(6, FrameValues{.tilt = 1.0, .overloaded = 0.125}));
+  EXPECT_TRUE(series.has_all_values());
+  wait_for(series, 6);
+  ASSERT_EQ(series.values().size(), 6u);
+  EXPECT_EQ(series.values()[5].overloaded, 0.125);
+  EXPECT_EQ(series.colours().size(), 6u);
+}
+
+TEST(FrameSeries, begins_anew_with_another_rule) {
+  FrameSeries series(example::bed_statics(), read_bed);
+  series.set_counts(6, 6);
+  series.begin(rule, {});
+  wait_for(series, 3);
+  OverloadRule other = rule;
+  other.threshold_factor = 4.0;  // above 1: nothing is overloaded
+  series.begin(other, {});
+  EXPECT_TRUE(series.values().empty());
+  EXPECT_TRUE(series.colours().empty());
+  wait_for(series, 6);
+  ASSERT_EQ(series.values().size(), 6u);
+  EXPECT_EQ(series.values()[5].overloaded, 0.0);
+  EXPECT_EQ(series.rule(), other);
+}
+
+TEST(FrameSeries, goes_on_with_frames_that_come_later) {
+  FrameSeries series(example::bed_statics(), read_bed);
+  series.begin(rule, {});
+  series.set_counts(2, 2);
+  wait_for(series, 2);
+  EXPECT_EQ(series.values().size(), 2u);
+  series.set_counts(4, 4);
+  EXPECT_FALSE(series.has_all_values());
+  wait_for(series, 4);
+  EXPECT_EQ(series.values().size(), 4u);
+}
+
+TEST(FrameSeries, has_a_tracker_that_has_met_its_frames) {
+  // The cluster of the first frame is gone in the second; that of the third is another.
+  FrameSeries series(example::bed_statics(), [](std::size_t k) {
+    return std::make_shared<const Frame>(example::bed_frame(static_cast<double>(k), k == 1 ? 0 : 2));
+  });
+  series.set_counts(3, 3);
+  series.begin(rule, {});
+  wait_for(series, 3);
+  MapSettings settings;
+  settings.theta_c = rule.theta_c;
+  ClusterColours tracker = series.tracker();
+  const RunStatics statics = example::bed_statics();
+  const auto next = tracker.next(overloaded_clusters(example::bed_frame(3.0, 2), statics, settings));
+  EXPECT_EQ(next.at(0).track, 1);
+}
+
+TEST(FrameSeries, leaves_out_what_was_begun_by_another_rule) {
+  std::atomic<bool> reading = false, go_on = false;
+  FrameSeries series(example::bed_statics(), [&](std::size_t) {
+    reading = true;
+    while (!go_on) std::this_thread::yield();
+    return read_bed(5);
+  });
+  series.set_counts(2, 2);
+  series.begin(rule, {});
+  while (!reading) std::this_thread::yield();
+  OverloadRule other = rule;
+  other.threshold_factor = 4.0;
+  series.begin(other, {});
+  go_on = true;
+  wait_for(series, 2);
+  ASSERT_EQ(series.values().size(), 2u);
+  EXPECT_EQ(series.values()[0].overloaded, 0.0);
+}
+
+TEST(FrameSeries, says_why_a_frame_cannot_be_read) {
+  FrameSeries series(example::bed_statics(), [](std::size_t k) {
+    if (k == 2) throw std::runtime_error("frame 2 is damaged");
+    return read_bed(k);
+  });
+  series.set_counts(6, 6);
+  series.begin(rule, {});
+  wait_for(series, 6);
+  EXPECT_EQ(series.error(), "frame 2 is damaged");
+  while (series.take_in()) {
+  }
+  EXPECT_EQ(series.values().size(), 2u);
+}
+
+TEST(FrameSeries, ends_while_it_works) {
+  std::atomic<int> reads = 0;
+  {
+    FrameSeries series(example::bed_statics(), [&reads](std::size_t k) {
+      ++reads;
+      return read_bed(k % 6);
+    });
+    series.set_counts(1000000, 0);
+    series.begin(rule, {});
+    while (reads == 0) std::this_thread::yield();
+  }
+  const int after = reads;
+  EXPECT_LT(after, 1000000);
+}
+
+TEST(Landmarks, are_the_frames_where_values_change) {
+  FrameSeries series(example::bed_statics(), read_bed);
+  series.set_counts(6, 6);
+  series.begin(rule, {});
+  wait_for(series, 6);
+  EXPECT_EQ(percolation_frame(series.values()), 3u);
+  EXPECT_EQ(length_jump_frame(series.values(), example::bed_statics(), radians(20.0)), 3u);
+  EXPECT_FALSE(length_jump_frame(series.values(), example::bed_statics(), radians(12.0)).has_value())
+      << "up to 12 deg nothing jumps";
+  EXPECT_FALSE(percolation_frame(std::span(series.values()).first(3)).has_value());
+}
+
+TEST(Landmarks, nearest_frame_is_by_tilt) {
+  EXPECT_EQ(nearest_frame({0.0, 1.0, 2.0}, 1.6), 2u);
+  EXPECT_EQ(nearest_frame({0.0, 1.0, 2.0}, -3.0), 0u);
+  EXPECT_FALSE(nearest_frame({0.0, 1.0}, std::nan("")).has_value());
+  EXPECT_FALSE(nearest_frame({}, 1.0).has_value());
+}
+
+}  // namespace
+}  // namespace talus

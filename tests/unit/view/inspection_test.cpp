@@ -1,0 +1,186 @@
+/// What is said of a grain, against forces given by hand.
+
+#include "view/inspection.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "analysis/links.h"
+#include "unit/analysis/packings.h"
+
+namespace talus {
+namespace {
+
+/// With all that a frame of a run has.
+test::Packing whole(test::Packing packing) {
+  Frame& frame = packing.frame;
+  frame.angle = frame.vx = frame.vy = std::vector(frame.x.size(), 0.0);
+  packing.statics.mass.assign(frame.x.size(), 3.0);
+  return packing;
+}
+
+Clusters clusters_of(const test::Packing& packing, double threshold) {
+  std::vector<bool> overloaded;
+  for (Index i = 0; i < packing.statics.free_count; ++i)
+    overloaded.push_back(packing.frame.gamma[i] >= threshold);
+  return find_clusters(overloaded, force_links(packing.frame, packing.statics), packing.frame.x,
+                       packing.statics.periodic ? packing.statics.length : 0.0);
+}
+
+/// Grain 1 has grain 0 to its left, a floor grain below it, and the right wall beside it.
+test::Packing corner() {
+  test::Packing packing = test::empty_packing(2.0, false);
+  test::add_grain(packing, 0.5, 0.5);
+  test::add_grain(packing, 1.5, 0.5);
+  test::add_floor_grain(packing, 1.5, -0.5);
+  test::add_contact(packing, 0, 1, 4.0, 1.0);
+  test::add_contact(packing, 1, 2, 6.0, -3.0);
+  test::moments_from_contacts(packing);
+  packing = whole(packing);
+  FrameContacts& c = packing.frame.contacts;
+  c.a.push_back(1);
+  c.b.push_back(3 + 1);  // the second plane
+  c.shift.push_back(0);
+  c.nx.push_back(1.0);
+  c.ny.push_back(0.0);
+  c.px.push_back(2.0);
+  c.py.push_back(0.5);
+  c.fn.push_back(4.0);
+  c.ft.push_back(0.5);
+  c.status.push_back(ContactStatus::sticking);
+  return packing;
+}
+
+TEST(Inspection, has_the_contacts_of_the_grain_seen_from_it) {
+  const test::Packing packing = corner();
+  const Inspection of =
+      inspect(packing.frame, packing.statics, clusters_of(packing, 2.0), {2.0, 1.0, 1.0}, 1);
+  ASSERT_EQ(of.contacts.size(), 3u);
+  const GrainContact& left = of.contacts[0];
+  EXPECT_EQ(left.other, 0);
+  EXPECT_EQ(left.other_name, "grain 0");
+  EXPECT_EQ(left.nx, -1.0);  // the contact has its normal from 0 to 1
+  EXPECT_EQ(left.fn, 4.0);
+  EXPECT_EQ(left.ft, 1.0);
+  const GrainContact& below = of.contacts[1];
+  EXPECT_EQ(below.other_name, "floor grain 2");
+  EXPECT_EQ(below.ny, -1.0);
+  EXPECT_EQ(below.ft, -3.0);
+  EXPECT_EQ(below.status, ContactStatus::sliding);
+  EXPECT_EQ(of.contacts[2].other_name, "right wall");
+  EXPECT_EQ(of.contacts[2].nx, 1.0);
+  EXPECT_EQ(of.mass, 3.0);
+  EXPECT_EQ(of.y, 0.5);
+}
+
+TEST(Inspection, names_planes_by_where_they_are) {
+  test::Packing packing = corner();
+  packing.frame.contacts.nx.back() = -1.0;
+  const auto name = [&packing] {
+    return inspect(packing.frame, packing.statics, clusters_of(packing, 2.0), {2.0, 1.0, 1.0}, 1)
+        .contacts.back()
+        .other_name;
+  };
+  EXPECT_EQ(name(), "left wall");
+  packing.frame.contacts.nx.back() = 0.0;
+  packing.frame.contacts.ny.back() = -1.0;
+  EXPECT_EQ(name(), "floor");
+}
+
+TEST(Inspection, of_a_pressed_grain_has_its_stress) {
+  // Pressed with 4 N along x and 1 N along y, radius 1/2: moments 4 J and 1 J, gamma = 3/5.
+  test::Packing packing = test::empty_packing(10.0, false);
+  test::add_grain(packing, 5.0, 2.0);
+  for (const auto& [x, y, fn] :
+       {std::array{4.0, 2.0, 4.0}, {6.0, 2.0, 4.0}, {5.0, 1.0, 1.0}, {5.0, 3.0, 1.0}}) {
+    const Index other = test::add_grain(packing, x, y);
+    test::add_contact(packing, 0, other, fn);
+  }
+  test::moments_from_contacts(packing);
+  packing = whole(packing);
+  const Inspection of =
+      inspect(packing.frame, packing.statics, clusters_of(packing, 0.5), {0.5, 5.0, 0.0}, 0);
+  EXPECT_NEAR(of.internal_moment.xx, 4.0, 1e-15);
+  EXPECT_NEAR(of.internal_moment.yy, 1.0, 1e-15);
+  EXPECT_NEAR(of.state.ratio, 0.6, 1e-15);
+  EXPECT_NEAR(of.gamma, 0.6, 1e-15);
+  EXPECT_NEAR(of.state.axis, 0.0, 1e-15);
+  EXPECT_TRUE(of.overloaded);
+  EXPECT_EQ(of.cluster, 0);
+  EXPECT_EQ(of.cluster_size, 5);  // all of them carry along one line
+  EXPECT_NEAR(of.neighbourhood_gamma, 0.6, 1e-15) << "the grain alone";
+  // Its neighbours have 2 J along x twice, and 1/2 J along y twice: 8 to 2, still 3/5; never below 1/2.
+  ASSERT_EQ(of.curve.l.size(), 2u);
+  EXPECT_EQ(of.curve.l[1], 2.0);
+  EXPECT_NEAR(of.curve.gamma[1], 0.6, 1e-15);
+  EXPECT_EQ(of.coarse_graining_length, 5.0) << "the cut";
+}
+
+TEST(Inspection, of_a_grain_that_is_not_overloaded_has_no_length) {
+  const test::Packing packing = whole(test::random_packing(1, 50, 10.0, 6.0, true));
+  const Inspection of =
+      inspect(packing.frame, packing.statics, clusters_of(packing, 1.5), {1.5, 3.0, 3.0}, 4);
+  EXPECT_FALSE(of.overloaded);
+  EXPECT_FALSE(of.coarse_graining_length.has_value());
+  EXPECT_EQ(of.cluster, -1);
+}
+
+TEST(Inspection, agrees_with_coarse_graining_of_the_whole_bed) {
+  constexpr double threshold = 0.4, cut = 2.5, wide = 7.0;
+  const test::Packing packing = whole(test::random_packing(2, 150, 20.0, 8.0, true));
+  const CoarseGraining all = coarse_graining(packing.frame, packing.statics, {threshold, threshold, cut});
+  const std::vector<double> gamma = coarse_stress_ratio(packing.frame, packing.statics, wide);
+  const Clusters clusters = clusters_of(packing, threshold);
+  ASSERT_GT(all.cut_off, 5);
+  ASSERT_GT(all.overloaded - all.cut_off, 5);
+  for (Index i = 0; i < packing.statics.free_count; ++i) {
+    const Inspection of = inspect(packing.frame, packing.statics, clusters, {threshold, cut, wide}, i);
+    EXPECT_EQ(of.coarse_graining_length.has_value(), !std::isnan(all.length[i]));
+    if (of.coarse_graining_length) {
+      EXPECT_EQ(*of.coarse_graining_length, all.length[i]) << "grain " << i;
+    }
+    EXPECT_EQ(of.neighbourhood_gamma, gamma[i]);
+  }
+}
+
+TEST(Inspection, of_a_floor_grain_has_contacts_only) {
+  const test::Packing packing = corner();
+  const Inspection of =
+      inspect(packing.frame, packing.statics, clusters_of(packing, 0.1), {0.1, 1.0, 1.0}, 2);
+  EXPECT_FALSE(of.free);
+  ASSERT_EQ(of.contacts.size(), 1u);
+  EXPECT_EQ(of.contacts[0].other, 1);
+  EXPECT_EQ(of.contacts[0].ny, 1.0);
+  EXPECT_TRUE(of.curve.l.empty());
+  EXPECT_FALSE(of.coarse_graining_length.has_value());
+}
+
+TEST(GrainAt, is_the_grain_whose_disc_holds_the_place) {
+  const test::Packing packing = corner();
+  EXPECT_EQ(find_grain(packing.frame, packing.statics, 0.1, 0.5), 0);
+  EXPECT_EQ(find_grain(packing.frame, packing.statics, 1.1, 0.5), 1);
+  EXPECT_EQ(find_grain(packing.frame, packing.statics, 1.5, -0.7), 2);
+  EXPECT_EQ(find_grain(packing.frame, packing.statics, 0.4, 1.9), 0) << "within a D of its edge";
+  EXPECT_FALSE(find_grain(packing.frame, packing.statics, 0.5, 2.1).has_value());
+}
+
+TEST(GrainAt, looks_through_the_periodic_edge) {
+  test::Packing packing = test::empty_packing(10.0, true);
+  test::add_grain(packing, 0.2, 0.5);
+  test::add_grain(packing, 5.0, 0.5);
+  EXPECT_EQ(find_grain(packing.frame, packing.statics, 9.9, 0.5), 0);
+  EXPECT_EQ(find_grain(packing.frame, packing.statics, 20.3, 0.5), 0);
+  packing.statics.periodic = false;
+  EXPECT_FALSE(find_grain(packing.frame, packing.statics, 9.9, 0.5).has_value());
+}
+
+TEST(GrainAt, prefers_a_disc_to_a_near_centre) {
+  test::Packing packing = test::empty_packing(10.0, false);
+  test::add_grain(packing, 2.0, 2.0, 2.0);
+  test::add_grain(packing, 4.6, 2.0, 0.5);
+  EXPECT_EQ(find_grain(packing.frame, packing.statics, 3.9, 2.0), 0);
+}
+
+}  // namespace
+}  // namespace talus

@@ -1,0 +1,305 @@
+/// A run computed in a thread of its own: the same bits as one that is not looked at, frames that are whole,
+/// and what is left on disk.
+
+#include "view/live_run.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <thread>
+
+#include "core/errors.h"
+#include "core/hash.h"
+#include "core/trigonometry.h"
+#include "io/run_file.h"
+#include "session/measure.h"
+#include "session/run.h"
+#include "support/temporary_folder.h"
+
+namespace talus {
+namespace {
+
+/// A bed of 30 grains that is tilted to 2 deg in some hundred steps.
+Scenario small_bed() {
+  Scenario scenario;
+  scenario.bed.length = 10.0;
+  scenario.bed.depth = 3.0;
+  scenario.deposition.rest_velocity = 0.1;
+  scenario.tilt.rate = 20.0;
+  scenario.tilt.step = 0.02;
+  scenario.tilt.end_angle = 2.0;
+  scenario.output.frame_every = 1.0;
+  scenario.output.observable_every = 0.2;
+  return scenario;
+}
+
+LiveRun live(const Scenario& scenario, const std::string& output = "") {
+  return LiveRun(scenario, "seed = 1\n", output, false, "test");
+}
+
+/// Waits until the solver waits, and returns its status then.
+LiveStatus paused(const LiveRun& run) {
+  while (run.status().running) std::this_thread::sleep_for(std::chrono::microseconds(200));
+  return run.status();
+}
+
+Session plain_run(std::int64_t steps) {
+  Session session(small_bed());
+  while (session.phase() != Phase::done && session.world().step < steps) session.advance();
+  return session;
+}
+
+std::string hash_of(const Session& session) { return hash_text(state_hash(session.world())); }
+
+/// The frame is that of a session: places, contacts and stresses of one and the same step.
+void expect_frame_of(const Session& session, const Frame& frame) {
+  const Frame expected = make_frame(session.world(), session.law());
+  EXPECT_EQ(frame.step, expected.step);
+  EXPECT_EQ(frame.time, expected.time);
+  EXPECT_EQ(frame.tilt, expected.tilt);
+  EXPECT_EQ(frame.x, expected.x);
+  EXPECT_EQ(frame.vy, expected.vy);
+  EXPECT_EQ(frame.contacts.a, expected.contacts.a);
+  EXPECT_EQ(frame.contacts.fn, expected.contacts.fn);
+  EXPECT_EQ(frame.contacts.px, expected.contacts.px);
+  EXPECT_EQ(frame.contacts.status, expected.contacts.status);
+}
+
+TEST(LiveRun, begins_paused_before_its_first_step) {
+  const LiveRun run = live(small_bed());
+  const LiveStatus status = run.status();
+  EXPECT_EQ(status.step, 0);
+  EXPECT_FALSE(status.running);
+  EXPECT_TRUE(status.depositing);
+  EXPECT_FALSE(status.done);
+  EXPECT_FALSE(status.theta_c);
+  EXPECT_EQ(status.tilt_rate, 20.0);
+  EXPECT_EQ(status.friction, 0.5);
+  EXPECT_EQ(status.state_hash, hash_of(Session(small_bed())));
+  ASSERT_NE(run.frame(), nullptr);
+  EXPECT_EQ(run.frame()->step, 0);
+  EXPECT_EQ(run.frame()->grain_count(), 40) << "with its floor";
+  EXPECT_EQ(run.statics().free_count, 30);
+}
+
+TEST(LiveRun, looked_at_all_the_time_gives_the_bits_of_a_plain_run) {
+  LiveRun run = live(small_bed());
+  run.play();
+  while (run.status().running) {
+    run.frame();
+    run.steps(0);
+    run.observables(0);
+  }
+  const Session plain = plain_run(1'000'000);
+  const LiveStatus status = run.status();
+  EXPECT_TRUE(status.done);
+  EXPECT_EQ(status.error, "");
+  EXPECT_EQ(status.step, plain.world().step);
+  EXPECT_EQ(status.state_hash, hash_of(plain));
+  EXPECT_EQ(run.observables(0), plain.segment().observables);
+  EXPECT_EQ(run.observables(3).size(), plain.segment().observables.size() - 3);
+  EXPECT_EQ(run.steps(0), plain.segment().steps);
+  ASSERT_EQ(run.recorded_frames(0).size(), plain.segment().frames.size());
+  EXPECT_EQ(run.recorded_frames(2).front()->step, plain.segment().frames[2].step);
+  EXPECT_TRUE(run.recorded_frames(99).empty());
+}
+
+TEST(LiveRun, takes_as_many_steps_as_asked_for) {
+  LiveRun run = live(small_bed());
+  for (const std::int64_t count : {1, 10, 30}) {
+    run.step(count);
+    paused(run);
+  }
+  const Session plain = plain_run(41);
+  EXPECT_EQ(run.status().step, 41);
+  EXPECT_EQ(run.status().state_hash, hash_of(plain));
+  expect_frame_of(plain, *run.frame());
+}
+
+TEST(LiveRun, plays_to_the_end_of_the_deposition_and_to_a_tilt) {
+  LiveRun run = live(small_bed());
+  run.finish_deposition();
+  LiveStatus status = paused(run);
+  EXPECT_FALSE(status.depositing);
+  EXPECT_EQ(status.tilt, 0.0);
+  EXPECT_EQ(run.recorded_frames(0).size(), 1u) << "that of the bed at rest";
+  run.run_to(radians(1.0));
+  status = paused(run);
+  EXPECT_NEAR(degrees(status.tilt), 1.0, 1e-9);
+  EXPECT_FALSE(status.done);
+  run.run_to(radians(0.5));
+  EXPECT_EQ(paused(run).step, status.step) << "it is there already";
+}
+
+/// A frame that was taken from a run that goes on is one that a plain run has after as many steps.
+TEST(LiveRun, shows_frames_that_are_whole) {
+  Scenario scenario = small_bed();
+  scenario.tilt.end_angle = 60.0;
+  LiveRun run = live(scenario);
+  run.play();
+  std::vector<std::shared_ptr<const Frame>> frames;
+  while (frames.size() < 4) {
+    const auto frame = run.frame();
+    if (frames.empty() || frame != frames.back()) frames.push_back(frame);
+  }
+  run.pause();
+  frames.push_back((paused(run), run.frame()));
+  Session plain(scenario);
+  for (const auto& frame : frames) {
+    EXPECT_NEAR(frame->time, 1e-3 * static_cast<double>(frame->step), 1e-9);
+    while (plain.world().step < frame->step) plain.advance();
+    expect_frame_of(plain, *frame);
+  }
+  EXPECT_EQ(run.status().step, frames.back()->step);
+  EXPECT_EQ(run.status().state_hash, hash_of(plain));
+}
+
+TEST(LiveRun, does_commands_while_it_goes_on_and_replays_to_the_same_bits) {
+  Scenario scenario = small_bed();
+  scenario.tilt.end_angle = 5.0;
+  LiveRun run = live(scenario);
+  run.step(5);
+  run.apply({0, CommandKind::push, 3, 0.1, 0.2});
+  run.finish_deposition();
+  paused(run);
+  run.apply({0, CommandKind::drop, 2, 0.03, 0.01});
+  const auto dropped = run.frame();
+  EXPECT_GT(*std::ranges::max_element(dropped->y), 0.03) << "the drop is seen at once";
+  run.play();
+  run.apply({0, CommandKind::tilt_rate, -1, 10.0, 0.0});
+  run.apply({0, CommandKind::friction, -1, 0.8, 0.0});
+  EXPECT_EQ(run.status().tilt_rate, 10.0);
+  EXPECT_EQ(run.status().friction, 0.8);
+  const LiveStatus end = paused(run);
+  const std::vector<Command> commands = run.commands();
+  ASSERT_EQ(commands.size(), 4u);
+  EXPECT_EQ(commands[2].kind, CommandKind::tilt_rate);
+  Session again(scenario);
+  replay(again, nullptr, commands, end.step, {});
+  EXPECT_EQ(end.state_hash, hash_of(again));
+}
+
+TEST(LiveRun, refuses_what_cannot_be_done_and_goes_on) {
+  LiveRun run = live(small_bed());
+  EXPECT_THROW(run.apply({0, CommandKind::push, 30, 0.1, 0.0}), Error);
+  EXPECT_EQ(run.status().error, "");
+  EXPECT_TRUE(run.commands().empty());
+  run.play();
+  const LiveStatus end = paused(run);
+  EXPECT_TRUE(end.done);
+  EXPECT_THROW(run.apply({0, CommandKind::push, 3, 0.1, 0.0}), Error);
+  run.play();
+  EXPECT_FALSE(run.status().running);
+}
+
+TEST(LiveRun, that_fails_says_why_and_keeps_its_state) {
+  Scenario scenario = small_bed();
+  scenario.deposition.max_time = 0.02;
+  LiveRun run = live(scenario);
+  run.play();
+  const LiveStatus status = paused(run);
+  EXPECT_NE(status.error.find("did not come to rest"), std::string::npos) << status.error;
+  EXPECT_EQ(status.step, 20);
+  EXPECT_EQ(run.frame()->step, 20);
+  EXPECT_EQ(status.state_hash, hash_of(plain_run(20)));
+  EXPECT_EQ(run.steps(0).size(), 20u);
+}
+
+TEST(LiveRun, that_is_done_leaves_the_file_of_a_plain_run) {
+  const test::TemporaryFolder folder;
+  const std::string path = folder.path("run.h5");
+  std::vector<Command> commands;
+  {
+    LiveRun run = live(small_bed(), path);
+    run.apply({0, CommandKind::push, 3, 0.1, 0.2});
+    run.play();
+    paused(run);
+    commands = run.commands();
+  }
+  const RunFile stored = RunFile::open(path);
+  EXPECT_TRUE(stored.complete());
+  EXPECT_EQ(stored.commands(), commands);
+  EXPECT_EQ(stored.header().scenario_given, "seed = 1\n");
+  Session again(small_bed());
+  replay(again, nullptr, commands, stored.checkpoint().world.step, {});
+  EXPECT_EQ(state_hash(stored.checkpoint().world), state_hash(again.world()));
+}
+
+TEST(LiveRun, that_is_left_can_be_resumed) {
+  const test::TemporaryFolder folder;
+  const std::string path = folder.path("run.h5");
+  {
+    LiveRun run = live(small_bed(), path);
+    run.finish_deposition();
+    paused(run);
+    run.step(3);
+    paused(run);
+    run.apply({0, CommandKind::friction, -1, 0.8, 0.0});
+  }
+  RunHeader header;
+  Checkpoint checkpoint;
+  RunStore store = RunStore::resume(path, header, checkpoint);
+  Session resumed(small_bed(), checkpoint);
+  EXPECT_EQ(resumed.law().friction, 0.8);
+  EXPECT_EQ(run_to_end(resumed, store, {}), RunEnd::complete);
+  const RunFile stored = RunFile::open(path);
+  ASSERT_EQ(stored.commands().size(), 1u);
+  Session again(small_bed());
+  replay(again, nullptr, stored.commands(), stored.checkpoint().world.step, {});
+  EXPECT_EQ(state_hash(stored.checkpoint().world), state_hash(again.world()));
+}
+
+TEST(LiveRun, is_saved_when_asked) {
+  const test::TemporaryFolder folder;
+  const std::string path = folder.path("run.h5");
+  LiveRun run = live(small_bed(), path);
+  run.step(7);
+  paused(run);
+  EXPECT_EQ(run_presence(path), RunPresence::none);
+  run.save();
+  EXPECT_EQ(RunFile::open(path).checkpoint().world.step, 7);
+  EXPECT_EQ(RunFile::open(path).steps().size(), 7u);
+  EXPECT_THROW(live(small_bed(), path), Error) << "it is locked, and exists";
+}
+
+TEST(LiveRun, that_cannot_write_says_so_and_tries_again) {
+  const test::TemporaryFolder folder;
+  const std::string path = folder.path("run.h5");
+  LiveRun run = live(small_bed(), path);
+  run.step(7);
+  paused(run);
+  const std::filesystem::path stored = run_folder(path), aside = folder.path("aside");
+  std::filesystem::rename(stored, aside);
+  run.save();
+  EXPECT_NE(run.status().error.find("run.h5.run"), std::string::npos) << run.status().error;
+  EXPECT_EQ(run.status().step, 7);
+  std::filesystem::rename(aside, stored);
+  run.step(1);
+  paused(run);
+  run.save();
+  EXPECT_EQ(run.status().error, "");
+  EXPECT_EQ(RunFile::open(path).steps().size(), 8u);
+}
+
+/// A bed of three grains, so that thousands of steps take no time.
+TEST(LiveRun, thins_the_history_of_its_steps) {
+  Scenario scenario = small_bed();
+  scenario.bed.length = 3.0;
+  scenario.bed.depth = 1.0;
+  scenario.tilt.rate = 1.0;
+  scenario.tilt.step = 0.001;
+  LiveRun run = live(scenario);
+  run.apply({0, CommandKind::tilt_rate, -1, 0.0, 0.0});
+  run.step(9000);
+  ASSERT_EQ(paused(run).step, 9000);
+  const std::vector<StepRow> rows = run.steps(0);
+  ASSERT_EQ(rows.size(), 2250u) << "every fourth";
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    ASSERT_EQ(at(rows[k], StepField::step), 4.0 * (static_cast<double>(k) + 1.0));
+}
+
+}  // namespace
+}  // namespace talus

@@ -1,0 +1,115 @@
+/// Curves beside the map, from rows made by hand.
+
+#include "view/plots.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "core/trigonometry.h"
+#include "unit/view/example_bed.h"
+
+namespace talus {
+namespace {
+
+const Plot& plot(const std::vector<Plot>& plots, const std::string& name) {
+  return *std::ranges::find(plots, name, &Plot::name);
+}
+
+std::vector<Plot> of_row(const ObservableRow& row) {
+  std::vector<Plot> plots = empty_plots();
+  plot_observables(std::vector{row}, example::bed_statics(), plots);
+  return plots;
+}
+
+TEST(Plots, are_told_apart_by_name) {
+  std::set<std::string> names;
+  for (const Plot& each : empty_plots()) {
+    names.insert(each.name);
+    EXPECT_FALSE(each.series.empty());
+    EXPECT_FALSE(each.series[0].law);
+  }
+  EXPECT_EQ(names.size(), plot_count);
+}
+
+TEST(Plots, of_stress_have_the_laws_beside_them) {
+  ObservableRow row{};
+  at(row, Observable::tilt) = radians(30.0);
+  at(row, Observable::stress_ratio) = 0.4;
+  at(row, Observable::sigma_t_over_n) = 0.7;
+  const auto plots = of_row(row);
+  const Plot& stress = plot(plots, "stress");
+  ASSERT_EQ(stress.series.size(), 4u);
+  const double expected[] = {0.4, 0.7, 0.5, 1.0 / std::sqrt(3.0)};
+  for (std::size_t k = 0; k < 4; ++k) {
+    EXPECT_NEAR(stress.series[k].x.at(0), 30.0, 1e-12);
+    EXPECT_NEAR(stress.series[k].y.at(0), expected[k], 1e-12);
+    EXPECT_EQ(stress.series[k].law, k >= 2);
+  }
+}
+
+TEST(Plots, give_strain_in_percent_and_energy_by_the_weight_of_a_grain) {
+  ObservableRow row{};
+  at(row, Observable::volume_strain) = -0.02;
+  at(row, Observable::kinetic_energy) = 4.0;
+  RunStatics statics = example::bed_statics();
+  statics.mean_diameter = 0.5;
+  std::vector<Plot> plots = empty_plots();
+  plot_observables(std::vector{row}, statics, plots);
+  EXPECT_NEAR(plot(plots, "strain").series[0].y.at(0), -2.0, 1e-12);
+  EXPECT_NEAR(plot(plots, "energy").series[0].y.at(0), 4.0 / (40 * 2.0 * 10.0 * 0.5), 1e-15);
+  EXPECT_TRUE(plot(plots, "energy").log_y);
+}
+
+TEST(Plots, leave_out_what_a_logarithm_cannot_show) {
+  EXPECT_TRUE(std::isnan(plot(of_row({}), "energy").series[0].y.at(0)));
+}
+
+TEST(Plots, of_frames_are_over_degrees) {
+  std::vector<Plot> plots = empty_plots();
+  const FrameValues frame{radians(10.0), 0.25, 0.5, 3.0, 7.0, false};
+  plot_frames(std::vector{frame, frame}, plots);
+  plot_frames(std::vector{frame}, plots);  // instead of those before
+  ASSERT_EQ(plot(plots, "overloaded").series[0].x.size(), 1u);
+  EXPECT_NEAR(plot(plots, "overloaded").series[0].x[0], 10.0, 1e-12);
+  EXPECT_EQ(plot(plots, "overloaded").series[0].y[0], 0.25);
+  EXPECT_EQ(plot(plots, "cluster").series[0].y[0], 0.5);
+  EXPECT_EQ(plot(plots, "lengths").series[0].y[0], 3.0);
+  EXPECT_EQ(plot(plots, "lengths").series[1].y[0], 7.0);
+}
+
+TEST(Plots, of_gamma_are_a_density_of_the_frame) {
+  std::vector<Plot> plots = empty_plots();
+  plot_gamma(example::bed_frame(0.0, 4), example::bed_statics(), plots);
+  const Plot& gamma = plot(plots, "gamma");
+  const PlotSeries& density = gamma.series[0];
+  EXPECT_FALSE(gamma.over_tilt);
+  const double width = density.x[1] - density.x[0];
+  EXPECT_NEAR(density.y.front() * width, 0.9, 1e-12);  // 36 grains at 0, 4 at 1
+  EXPECT_NEAR(density.y.back() * width, 0.1, 1e-12);
+}
+
+TEST(Plots, of_many_steps_keep_the_largest_of_neighbours) {
+  std::vector<StepRow> steps(10000);
+  for (std::size_t k = 0; k < steps.size(); ++k) {
+    at(steps[k], StepField::step) = static_cast<double>(k);
+    at(steps[k], StepField::residual) = k == 7003 ? 0.5 : 1e-6;
+    at(steps[k], StepField::iterations) = k == 42 ? 999.0 : 10.0;
+  }
+  std::vector<Plot> plots = empty_plots();
+  plot_steps(steps, plots);
+  const PlotSeries& residual = plot(plots, "residual").series[0];
+  EXPECT_LE(residual.x.size(), 2000u);
+  EXPECT_EQ(std::ranges::max(residual.y), 0.5);
+  EXPECT_EQ(std::ranges::count(residual.y, 0.5), 1);
+  const auto highest = std::ranges::max_element(residual.y) - residual.y.begin();
+  EXPECT_NEAR(residual.x[static_cast<std::size_t>(highest)], 7003.0, 5.0);
+  EXPECT_EQ(std::ranges::max(plot(plots, "passes").series[0].y), 999.0);
+  plot_steps({}, plots);
+  EXPECT_TRUE(plot(plots, "passes").series[0].x.empty());
+}
+
+}  // namespace
+}  // namespace talus

@@ -1,0 +1,91 @@
+/// The command line that draws what is shown.
+
+#include "view/render_command.h"
+
+#include <gtest/gtest.h>
+
+#include "core/trigonometry.h"
+
+namespace talus {
+namespace {
+
+RenderRequest shown(const char* map) {
+  RenderRequest of;
+  of.run = "runs/a.h5";
+  of.settings.layers = map_layers(map);
+  of.settings.theta_c = radians(20.0);
+  of.tilt = radians(12.25);
+  return of;
+}
+
+TEST(RenderCommand, of_defaults_says_the_map_and_the_angle) {
+  EXPECT_EQ(render_command_line(shown("gamma")), "talus render runs/a.h5 --map gamma --at 12.25");
+}
+
+TEST(RenderCommand, has_each_setting_that_the_map_depends_on) {
+  RenderRequest of = shown("coarse+clusters");
+  of.settings.theta_c_assumed = true;
+  of.settings.threshold_factor = 2.0;
+  of.settings.length = 7.5;
+  of.settings.joined_by_neighbours = true;
+  of.settings.colours = ColourMap::viridis;
+  of.settings.range_low = 0.1;
+  of.settings.range_high = 0.6;
+  of.settings.turned = true;
+  of.settings.transparent = true;
+  EXPECT_EQ(render_command_line(of),
+            "talus render runs/a.h5 --map coarse+clusters --at 12.25 --theta-c 20 --threshold 2 --length 7.5 "
+            "--joined neighbours --colours viridis --range 0.1,0.6 --turned --transparent");
+}
+
+/// `talus render` refuses options that do nothing.
+TEST(RenderCommand, leaves_out_what_the_map_does_not_depend_on) {
+  RenderRequest of = shown("forces");
+  of.settings.theta_c_assumed = true;
+  of.settings.threshold_factor = 2.0;
+  of.settings.length = 7.5;
+  of.settings.joined_by_neighbours = true;
+  of.settings.colours = ColourMap::viridis;
+  of.settings.range_low = 0.1;
+  of.settings.range_high = 0.6;
+  of.since = radians(5.0);
+  EXPECT_EQ(render_command_line(of), "talus render runs/a.h5 --map forces --at 12.25");
+}
+
+TEST(RenderCommand, of_gamma_has_no_threshold) {
+  RenderRequest of = shown("gamma");
+  of.settings.threshold_factor = 2.0;
+  EXPECT_EQ(render_command_line(of), "talus render runs/a.h5 --map gamma --at 12.25");
+}
+
+TEST(RenderCommand, measures_displacements_since_an_angle) {
+  RenderRequest of = shown("displacement");
+  of.since = radians(5.0);
+  EXPECT_EQ(render_command_line(of), "talus render runs/a.h5 --map displacement --at 12.25 --since 5");
+}
+
+TEST(RenderCommand, asks_for_the_flow) {
+  RenderRequest of = shown("pressure");
+  of.in_flow = true;
+  EXPECT_EQ(render_command_line(of), "talus render runs/a.h5 --map pressure --at 12.25 --flow");
+}
+
+TEST(RenderCommand, crops_in_diameters_and_never_beyond_the_part) {
+  RenderRequest of = shown("gamma");
+  of.mean_diameter = 0.01;
+  of.part = MapExtent{0.10001, 0.20009, -0.00501, 0.40009};
+  EXPECT_EQ(render_command_line(of), "talus render runs/a.h5 --map gamma --at 12.25 --crop 10.01,-0.5,20,40");
+}
+
+TEST(RenderCommand, quotes_for_the_shell) {
+  EXPECT_EQ(shell_quoted("runs/a-1_b.h5"), "runs/a-1_b.h5");
+  EXPECT_EQ(shell_quoted("my run.h5"), "'my run.h5'");
+  EXPECT_EQ(shell_quoted("it's $HOME"), "'it'\\''s $HOME'");
+  EXPECT_EQ(shell_quoted(""), "''");
+  RenderRequest of = shown("gamma");
+  of.run = "my run.h5";
+  EXPECT_EQ(render_command_line(of), "talus render 'my run.h5' --map gamma --at 12.25");
+}
+
+}  // namespace
+}  // namespace talus

@@ -1,0 +1,101 @@
+/// Playing a run file: frames at 0, 5 ... 25 deg, then two of a flow.
+
+#include "view/replay.h"
+
+#include <gtest/gtest.h>
+
+#include "core/errors.h"
+#include "support/temporary_folder.h"
+#include "unit/io/example_run.h"
+#include "unit/view/example_bed.h"
+
+namespace talus {
+namespace {
+
+class ReplayOfBed : public testing::Test {
+ protected:
+  ReplayOfBed() {
+    example::write_bed_run(folder_.path("run.h5"), 20.0);
+    replay_.emplace(std::make_shared<RunFrames>(folder_.path("run.h5")));
+    replay_->set_speed(5.0);  // a frame a second
+  }
+  test::TemporaryFolder folder_;
+  std::optional<Replay> replay_;
+};
+
+TEST_F(ReplayOfBed, moves_only_while_it_plays) {
+  EXPECT_EQ(replay_->count(), 8u);
+  EXPECT_FALSE(replay_->advance(10.0));
+  EXPECT_EQ(replay_->index(), 0u);
+  replay_->play(true);
+  EXPECT_FALSE(replay_->advance(0.5));
+  EXPECT_TRUE(replay_->advance(0.75));
+  EXPECT_EQ(replay_->index(), 1u);
+  EXPECT_TRUE(replay_->advance(2.0));  // the quarter of a second counts
+  EXPECT_EQ(replay_->index(), 3u);
+  replay_->play(false);
+  EXPECT_FALSE(replay_->advance(10.0));
+}
+
+TEST_F(ReplayOfBed, goes_at_its_speed) {
+  replay_->set_speed(10.0);
+  replay_->play(true);
+  replay_->advance(1.0);
+  EXPECT_EQ(replay_->index(), 2u);
+  replay_->set_speed(-1.0);
+  EXPECT_GT(replay_->speed(), 0.0);
+}
+
+TEST_F(ReplayOfBed, plays_a_flow_as_evenly_as_the_tilt_and_stops_at_its_end) {
+  replay_->go_to(5);
+  replay_->play(true);
+  EXPECT_TRUE(replay_->advance(1.25));
+  EXPECT_EQ(replay_->index(), 6u);
+  EXPECT_TRUE(replay_->playing());
+  EXPECT_TRUE(replay_->advance(10.0));
+  EXPECT_EQ(replay_->index(), 7u);
+  EXPECT_FALSE(replay_->playing());
+  replay_->play(true);
+  EXPECT_EQ(replay_->index(), 0u) << "from the start again";
+}
+
+TEST_F(ReplayOfBed, shows_a_frame_as_long_as_the_tilt_takes_to_the_next) {
+  const std::string path = folder_.path("uneven.h5");
+  example::write_run(path, 20.0,
+                     {example::bed_frame(0.0, 0), example::bed_frame(1.0, 0), example::bed_frame(5.0, 0)});
+  Replay replay(std::make_shared<RunFrames>(path));
+  replay.set_speed(1.0);
+  replay.play(true);
+  EXPECT_TRUE(replay.advance(1.5));
+  EXPECT_EQ(replay.index(), 1u);
+  EXPECT_FALSE(replay.advance(3.0));
+  EXPECT_TRUE(replay.advance(1.0));
+}
+
+TEST_F(ReplayOfBed, stays_within_the_run) {
+  replay_->go_to(100);
+  EXPECT_EQ(replay_->index(), 7u);
+}
+
+TEST_F(ReplayOfBed, keeps_the_frames_asked_for_last) {
+  const auto first = replay_->frame(0);
+  EXPECT_EQ(replay_->frame(3)->gamma[30], 1.0);
+  EXPECT_EQ(replay_->frame(0), first) << "read again";
+  EXPECT_EQ(replay_->frame(2)->gamma[30], 0.0);
+}
+
+TEST(ReplayOfNothing, says_that_there_are_no_frames) {
+  const test::TemporaryFolder folder;
+  RunStore store = RunStore::create(folder.path("run.h5"), example::header(), true);
+  store.commit({}, example::checkpoint(0));
+  try {
+    RunFrames frames(folder.path("run.h5"));
+    FAIL() << "expected an error";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::bad_data);
+    EXPECT_NE(std::string(error.what()).find("no frames"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace talus

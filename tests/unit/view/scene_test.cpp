@@ -1,0 +1,180 @@
+/// What is drawn over the map: the bed made by hand, four grains overloaded in column 0.
+
+#include "view/scene.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/trigonometry.h"
+#include "maps/cluster_frame.h"
+#include "unit/view/example_bed.h"
+
+namespace talus {
+namespace {
+
+struct Drawn {
+  RunStatics statics = example::bed_statics();
+  MapSource source;
+  Clusters clusters;
+  FrameView map;
+
+  Drawn() {
+    source.frame = std::make_shared<const Frame>(example::bed_frame(10.0, 4));
+    source.settings.layers = {MapKind::gamma};
+    source.settings.theta_c = radians(20.0);
+    source.extent = bed_extent(statics);
+    extend(source.extent, *source.frame, statics);
+    clusters = overloaded_clusters(*source.frame, statics, source.settings);
+    map = draw_map(source, statics);
+  }
+  FrameView shown(const Overlay& overlay, const MapExtent& part) const {
+    return shown_map(map, part, *source.frame, overlay, clusters, statics);
+  }
+  FrameView shown(const Overlay& overlay) const { return shown(overlay, source.extent); }
+};
+
+Overlay selection_of(Index grain) {
+  Overlay overlay;
+  overlay.selected = grain;
+  return overlay;
+}
+
+TEST(GrowingDiameters, are_round_steps_up_to_the_one_chosen) {
+  EXPECT_EQ(growing_diameters(10.0), (std::vector{2.0, 4.0, 6.0, 8.0, 10.0}));
+  EXPECT_EQ(growing_diameters(7.0), (std::vector{2.0, 4.0, 6.0, 7.0}));
+  EXPECT_EQ(growing_diameters(6.2), (std::vector{2.0, 4.0, 6.2})) << "none that touches the last";
+  EXPECT_TRUE(growing_diameters(0.0).empty());
+}
+
+TEST(Scene, is_the_map_where_nothing_is_selected) {
+  const Drawn drawn;
+  const FrameView view = drawn.shown({});
+  EXPECT_EQ(view.discs.size(), drawn.map.discs.size());
+  EXPECT_TRUE(view.lines.empty());
+  EXPECT_FALSE(view.furniture);
+  EXPECT_TRUE(view.coloured) << "pictures with a selection are, and all are to be drawn alike";
+}
+
+TEST(Scene, has_the_grains_of_its_part) {
+  const Drawn drawn;
+  const FrameView view = drawn.shown({}, {3.1, 4.9, 1.1, 2.9});
+  EXPECT_EQ(view.discs.size(), 4u);
+  EXPECT_EQ(view.x_min, 3.1);
+  EXPECT_EQ(view.y_max, 2.9);
+}
+
+TEST(Scene, rings_the_grain) {
+  const Drawn drawn;
+  const FrameView view = drawn.shown(selection_of(15));
+  ASSERT_EQ(view.lines.size(), 128u);
+  for (const Line& line : view.lines) {
+    const double distance = std::hypot(line.x0 - 5.5, line.y0 - 1.5);
+    EXPECT_GT(distance, 0.5);
+    EXPECT_LT(distance, 0.75);
+  }
+}
+
+TEST(Scene, draws_circles_through_the_periodic_edge) {
+  const Drawn drawn;
+  Overlay overlay = selection_of(10);  // at (0.5, 1.5)
+  overlay.diameters = {3.0};
+  const FrameView view = drawn.shown(overlay);
+  const auto on_the_right = [](const Line& line) { return line.x0 > 8.9f && line.x1 > 8.9f; };
+  EXPECT_GT(std::ranges::count_if(view.lines, on_the_right), 20);
+  for (const Line& line : view.lines) {
+    const double dx = line.x0 > 5.0f ? line.x0 - 10.5 : line.x0 - 0.5;
+    const double distance = std::hypot(dx, line.y0 - 1.5);
+    EXPECT_TRUE(std::abs(distance - 1.5) < 1e-5 || distance < 0.75);
+  }
+}
+
+TEST(Scene, tells_l_c_from_other_circles) {
+  const Drawn drawn;
+  Overlay overlay = selection_of(15);
+  overlay.diameters = {4.0};
+  overlay.critical_length = 2.0;
+  const FrameView view = drawn.shown(overlay);
+  const auto colour_at_distance = [&view](double wanted) {
+    Colour colour = white;
+    for (const Line& line : view.lines)
+      if (std::abs(std::hypot(line.x0 - 5.5, line.y0 - 1.5) - wanted) < 1e-5) colour = line.colour;
+    return colour;
+  };
+  EXPECT_FALSE(colour_at_distance(1.0) == white);
+  EXPECT_FALSE(colour_at_distance(2.0) == white);
+  EXPECT_FALSE(colour_at_distance(1.0) == colour_at_distance(2.0));
+}
+
+TEST(Scene, rims_the_cluster_and_keeps_its_fill) {
+  const Drawn drawn;
+  Overlay overlay = selection_of(10);
+  overlay.cluster = 0;
+  const FrameView view = drawn.shown(overlay);
+  EXPECT_EQ(view.discs.size(), drawn.map.discs.size() + 4);
+  std::size_t within = 0;
+  for (std::size_t k = 0; k < view.discs.size(); ++k) {
+    if (is_gray(view.discs[k].fill)) continue;
+    EXPECT_EQ(view.discs[k].x, 0.5f);
+    ASSERT_LT(k + 1, view.discs.size());
+    EXPECT_EQ(view.discs[k + 1].fill, black) << "gamma = 1";
+    EXPECT_LT(view.discs[k + 1].radius, view.discs[k].radius);
+    ++within;
+  }
+  EXPECT_EQ(within, 4u);
+}
+
+TEST(Scene, rims_images_across_the_edge) {
+  Drawn drawn;
+  auto frame = *drawn.source.frame;
+  for (Index row = 0; row < example::rows; ++row) frame.x[row * example::columns] = 0.25;
+  drawn.source.frame = std::make_shared<const Frame>(frame);
+  drawn.map = draw_map(drawn.source, drawn.statics);
+  Overlay overlay = selection_of(10);
+  overlay.cluster = 0;
+  const FrameView view = drawn.shown(overlay);
+  const auto rims = std::ranges::count_if(view.discs, [](const Disc& disc) { return !is_gray(disc.fill); });
+  EXPECT_EQ(rims, 8);
+}
+
+TEST(Scene, draws_walls_where_they_are) {
+  Drawn drawn;
+  drawn.statics.periodic = false;
+  const FrameView view = drawn.shown({}, {-2.0, 12.0, -3.0, 6.0});
+  ASSERT_EQ(view.lines.size(), 2u);
+  EXPECT_EQ(view.lines[0].x0, 0.0f);
+  EXPECT_EQ(view.lines[0].y0, 0.0f);
+  EXPECT_EQ(view.lines[0].y1, 6.0f);
+  EXPECT_EQ(view.lines[1].x1, 10.0f);
+  EXPECT_EQ(drawn.shown({}, {2.0, 4.0, 0.0, 2.0}).lines.size(), 0u);
+  EXPECT_FALSE(view.left_wall) << "that would be at the edge of the picture";
+}
+
+TEST(Scene, knows_when_a_map_is_another) {
+  const Drawn drawn;
+  MapSource other = drawn.source;
+  EXPECT_TRUE(is_same(drawn.source, other));
+  other.settings.threshold_factor = 2.0;
+  EXPECT_FALSE(is_same(drawn.source, other));
+  other = drawn.source;
+  other.extent.y_max += 1.0;
+  EXPECT_FALSE(is_same(drawn.source, other));
+  other = drawn.source;
+  other.colours.resize(1);
+  EXPECT_FALSE(is_same(drawn.source, other));
+  other = drawn.source;
+  other.reference = other.frame;
+  EXPECT_FALSE(is_same(drawn.source, other));
+}
+
+TEST(Scene, gives_the_reason_where_a_map_cannot_be_drawn) {
+  Drawn drawn;
+  drawn.source.settings.theta_c = radians(1.0);
+  const FrameView view = draw_map(drawn.source, drawn.statics);
+  EXPECT_NE(view.title.find("angle of repose"), std::string::npos);
+  EXPECT_EQ(view.discs.size(), drawn.map.discs.size());
+}
+
+}  // namespace
+}  // namespace talus

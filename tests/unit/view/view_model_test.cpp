@@ -1,0 +1,420 @@
+/// The view of a run file made by hand, and of a small run that is computed.
+
+#include "view/view_model.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <thread>
+
+#include "core/errors.h"
+#include "core/hash.h"
+#include "core/trigonometry.h"
+#include "io/analysis_file.h"
+#include "io/run_file.h"
+#include "session/analysis_run.h"
+#include "support/temporary_folder.h"
+#include "unit/view/example_bed.h"
+
+namespace talus {
+namespace {
+
+ViewModel opened(const std::string& path) { return ViewModel::open(path, {}, "", false, "talus view"); }
+
+/// Updates until something holds.
+bool comes_true(ViewModel& model, const std::function<bool()>& holds) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  while (!holds() && std::chrono::steady_clock::now() < end) {
+    model.update(0.0);
+    std::this_thread::yield();
+  }
+  return holds();
+}
+
+const Plot& plot(const ViewModel& model, const std::string& name) {
+  return *std::ranges::find(model.plots(), name, &Plot::name);
+}
+
+class ViewOfRun : public testing::Test {
+ protected:
+  explicit ViewOfRun(double theta_c = 20.0) : path_(folder_.path("run.h5")) {
+    example::write_bed_run(path_, theta_c);
+    model_.emplace(opened(path_));
+  }
+  bool wait_for_all() {
+    return comes_true(*model_, [this] { return plot(*model_, "overloaded").series[0].x.size() == 6; });
+  }
+  test::TemporaryFolder folder_;
+  std::string path_;
+  std::optional<ViewModel> model_;
+};
+
+class ViewOfUnfailedRun : public ViewOfRun {
+ protected:
+  ViewOfUnfailedRun() : ViewOfRun(std::nan("")) {}
+};
+
+TEST_F(ViewOfRun, opens_at_its_first_frame_with_the_map_of_gamma) {
+  EXPECT_FALSE(model_->is_live());
+  EXPECT_EQ(model_->live(), nullptr);
+  EXPECT_EQ(model_->seed(), 7u);
+  EXPECT_EQ(model_->frame_count(), 8u);
+  EXPECT_EQ(model_->frame_index(), 0u);
+  EXPECT_EQ(model_->state.map.layers, MapLayers{MapKind::gamma});
+  EXPECT_TRUE(model_->theta_c_known());
+  EXPECT_NEAR(degrees(model_->theta_c()), 20.0, 1e-6);
+  const FrameView view = model_->map(2.0);
+  EXPECT_FALSE(view.furniture);
+  EXPECT_GE(view.discs.size(), 50u);
+  const auto region = model_->shown_region(2.0);
+  EXPECT_NEAR((region[1] - region[0]) / (region[3] - region[2]), 2.0, 1e-12);
+  EXPECT_LE(region[2], -1.0);
+  EXPECT_GE(region[3], 4.0);
+}
+
+TEST_F(ViewOfRun, goes_to_its_landmarks) {
+  EXPECT_TRUE(model_->has(Landmark::theta_c));
+  EXPECT_FALSE(model_->has(Landmark::theta_d)) << "nothing was worked out yet";
+  ASSERT_TRUE(wait_for_all());
+  const std::pair<Landmark, std::size_t> places[] = {{Landmark::last, 7},
+                                                     {Landmark::theta_d, 3},
+                                                     {Landmark::theta_c, 4},
+                                                     {Landmark::percolation, 3},
+                                                     {Landmark::first, 0}};
+  for (const auto& [landmark, frame] : places) {
+    EXPECT_TRUE(model_->has(landmark));
+    model_->go_to(landmark);
+    EXPECT_EQ(model_->frame_index(), frame);
+  }
+}
+
+TEST_F(ViewOfUnfailedRun, assumes_an_angle) {
+  EXPECT_FALSE(model_->theta_c_known());
+  EXPECT_NEAR(degrees(model_->theta_c()), 20.0, 1e-12);
+  EXPECT_FALSE(model_->has(Landmark::theta_c));
+  EXPECT_NE(model_->furnished_map().caption.find("assumed"), std::string::npos);
+  EXPECT_NE(model_->render_command().find("--theta-c 20"), std::string::npos);
+}
+
+TEST_F(ViewOfRun, tells_when_what_is_shown_has_changed) {
+  ASSERT_TRUE(wait_for_all());
+  ASSERT_TRUE(comes_true(*model_, [this] { return !model_->update(0.0); }));
+  while (model_->update(0.0)) {
+  }
+  EXPECT_FALSE(model_->update(1.0));
+  model_->set_speed(5.0);
+  model_->play(true);
+  EXPECT_FALSE(model_->update(0.5));
+  EXPECT_TRUE(model_->update(0.75));
+  EXPECT_EQ(model_->frame_index(), 1u);
+  EXPECT_NEAR(degrees(model_->frame().tilt), 5.0, 1e-6);
+}
+
+TEST_F(ViewOfRun, works_out_curves_anew_for_another_threshold) {
+  ASSERT_TRUE(wait_for_all());
+  EXPECT_NEAR(plot(*model_, "overloaded").series[0].y[3], 0.1, 1e-12);
+  model_->state.map.threshold_factor = 3.5;  // 1.2: nothing is
+  EXPECT_TRUE(model_->update(0.0));
+  ASSERT_TRUE(wait_for_all());
+  EXPECT_EQ(plot(*model_, "overloaded").series[0].y[3], 0.0);
+}
+
+TEST_F(ViewOfRun, takes_curves_from_a_stored_analysis) {
+  model_.reset();
+  const RunFile run = RunFile::open(path_);
+  Analysis analysis = analyse_run(run, {}, 1, {});
+  values<double>(analysis, "overloaded/fraction")[2 * 3] = 0.75;  // frame 3, first threshold: told apart
+  store_analysis(path_, analysis, hash_text(state_hash(run.checkpoint().world)));
+  model_.emplace(opened(path_));
+  model_->update(0.0);  // at once
+  ASSERT_EQ(plot(*model_, "overloaded").series[0].y.size(), 6u);
+  EXPECT_EQ(plot(*model_, "overloaded").series[0].y[3], 0.75);
+  EXPECT_NEAR(plot(*model_, "lengths").series[1].y[3], std::sqrt(8.0), 1e-6);
+  EXPECT_TRUE(model_->has(Landmark::theta_d));
+  EXPECT_TRUE(model_->has(Landmark::percolation));
+  model_->state.map.threshold_factor = 1.5;  // not of the analysis
+  model_->update(0.0);
+  ASSERT_TRUE(wait_for_all());
+  EXPECT_NEAR(plot(*model_, "overloaded").series[0].y[3], 0.1, 1e-12);
+  model_->state.map.threshold_factor = 1.0;
+  model_->state.map.joined_by_neighbours = true;  // not of the analysis
+  model_->update(0.0);
+  ASSERT_TRUE(wait_for_all());
+  EXPECT_NEAR(plot(*model_, "overloaded").series[0].y[3], 0.1, 1e-12);
+}
+
+TEST_F(ViewOfRun, takes_no_lengths_that_end_elsewhere) {
+  const RunFile run = RunFile::open(path_);
+  AnalysisParameters parameters;
+  parameters.lc_factor = 2.0;
+  const Analysis analysis = analyse_run(run, parameters, 1, {});
+  EXPECT_FALSE(find_threshold(analysis, {model_->theta_c(), 1.0, false}).has_value());
+  EXPECT_EQ(find_threshold(analysis, {model_->theta_c(), 2.0, false}), 1u);
+}
+
+TEST_F(ViewOfRun, takes_no_analysis_of_means_over_frames) {
+  model_.reset();
+  const RunFile run = RunFile::open(path_);
+  AnalysisParameters parameters;
+  parameters.averaging = 10.0;
+  store_analysis(path_, analyse_run(run, parameters, 1, {}), hash_text(state_hash(run.checkpoint().world)));
+  EXPECT_FALSE(read_usable_analysis(path_, RunFile::open(path_)).has_value());
+}
+
+TEST_F(ViewOfRun, inspects_the_selected_grain) {
+  EXPECT_EQ(model_->inspection(), nullptr);
+  model_->go_to(3);
+  model_->state.selected = model_->grain_at(0.4, 1.5);
+  ASSERT_TRUE(model_->state.selected.has_value());
+  const Inspection* of = model_->inspection();
+  ASSERT_NE(of, nullptr);
+  EXPECT_EQ(of->grain, 10);
+  EXPECT_EQ(of->cluster_size, 4);
+  EXPECT_EQ(of->coarse_graining_length, std::sqrt(8.0));
+  EXPECT_EQ(of, model_->inspection());
+  model_->state.neighbourhood = 2.0;
+  EXPECT_NEAR(model_->inspection()->neighbourhood_gamma, 3.0 / 7.0, 1e-12);
+  model_->go_to(0);
+  EXPECT_FALSE(model_->inspection()->overloaded);
+  model_->go_to(1);
+  model_->state.selected = 0;
+  EXPECT_EQ(model_->inspection()->cluster_size, 1);
+  model_->state.selected = 999;
+  EXPECT_EQ(model_->inspection(), nullptr);
+}
+
+TEST_F(ViewOfRun, draws_the_selection_and_its_cluster) {
+  model_->go_to(3);
+  const FrameView bare = model_->map(2.0);
+  EXPECT_TRUE(bare.lines.empty());
+  model_->state.selected = 10;
+  model_->state.show_neighbourhoods = false;
+  const FrameView selected = model_->map(2.0);
+  EXPECT_EQ(selected.discs.size(), bare.discs.size() + 4) << "a broad rim for each grain of the cluster";
+  EXPECT_GE(selected.lines.size(), 2u * 64u) << "a ring on white";
+  model_->state.highlight_cluster = false;
+  EXPECT_EQ(model_->map(2.0).discs.size(), bare.discs.size());
+  model_->state.show_neighbourhoods = true;
+  EXPECT_GT(model_->map(2.0).lines.size(), selected.lines.size());
+}
+
+TEST_F(ViewOfRun, has_the_density_of_the_frame_shown) {
+  const double before = plot(*model_, "gamma").series[0].y.back();
+  EXPECT_EQ(before, 0.0);
+  model_->go_to(3);
+  EXPECT_GT(plot(*model_, "gamma").series[0].y.back(), before);
+}
+
+TEST_F(ViewOfRun, has_room_for_all_frames) {
+  ASSERT_TRUE(wait_for_all());
+  EXPECT_NEAR(model_->shown_region(100.0)[3], 5.0, 1e-6) << "the third frame is higher";
+}
+
+/// Two groups of twelve grains: the right one alone, then both.
+TEST_F(ViewOfRun, keeps_the_colours_of_clusters) {
+  std::vector<Frame> frames = {example::bed_frame(0.0, 0), example::bed_frame(5.0, 0)};
+  for (Index i = 0; i < 40; ++i) {
+    const Index column = i % example::columns;
+    if (column >= 5 && column < 8) frames[0].gamma[i] = frames[1].gamma[i] = 1.0;
+    if (column < 3) frames[1].gamma[i] = 1.0;
+  }
+  example::write_run(folder_.path("two.h5"), 20.0, frames);
+  ViewModel model = opened(folder_.path("two.h5"));
+  model.state.map.layers = {MapKind::clusters};
+  model.state.map.joined_by_neighbours = true;
+  ASSERT_TRUE(comes_true(model, [&] { return plot(model, "overloaded").series[0].x.size() == 2; }));
+  model.go_to(1);
+  const auto fill_at = [&model](float x) {
+    const FrameView view = model.map(2.0);
+    return std::ranges::find(view.discs, x, &Disc::x)->fill;
+  };
+  const std::vector<Colour> palette = cluster_palette();
+  EXPECT_TRUE(fill_at(6.5f) == palette[0]) << "as in the frame before";
+  EXPECT_TRUE(fill_at(1.5f) == palette[1]);
+  // By contacts each column is a cluster of its own, too small for a colour; colours of others do not count.
+  model.state.map.joined_by_neighbours = false;
+  EXPECT_TRUE(is_gray(fill_at(6.5f)));
+  EXPECT_TRUE(is_gray(fill_at(0.5f)));
+}
+
+TEST_F(ViewOfRun, brings_the_camera_back_to_the_bed) {
+  model_->map(1.0);
+  model_->state.camera = {100.0, 100.0, 2.0};
+  model_->update(0.0);
+  EXPECT_NEAR(model_->state.camera.centre_x, 7.5, 1e-9);
+  EXPECT_EQ(model_->state.camera.zoom, 2.0);
+}
+
+TEST_F(ViewOfRun, crops_to_the_camera) {
+  model_->state.camera = {5.0, 2.0, 5.0};
+  const FrameView view = model_->map(1.0);
+  EXPECT_NEAR(view.x_max - view.x_min, 2.0 * 1.5, 1.01) << "not below 3 D";
+  EXPECT_LT(view.discs.size(), 30u);
+  EXPECT_NE(model_->render_command().find("--crop 3.5,0.5,6.5,3.5"), std::string::npos)
+      << model_->render_command();
+}
+
+TEST_F(ViewOfRun, measures_displacements_from_the_frame_before_or_since_an_angle) {
+  model_->state.map.layers = {MapKind::displacement};
+  model_->go_to(3);
+  EXPECT_NE(model_->furnished_map().title.find("per degree"), std::string::npos);
+  model_->state.since = radians(6.0);
+  EXPECT_NE(model_->furnished_map().title.find("since 5.00"), std::string::npos)
+      << model_->furnished_map().title;
+  EXPECT_EQ(model_->render_command(), "talus render " + path_ + " --map displacement --at 15 --since 6");
+}
+
+TEST_F(ViewOfRun, says_in_the_title_why_a_map_cannot_be_drawn) {
+  model_->state.map.range_low = 0.9;
+  model_->state.map.range_high = 0.1;
+  EXPECT_GE(model_->map(2.0).discs.size(), 50u);
+  EXPECT_FALSE(model_->furnished_map().title.empty());
+  EXPECT_NE(model_->furnished_map().title, "Stress ratio γ of each grain");
+}
+
+TEST_F(ViewOfRun, tells_of_a_frame_that_cannot_be_read) {
+  const std::string path = folder_.path("unfinished.h5");
+  {
+    RunStore store = RunStore::create(path, RunFile::open(path_).header(), true);
+    for (const double tilt : {0.0, 10.0}) {
+      Segment segment;
+      segment.frames = {example::bed_frame(tilt, 0), example::bed_frame(tilt + 5.0, 1)};
+      store.commit(segment, RunFile::open(path_).checkpoint());
+    }
+  }
+  ViewModel model = opened(path);
+  ASSERT_TRUE(comes_true(model, [&] { return plot(model, "overloaded").series[0].x.size() == 4; }));
+  for (const auto& file : std::filesystem::directory_iterator(run_folder(path))) {
+    if (file.path().filename().string().starts_with("segment_")) std::filesystem::remove(file);
+  }
+  model.play(true);
+  model.go_to(1);
+  EXPECT_FALSE(model.playing());
+  EXPECT_EQ(model.frame().tilt, 0.0) << "the frame shown before";
+  model.update(0.0);
+  EXPECT_NE(model.state.message.find("segment_"), std::string::npos) << model.state.message;
+  EXPECT_FALSE(model.map(2.0).discs.empty());
+}
+
+TEST_F(ViewOfRun, turned_shows_all_frames_in_one_size) {
+  model_->state.map.turned = true;
+  const FrameView flat = model_->map(1.5);
+  model_->go_to(5);
+  const FrameView steep = model_->map(1.5);
+  EXPECT_NEAR(degrees(flat.turn), 0.0, 1e-6);
+  EXPECT_NEAR(degrees(steep.turn), 25.0, 1e-5);
+  EXPECT_EQ(flat.turn_max, steep.turn_max);
+  EXPECT_EQ(flat.x_min, steep.x_min);
+}
+
+TEST_F(ViewOfRun, asks_for_the_flow_where_it_shows_it) {
+  model_->go_to(6);
+  EXPECT_EQ(model_->render_command(), "talus render " + path_ + " --map gamma --at 25 --flow");
+}
+
+TEST_F(ViewOfRun, takes_no_settings_of_a_scenario) {
+  for (const auto& [settings, output] :
+       {std::pair<std::vector<std::string>, std::string>{{"seed=2"}, ""}, {{}, "x.h5"}})
+    try {
+      ViewModel::open(path_, settings, output, false, "");
+      FAIL() << "expected an error";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::usage);
+    }
+}
+
+TEST(ViewOfNothing, says_what_is_missing) {
+  for (const char* path : {"no-such-run.h5", "no-such-scenario.toml"}) try {
+      opened(path);
+      FAIL() << "expected an error";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::missing_input);
+    }
+}
+
+// --- live ---
+
+class ViewOfScenario : public testing::Test {
+ protected:
+  ViewOfScenario() {
+    std::ofstream(folder_.path("a.toml")) << "[bed]\nlength = 10\ndepth = 3\n[deposition]\nrest_velocity = "
+                                             "0.1\n[tilt]\nrate = 20\nstep = 0.02\nend_angle = 1.0\n"
+                                             "[output]\nframe_every = 0.25\nobservable_every = 0.05\n";
+    model_.emplace(opened(folder_.path("a.toml")));
+  }
+  test::TemporaryFolder folder_;
+  std::optional<ViewModel> model_;
+};
+
+TEST_F(ViewOfScenario, follows_the_run) {
+  EXPECT_TRUE(model_->is_live());
+  EXPECT_EQ(model_->frame_count(), 0u);
+  EXPECT_FALSE(model_->has(Landmark::first));
+  EXPECT_EQ(model_->render_command(), "");
+  model_->state.map.layers = map_layers("displacement+clusters");
+  EXPECT_EQ(model_->map(2.0).discs.empty(), false);
+  model_->live()->run_to(radians(0.5));
+  ASSERT_TRUE(comes_true(*model_, [this] { return model_->frame().tilt > radians(0.49); }));
+  model_->live()->play();
+  ASSERT_TRUE(comes_true(*model_, [this] {
+    model_->map(2.0);
+    return model_->live()->status().done;
+  }));
+  ASSERT_TRUE(comes_true(*model_, [this] { return plot(*model_, "overloaded").series[0].x.size() >= 5; }));
+  EXPECT_EQ(plot(*model_, "overloaded").series[0].x.size(), 5u) << "at 0, 0.25 ... 1 deg";
+  EXPECT_NEAR(degrees(model_->frame().tilt), 1.0, 1e-9);
+  EXPECT_GE(plot(*model_, "stress").series[0].x.size(), 17u);
+  const std::vector<double>& tilts = plot(*model_, "stress").series[0].x;
+  EXPECT_EQ(std::ranges::adjacent_find(tilts, std::greater_equal()), tilts.end()) << "each row once";
+  EXPECT_FALSE(plot(*model_, "residual").series[0].x.empty());
+  EXPECT_FALSE(model_->theta_c_known());
+  EXPECT_NE(model_->furnished_map().title.find("per degree"), std::string::npos);
+}
+
+TEST_F(ViewOfScenario, measures_displacements_from_the_frame_recorded_before) {
+  model_->state.map.layers = {MapKind::displacement};
+  model_->state.map.range_low = 1e-12;  // the bed is small, and creeps
+  model_->state.map.range_high = 1e-3;
+  model_->live()->play();
+  ASSERT_TRUE(comes_true(*model_, [this] { return model_->live()->status().done; }));
+  model_->update(0.0);
+  const std::vector<Disc> discs = model_->map(2.0).discs;
+  EXPECT_FALSE(std::ranges::all_of(discs, [&discs](const Disc& disc) {
+    return disc.hatched > 0.0f || disc.fill == discs[0].fill;
+  })) << "the frame shown is the last recorded; it is not its own reference";
+}
+
+TEST_F(ViewOfScenario, begins_a_recorded_run_anew) {
+  const std::string output = folder_.path("a.h5");
+  ViewModel model = ViewModel::open(folder_.path("a.toml"), {"seed=3"}, output, false, "talus view");
+  EXPECT_EQ(model.seed(), 3u);
+  EXPECT_EQ(model.render_command(), "") << "no frame is recorded yet";
+  model.live()->play();
+  ASSERT_TRUE(comes_true(model, [&model] { return model.live()->status().done; }));
+  model.update(0.0);
+  EXPECT_EQ(model.render_command(), "talus render " + output + " --map gamma --at 1 --theta-c 20");
+  model.restart(4);
+  EXPECT_EQ(model.seed(), 4u);
+  EXPECT_EQ(model.live()->status().step, 0);
+}
+
+TEST_F(ViewOfScenario, begins_anew_with_another_seed) {
+  const double before = model_->frame().x[0];
+  model_->live()->step(3);
+  model_->state.selected = 1;
+  model_->restart(5);
+  EXPECT_EQ(model_->seed(), 5u);
+  EXPECT_EQ(model_->frame().step, 0);
+  EXPECT_NE(model_->frame().x[0], before);
+  EXPECT_FALSE(model_->state.selected.has_value());
+  model_->restart(1);
+  EXPECT_EQ(model_->frame().x[0], before);
+}
+
+}  // namespace
+}  // namespace talus
