@@ -13,7 +13,7 @@ namespace {
 static_assert(sizeof(Disc) == 6 * sizeof(float) && sizeof(Line) == 6 * sizeof(float) &&
               sizeof(FurnitureVertex) == 5 * sizeof(float));
 
-class GlTarget final : public Target {
+class GlTarget final : public TextureTarget {
  public:
   explicit GlTarget(std::unique_ptr<Context> context)
       : context_(std::move(context)), gl_(load_gl(*context_)) {
@@ -79,6 +79,8 @@ class GlTarget final : public Target {
     gl_.BindTexture(GL_TEXTURE_2D, atlas_);
     gl_.DrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(triangles.size()));
   }
+
+  unsigned texture() const override { return picture_; }
 
   Image end() override {
     Image image = read_picture();
@@ -187,7 +189,7 @@ class GlTarget final : public Target {
 
 }  // namespace
 
-std::unique_ptr<Target> make_gl_target(std::unique_ptr<Context> context) {
+std::unique_ptr<TextureTarget> make_gl_target(std::unique_ptr<Context> context) {
   return std::make_unique<GlTarget>(std::move(context));
 }
 

@@ -8,7 +8,15 @@
 
 namespace talus {
 
+/// A target whose picture is a texture of the context, to be drawn again there.
+class TextureTarget : public Target {
+ public:
+  /// The texture with the picture drawn last, row 0 at the top; it changes with its size and format. Gray
+  /// pictures have their one channel in red.
+  virtual unsigned texture() const = 0;
+};
+
 /// Owns its context and what it made there. Throws Error(unavailable) where a shader does not compile.
-std::unique_ptr<Target> make_gl_target(std::unique_ptr<Context> context);
+std::unique_ptr<TextureTarget> make_gl_target(std::unique_ptr<Context> context);
 
 }  // namespace talus

@@ -44,7 +44,12 @@ Renderer::Renderer(std::unique_ptr<Context> context) : Renderer(make_gl_target(s
 Renderer::Renderer(std::unique_ptr<Target> target) : target_(std::move(target)), font_(embedded_font()) {}
 
 Image Renderer::draw(const FrameView& view, int width, double largest_em) {
-  const Layout layout = lay_out(view, width, font_, largest_em);
+  paint(view, width, largest_em);
+  return target_->end();
+}
+
+Layout Renderer::paint(const FrameView& view, int width, double largest_em) {
+  Layout layout = lay_out(view, width, font_, largest_em);
   target_->begin(layout.width, layout.height, pixel_format(view));
   target_->draw_discs(view.discs, layout.bed);
   target_->draw_lines(view.lines, layout.bed);
@@ -56,7 +61,7 @@ Image Renderer::draw(const FrameView& view, int width, double largest_em) {
     target_->draw_lines(furniture.lines, picture);
     target_->draw_discs(furniture.discs, picture);
   }
-  return target_->end();
+  return layout;
 }
 
 }  // namespace talus

@@ -26,6 +26,9 @@ class Renderer {
   /// Throws Error as lay_out and the target do.
   Image draw(const FrameView& view, int width, double largest_em = std::numeric_limits<double>::infinity());
 
+  /// Draws without reading the picture back: it stays in the target, as large as the layout returned says.
+  Layout paint(const FrameView& view, int width, double largest_em = std::numeric_limits<double>::infinity());
+
   const Font& font() const { return font_; }
 
  private:
