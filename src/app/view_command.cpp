@@ -58,15 +58,16 @@ void take_screenshot(const ViewArguments& arguments) {
   write_png(arguments.screenshot, gui.frame());
 }
 
-/// How to go on with a run that was recorded.
-std::string way_on(const ViewArguments& arguments, std::uint64_t seed) {
-  if (run_presence(arguments.output) == RunPresence::packed)
-    return arguments.output + " holds the whole run; look at it again with: talus view " + arguments.output;
-  std::string line = "talus run " + arguments.file + " -o " + arguments.output;
-  for (const std::string& setting : arguments.settings)
+/// How to go on with a run that was recorded; empty for one that was not.
+std::string way_on(const Recording& run) {
+  if (run.output.empty()) return {};
+  if (run_presence(run.output) == RunPresence::packed)
+    return run.output + " holds the whole run; look at it again with: talus view " + run.output;
+  std::string line = "talus run " + run.scenario + " -o " + run.output;
+  for (const std::string& setting : run.settings)
     if (!setting.starts_with("seed=")) line += " --set " + setting;
-  return arguments.output + " holds the run so far; continue with: " + line + " --seed " +
-         std::to_string(seed) + " --resume";
+  return run.output + " holds the run so far; continue with: " + line + " --seed " +
+         std::to_string(run.seed) + " --resume";
 }
 
 /// "NAME<tab>X0 Y0 X1 Y1" of each widget, px of the window, for scripts that click. Only where it differs
@@ -86,19 +87,13 @@ void write_places(const std::string& path, const std::vector<WidgetPlace>& place
   written = text;
 }
 
-/// What the window shows, and where it is recorded.
-struct Shown {
-  ViewModel model;
-  std::string output;  ///< of a live run; empty: nowhere
-};
-
 /// Ends what was shown. Returns what there is to say about what was recorded.
-std::string close(Shown shown, const ViewArguments& arguments) {
-  const std::string failure = shown.model.is_live() ? shown.model.live()->status().error : "";
-  const std::uint64_t seed = shown.model.seed();
-  { const ViewModel ended = std::move(shown.model); }  // commits what there is
+std::string close(ViewModel model) {
+  const std::string failure = model.is_live() ? model.live()->status().error : "";
+  const Recording recording = model.recording();
+  { const ViewModel ended = std::move(model); }  // commits what there is
   if (!failure.empty()) throw Error(ExitCode::internal, failure);
-  return shown.output.empty() ? "" : way_on(arguments, seed);
+  return way_on(recording);
 }
 
 void save_picture(const std::string& path, GuiWindow& window, ViewModel& model) {
@@ -107,28 +102,36 @@ void save_picture(const std::string& path, GuiWindow& window, ViewModel& model) 
   model.state.message = "written: " + path;
 }
 
+/// Shows another run. What cannot be opened leaves what is shown.
+void open(const std::string& path, ViewModel& model) {
+  if (!model.may_discard()) return;
+  model.hold();
+  ViewModel next = ViewModel::open(path, {}, "", false, command_line());
+  const std::string kept = close(std::exchange(model, std::move(next)));
+  if (!kept.empty()) std::printf("%s\n", kept.c_str());
+  std::fflush(stdout);
+}
+
 /// What widgets ask for beyond the model. What cannot be done is said in the window.
-void serve(const GuiRequests& requests, const ViewArguments& arguments, GuiWindow& window, Shown& shown) {
+void serve(const GuiRequests& requests, GuiWindow& window, ViewModel& model) {
   try {
-    if (!requests.save_png_path.empty()) save_picture(requests.save_png_path, window, shown.model);
-    if (requests.open_path.empty()) return;
-    Shown next{ViewModel::open(requests.open_path, {}, "", false, command_line()), ""};
-    const std::string kept = close(std::exchange(shown, std::move(next)), arguments);
-    if (!kept.empty()) std::printf("%s\n", kept.c_str());
+    if (!requests.save_png_path.empty()) save_picture(requests.save_png_path, window, model);
+    if (!requests.open_path.empty()) open(requests.open_path, model);
   } catch (const Error& error) {
-    shown.model.state.message = error.what();
+    model.state.message = error.what();
   }
 }
 
 /// Until the window is closed, or a signal asks to stop.
-void show(Shown& shown, const ViewArguments& arguments, GuiWindow& window,
+void show(ViewModel& model, const std::string& places, GuiWindow& window,
           const volatile std::sig_atomic_t* stop) {
   std::string written;
-  while (!window.closed() && *stop == 0) {
-    const GuiRequests requests = window.next_picture(shown.model);
+  while (!(window.closed() && model.may_discard()) && *stop == 0) {
+    window.stay_open();
+    const GuiRequests requests = window.next_picture(model);
     if (requests.quit) return;
-    serve(requests, arguments, window, shown);
-    if (!arguments.places.empty()) write_places(arguments.places, window.places(), written);
+    serve(requests, window, model);
+    if (!places.empty()) write_places(places, window.places(), written);
   }
 }
 
@@ -137,15 +140,14 @@ void view(const ViewArguments& arguments) {
   const auto [width, height] = parse_size(arguments.size);
   const volatile std::sig_atomic_t* stop = catch_stop_signals();
   GuiWindow window(width, height);  // not shown yet: without a display no run is begun
-  Shown shown{ViewModel::open(arguments.file, arguments.settings, arguments.output, arguments.overwrite,
-                              command_line()),
-              ""};
-  if (shown.model.is_live()) shown.output = arguments.output;
-  if (shown.model.is_live() && shown.output.empty())
-    std::printf("Nothing is kept of this run; talus view %s -o RUN.h5 records it.\n", arguments.file.c_str());
+  ViewModel model = ViewModel::open(arguments.file, arguments.settings, arguments.output, arguments.overwrite,
+                                    command_line());
+  if (model.is_live() && arguments.output.empty())
+    std::printf("Nothing is kept of this run until it is saved; talus view %s -o RUN.h5 records it.\n",
+                arguments.file.c_str());
   std::fflush(stdout);
-  show(shown, arguments, window, stop);
-  const std::string kept = close(std::move(shown), arguments);
+  show(model, arguments.places, window, stop);
+  const std::string kept = close(std::move(model));
   if (*stop != 0) throw Error(ExitCode::stopped, kept.empty() ? "stopped" : "stopped; " + kept);
   if (!kept.empty()) std::printf("%s\n", kept.c_str());
 }

@@ -1,6 +1,7 @@
 #include "gui/gui.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "gui/panels.h"
 
@@ -10,20 +11,48 @@ namespace {
 constexpr ImGuiWindowFlags fixed = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus;
 
-/// Where the parts of the window are: from its size alone.
+/// Where the parts of the window are.
 struct Places {
   float left = 0.0f;    ///< width of the panels on the left; 0: not shown
   float right = 0.0f;   ///< of the inspector
   float bottom = 0.0f;  ///< height of the plots
 };
 
-Places lay_out_window(const ViewState& state, const ImVec2& size, float em) {
+/// The plots get what the map does not need, unless somebody has moved the border between them.
+float height_of_plots(const ViewModel& model, float width, float height, float em) {
+  const float least = 12.0f * em;
+  if (!model.state.show_plots || height < 2.2f * least) return 0.0f;
+  const float wanted = model.state.picture_share > 0.0f
+                           ? model.state.picture_share * height
+                           : map_area_height(width / static_cast<float>(model.bed_aspect()), em);
+  return height - std::clamp(wanted, least, height - least);
+}
+
+Places lay_out_window(const ViewModel& model, const ImVec2& size, float em) {
+  const ViewState& state = model.state;
   Places places;
-  const bool wide = size.x >= 45.0f * em;
+  const bool wide = size.x >= 75.0f * em;
   if (state.show_controls) places.left = std::min(19.0f * em, 0.5f * size.x);
   if (state.show_inspector && state.selected && wide) places.right = std::min(20.0f * em, 0.3f * size.x);
-  if (state.show_plots && size.y >= 32.0f * em) places.bottom = std::max(12.0f * em, 0.28f * size.y);
+  places.bottom = height_of_plots(model, size.x - places.left - places.right, size.y, em);
   return places;
+}
+
+/// The border between the map and the plots, which can be moved.
+void draw_border(Gui& gui, float top, float height) {
+  const ImVec2 corner = ImGui::GetWindowPos();
+  const float width = ImGui::GetWindowWidth(), half = 0.3f * gui.em;
+  ImGui::SetCursorScreenPos(corner);
+  ImGui::InvisibleButton("border", {width, 2.0f * half});
+  note_place(gui, "border");
+  if (ImGui::IsItemHovered() || ImGui::IsItemActive()) {
+    ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeNS);
+    ImGui::GetWindowDrawList()->AddRectFilled(corner, {corner.x + width, corner.y + 0.5f * half},
+                                              ImGui::GetColorU32(ImGuiCol_ButtonActive));
+  }
+  if (ImGui::IsItemActive() && ImGui::GetIO().MouseDelta.y != 0.0f)
+    gui.model.state.picture_share = std::clamp((ImGui::GetIO().MousePos.y - top) / height, 0.05f, 0.95f);
+  if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0)) gui.model.state.picture_share = 0.0f;
 }
 
 /// A part of the window at a place.
@@ -42,7 +71,9 @@ void part(const char* name, const ImVec2& place, const ImVec2& size, ImGuiWindow
 void draw_tabs(Gui& gui, bool with_inspector) {
   if (!ImGui::BeginTabBar("panels")) return;
   const auto tab = [&](const char* name, void (*draw)(Gui&)) {
-    const bool open = ImGui::BeginTabItem(name);
+    const bool asked = gui.panel_asked == name;
+    const bool open =
+        ImGui::BeginTabItem(name, nullptr, asked ? ImGuiTabItemFlags_SetSelected : ImGuiTabItemFlags_None);
     note_place(gui, std::string("tab ").append(name));
     if (!open) return;
     ImGui::BeginChild("panel");
@@ -69,12 +100,13 @@ void draw_message(const ViewState& state) {
 
 GuiRequests draw_gui(ViewModel& model, const DrawMap& draw_map, std::vector<WidgetPlace>& places) {
   GuiRequests requests;
-  Gui gui{model, draw_map, places, requests, ImGui::GetFontSize()};
+  Gui gui{model, draw_map, places, requests, ImGui::GetFontSize(), {}};
   handle_keys(gui);
   const ImVec2 size = ImGui::GetIO().DisplaySize;
   const float line = 1.9f * gui.em;  // the message at the bottom
-  const Places at = lay_out_window(model.state, size, gui.em);
-  const float height = size.y - line, middle = size.x - at.left - at.right;
+  const float height = size.y - line;
+  const Places at = lay_out_window(model, {size.x, height}, gui.em);
+  const float middle = size.x - at.left - at.right;
   part("controls", {0.0f, 0.0f}, {at.left, height}, 0, [&] { draw_tabs(gui, at.right == 0.0f); });
   part("grain", {size.x - at.right, 0.0f}, {at.right, height}, ImGuiWindowFlags_None, [&] {
     ImGui::BeginChild("inspector");
@@ -84,7 +116,8 @@ GuiRequests draw_gui(ViewModel& model, const DrawMap& draw_map, std::vector<Widg
   part("picture", {at.left, 0.0f}, {middle, height - at.bottom}, ImGuiWindowFlags_NoScrollWithMouse,
        [&] { draw_map_area(gui); });
   part("plots", {at.left, height - at.bottom}, {middle, at.bottom}, 0, [&] {
-    ImGui::BeginChild("curves", {0.0f, 0.0f}, false, ImGuiWindowFlags_HorizontalScrollbar);
+    draw_border(gui, 0.0f, height);
+    ImGui::BeginChild("curves");
     draw_plots(gui);
     ImGui::EndChild();
   });
@@ -97,10 +130,26 @@ void set_style(float scale) {
   ImGui::StyleColorsLight();
   ImGuiStyle& style = ImGui::GetStyle();
   style.WindowRounding = 0.0f;
+  style.FrameRounding = 3.0f;
+  style.GrabRounding = 3.0f;
   style.WindowBorderSize = 1.0f;
   style.FrameBorderSize = 1.0f;
+  style.FramePadding = {6.0f, 3.0f};
+  style.ItemSpacing = {6.0f, 5.0f};
   style.ScaleAllSizes(scale);
-  style.Colors[ImGuiCol_WindowBg] = ImVec4(0.97f, 0.97f, 0.97f, 1.0f);
+  const auto gray = [](float value, float alpha = 1.0f) { return ImVec4(value, value, value, alpha); };
+  const auto blue = [](float alpha) { return ImVec4(0.0f, 0.35f, 0.70f, alpha); };
+  const std::pair<ImGuiCol, ImVec4> colours[] = {
+      {ImGuiCol_WindowBg, gray(1.0f)},         {ImGuiCol_Border, gray(0.72f)},
+      {ImGuiCol_Separator, gray(0.82f)},        {ImGuiCol_Text, gray(0.08f)},
+      {ImGuiCol_TextDisabled, gray(0.42f)},     {ImGuiCol_FrameBg, gray(1.0f)},
+      {ImGuiCol_Button, gray(0.90f)},           {ImGuiCol_ButtonHovered, gray(0.83f)},
+      {ImGuiCol_ButtonActive, blue(0.55f)},     {ImGuiCol_Tab, gray(0.90f)},
+      {ImGuiCol_TabHovered, blue(0.30f)},       {ImGuiCol_TabActive, blue(0.22f)},
+      {ImGuiCol_Header, blue(0.18f)},           {ImGuiCol_HeaderHovered, blue(0.28f)},
+      {ImGuiCol_HeaderActive, blue(0.45f)},     {ImGuiCol_SliderGrab, blue(0.60f)},
+      {ImGuiCol_SliderGrabActive, blue(0.85f)}, {ImGuiCol_CheckMark, blue(1.0f)}};
+  for (const auto& [part, colour] : colours) style.Colors[part] = colour;
 }
 
 }  // namespace talus

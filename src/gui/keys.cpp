@@ -16,10 +16,13 @@ constexpr KeyLine key_lines[] = {
     {"space", "play, pause"},
     {"right, left", "a step or a frame on; a frame back (shift 10, ctrl 100)"},
     {"home, end", "first, last frame"},
-    {"d, p, c", "to theta_d; to where a cluster first spans; to theta_c"},
+    {"d, j, p, c", "to θ_d; to the jump of ℓ_c; to where a cluster first spans; to θ_c"},
+    {"< >", "speed of a replay"},
     {"1 ... 9", "the maps, in the order of their list"},
     {"0", "nothing over the map"},
     {"o", "next overlay"},
+    {"m", "next colours"},
+    {"v", "displacement since the angle shown, or per degree"},
     {"[ ]", "threshold of overloaded grains"},
     {", .", "length of coarse graining"},
     {"; '", "neighbourhood of the selected grain"},
@@ -28,16 +31,20 @@ constexpr KeyLine key_lines[] = {
     {"w a x z, drag", "move the picture"},
     {"f", "whole bed"},
     {"n", "select the next grain; escape: none"},
-    {"g", "run to the angle"},
+    {"i, y", "mark its cluster; draw its neighbourhoods"},
+    {"g, b", "run to the angle; deposit the bed"},
     {"r", "reset, with the seed given"},
-    {"s", "save a checkpoint of a recorded run"},
+    {"s", "save the state of a run that is computed"},
     {"e", "write the picture to the file named under files"},
     {"u, k", "push the selected grain; drop grains there"},
+    {"R M A F G", "the panels run, map, act, files, grain; tab: from field to field"},
     {"h", "show or hide the panels"},
     {"l", "show or hide the plots"},
     {"?", "this list"},
     {"q", "quit"},
 };
+
+constexpr double fastest_replay = 20.0;  // deg/s
 
 int factor_of_modifiers() {
   const ImGuiIO& io = ImGui::GetIO();
@@ -57,10 +64,24 @@ void next_overlay(MapLayers& layers) {
   if (next < count) layers.push_back(kinds[next]);
 }
 
+/// Its own, then each colour map.
+void next_colours(std::optional<ColourMap>& colours) {
+  const auto all = colour_maps();
+  const std::size_t next =
+      colours ? static_cast<std::size_t>(std::ranges::find(all, *colours) - all.begin()) + 1 : 0;
+  colours = next < all.size() ? std::optional(all[next]) : std::nullopt;
+}
+
 void choose_map(MapLayers& layers, std::size_t k) {
   if (k >= map_kinds().size()) return;
   layers[0] = map_kinds()[k];
   if (layers.size() > 1 && layers[1] == layers[0]) layers.pop_back();
+}
+
+void ask_for_panel(Gui& gui, ImWchar key) {
+  gui.model.state.show_controls = true;
+  for (const char* panel : {"run", "map", "act", "files", "grain"})
+    if (*panel == static_cast<char>(key - 'A' + 'a')) gui.panel_asked = panel;
 }
 
 void change_view(Gui& gui, ImWchar key) {
@@ -116,6 +137,18 @@ void change_view(Gui& gui, ImWchar key) {
     case '0':
       state.map.layers.resize(1);
       break;
+    case 'm':
+      next_colours(state.map.colours);
+      break;
+    case 'v':
+      state.since = state.since ? std::nullopt : std::optional(gui.model.frame().tilt);
+      break;
+    case 'i':
+      state.highlight_cluster = !state.highlight_cluster;
+      break;
+    case 'y':
+      state.show_neighbourhoods = !state.show_neighbourhoods;
+      break;
     case 'h':
       state.show_controls = state.show_inspector = !state.show_controls;
       break;
@@ -148,6 +181,25 @@ void act(Gui& gui, ImWchar key) {
     case 'c':
       model.go_to(Landmark::theta_c);
       break;
+    case 'j':
+      model.go_to(Landmark::length_jump);
+      break;
+    case '<':
+      model.set_speed(0.8 * model.speed());
+      break;
+    case '>':
+      model.set_speed(std::min(1.25 * model.speed(), fastest_replay));
+      break;
+    case 'b':
+      if (model.is_live()) model.live()->finish_deposition();
+      break;
+    case 'R':
+    case 'M':
+    case 'A':
+    case 'F':
+    case 'G':
+      ask_for_panel(gui, key);
+      break;
     case 'u':
       push_selected(gui);
       break;
@@ -158,16 +210,16 @@ void act(Gui& gui, ImWchar key) {
       gui.requests.save_png_path = model.state.picture_path;
       break;
     case 'q':
-      gui.requests.quit = true;
+      gui.requests.quit = model.may_discard();
       break;
     case 'g':
       if (model.is_live()) model.live()->run_to(radians(model.state.run_to_tilt));
       break;
     case 'r':
-      if (model.is_live()) model.restart(static_cast<std::uint64_t>(std::max(model.state.seed, 0)));
+      reset(gui);
       break;
     case 's':
-      if (model.is_live()) model.live()->save();
+      save_state(gui);
       break;
     default:
       change_view(gui, key);
@@ -201,7 +253,7 @@ void draw_help(Gui& gui) {
   for (const KeyLine& line : key_lines) {
     ImGui::TextUnformatted(line.keys);
     ImGui::SameLine(9.0f * gui.em);
-    ImGui::TextUnformatted(line.what);
+    rich_text(line.what);
   }
   ImGui::TextUnformatted("On the map: click a grain, drag to move, wheel to zoom.");
   note_place(gui, "help", ImGui::GetWindowPos(),

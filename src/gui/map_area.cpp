@@ -9,6 +9,8 @@
 namespace talus {
 namespace {
 
+constexpr float legend_lines = 2.8f;  ///< height of the legend, em
+
 /// The map as it lies in the window.
 struct ShownMap {
   ImVec2 corner;
@@ -29,16 +31,16 @@ void draw_caption(const FrameView& view, float width) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const ImU32 ink = ImGui::GetColorU32(ImGuiCol_Text);
   const bool both = title + caption + size < width;
-  add_rich_text(list, {corner.x + width - caption, corner.y}, ink, view.caption);
-  if (both) add_rich_text(list, corner, ink, view.title);
-  ImGui::Dummy({width, size});
+  const float second = both ? corner.y : corner.y + 1.2f * size;
+  add_rich_text(list, corner, ink, view.title);
+  add_rich_text(list, {std::max(corner.x, corner.x + width - caption), second}, ink, view.caption);
+  ImGui::Dummy({width, second + size - corner.y});
 }
 
-/// Gravity, in the corner of the map.
-void draw_gravity(const ImVec2& corner, float em, double fall) {
+/// Gravity, beside the legend.
+void draw_gravity(const ImVec2& middle, float em, double fall) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const ImU32 ink = IM_COL32(0, 0, 0, 255);
-  const ImVec2 middle{corner.x + 1.6f * em, corner.y + 1.6f * em};
   const auto x = static_cast<float>(sine(fall)), y = static_cast<float>(cosine(fall));
   const float reach = 1.1f * em;
   const ImVec2 tip{middle.x + reach * x, middle.y + reach * y};
@@ -59,7 +61,7 @@ void use_mouse(Gui& gui, const ShownMap& shown) {
     const double diameter = gui.model.mean_diameter();
     const std::optional<Index> grain = gui.model.grain_at(place.x, place.y);
     if (grain && !ImGui::IsMouseDown(0))
-      ImGui::SetTooltip("%.1f, %.1f D: grain %d, gamma %.3f", place.x / diameter, place.y / diameter, *grain,
+      ImGui::SetTooltip("%.1f, %.1f D: grain %d, γ = %.3f", place.x / diameter, place.y / diameter, *grain,
                         gui.model.frame().gamma[*grain]);
     const bool dragged = io.MouseDragMaxDistanceSqr[0] > 16.0f;
     if (ImGui::IsMouseReleased(0) && !dragged) state.selected = grain;
@@ -75,13 +77,17 @@ void use_mouse(Gui& gui, const ShownMap& shown) {
 
 }  // namespace
 
+float map_area_height(float picture, float em) {
+  const ImGuiStyle& style = ImGui::GetStyle();
+  return picture + (1.0f + legend_lines) * em + 2.0f * (style.WindowPadding.y + style.ItemSpacing.y);
+}
+
 void draw_map_area(Gui& gui) {
-  const FrameView furnished = gui.model.furnished_map();
   const float width = ImGui::GetContentRegionAvail().x;
-  draw_caption(furnished, width);
-  const float legend_height = 3.0f * gui.em;
+  const FrameView& annotated = gui.model.annotated_map();
+  draw_caption(annotated, width);
   const ImVec2 room{std::max(width, 1.0f),
-                    std::max(ImGui::GetContentRegionAvail().y - legend_height, 4.0f * gui.em)};
+                    std::max(ImGui::GetContentRegionAvail().y - legend_lines * gui.em, 4.0f * gui.em)};
   const int pixels = std::max(static_cast<int>(room.x), smallest_width);
   const FrameView view = gui.model.map(static_cast<double>(room.x) / static_cast<double>(room.y));
   const Layout layout = lay_out(view, pixels, embedded_font());
@@ -94,9 +100,10 @@ void draw_map_area(Gui& gui) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.AddImage(gui.draw_map(view, pixels, static_cast<int>(room.y)), shown.corner, end, {0.0f, 0.0f},
                 {1.0f, (end.y - shown.corner.y) / shown_height});
-  draw_gravity(shown.corner, gui.em, furnished.tilt - view.turn);
+  const ImVec2 under{shown.corner.x + room.x - 1.4f * gui.em, ImGui::GetCursorScreenPos().y + 1.2f * gui.em};
+  draw_gravity(under, gui.em, view.tilt - view.turn);
   use_mouse(gui, shown);
-  draw_legends(furnished);
+  draw_legends(gui.model.annotated_map());
 }
 
 }  // namespace talus

@@ -2,6 +2,7 @@
 #include <filesystem>
 
 #include "gui/panels.h"
+#include "gui/run_actions.h"
 
 namespace talus {
 namespace {
@@ -63,12 +64,17 @@ void draw_file_panel(Gui& gui) {
       gui.requests.save_png_path = state.picture_path;
   }
   if (gui.model.is_live()) {
-    ImGui::SameLine();
-    if (named_button(gui, "save state", "Save state", "a checkpoint of the run: s")) gui.model.live()->save();
+    ImGui::Separator();
+    if (gui.model.recording().output.empty()) {
+      ImGui::SetNextItemWidth(-1.0f);
+      named_text(gui, "run path", "", state.run_path, "run file to write; it is recorded there from then on");
+    }
+    if (named_button(gui, "save state", "Save state", "all that the run has done, to go on with later: s"))
+      save_state(gui);
   }
   std::string command = gui.model.render_command();
   if (command.empty()) {
-    ImGui::TextWrapped("A live run that is recorded (-o RUN.h5) can be drawn by talus render.");
+    ImGui::TextDisabled("Once it is saved, talus render can draw it.");
     return;
   }
   ImGui::Separator();

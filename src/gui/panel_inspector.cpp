@@ -48,20 +48,20 @@ void draw_contacts(const Inspection& grain, double weight) {
 void draw_mohr_circle(Gui& gui, const Inspection& grain, double theta_c) {
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x, em = gui.em;
-  const ImVec2 size{width, 0.62f * width + 1.5f * em};
+  const ImVec2 size{width, 0.74f * width + 1.6f * em};
   ImGui::Dummy(size);
   note_place(gui, "mohr circle");
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const ImU32 ink = IM_COL32(0, 0, 0, 255), law = IM_COL32(213, 94, 0, 255);
-  const float scale = 0.85f * width;  // px for p
-  const ImVec2 origin{corner.x + 0.05f * width, corner.y + 0.5f * size.y};
+  const float scale = 0.7f * width;  // px for p
+  const ImVec2 origin{corner.x + 0.05f * width, corner.y + 1.6f * em + 0.37f * width};
   list.AddLine({corner.x, origin.y}, {corner.x + size.x, origin.y}, ink);
   list.AddLine({origin.x, corner.y + em}, {origin.x, corner.y + size.y}, ink);
   list.AddCircle({origin.x + 0.5f * scale, origin.y},
                  std::max(1.0f, static_cast<float>(0.5 * grain.state.ratio) * scale), ink, 64, 1.5f);
   const auto slope = static_cast<float>(std::tan(theta_c));
   for (const float side : {-1.0f, 1.0f}) {
-    const float reach = std::min(0.9f * width, (0.5f * size.y - em) / slope);
+    const float reach = std::min(0.9f * width, 0.37f * width / slope);
     list.AddLine(origin, {origin.x + reach, origin.y + side * slope * reach}, law);
   }
   add_rich_text(list, {origin.x + 0.3f * em, corner.y}, ink, "τ/p, σ/p; line: θ_c");
@@ -82,8 +82,9 @@ void draw_curve(Gui& gui, const Inspection& grain) {
     threshold.y = {gamma_c, gamma_c};
   }
   plot.series = {std::move(curve), std::move(threshold)};
-  std::optional<double> mark = gui.model.state.neighbourhood;
-  draw_plot(gui, plot, {ImGui::GetContentRegionAvail().x, 12.0f * gui.em}, mark);
+  PlotMarks marks;
+  marks.shown = gui.model.state.neighbourhood;
+  draw_plot(gui, plot, {ImGui::GetContentRegionAvail().x, 12.0f * gui.em}, marks);
 }
 
 void draw_state(const Inspection& grain, double diameter) {

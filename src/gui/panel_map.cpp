@@ -47,6 +47,28 @@ void choose_colours(Gui& gui) {
   if (chosen > 0) map.colours = colour_maps()[static_cast<std::size_t>(chosen - 1)];
 }
 
+/// The ends of the bar, instead of those of the map.
+void choose_range(Gui& gui) {
+  MapSettings& map = gui.model.state.map;
+  if (!has_bar(map.layers)) return;
+  bool own = map.range_low || map.range_high;
+  if (named_checkbox(gui, "range", "range", own, "from where to where the bar goes, instead of its own")) {
+    map.range_low.reset();
+    map.range_high.reset();
+    if (own) {
+      map.range_low = 0.0;
+      map.range_high = 1.0;
+    }
+  }
+  if (!map.range_low || !map.range_high) return;
+  ImGui::PushItemWidth(4.5f * gui.em);
+  ImGui::SameLine();
+  named_number(gui, "range low", "", *map.range_low, "%.3g");
+  ImGui::SameLine();
+  named_number(gui, "range high", "", *map.range_high, "%.3g");
+  ImGui::PopItemWidth();
+}
+
 void choose_reference(Gui& gui) {
   ViewState& state = gui.model.state;
   bool since = state.since.has_value();
@@ -65,10 +87,11 @@ void draw_map_panel(Gui& gui) {
   ImGui::PushItemWidth(9.0f * gui.em);
   choose_layers(gui);
   choose_colours(gui);
+  choose_range(gui);
   ImGui::Separator();
-  named_slider(gui, "threshold", "Gamma_c", state.map.threshold_factor, 0.1, 4.0, "%.2f",
-               "grains are overloaded from this times Gamma_c on: [ and ]");
-  named_slider(gui, "length", "D", state.map.length, 1.0, 40.0, "l = %.1f",
+  named_slider(gui, "threshold", "threshold in Γ_c", state.map.threshold_factor, 0.1, 4.0, "%.2f",
+               "grains are overloaded from this times Γc on: [ and ]");
+  named_slider(gui, "length", "ℓ of the map coarse", state.map.length, 1.0, 40.0, "%.1f D",
                "diameter of the neighbourhoods of the map coarse: , and .");
   choose_reference(gui);
   ImGui::Separator();

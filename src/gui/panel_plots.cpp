@@ -1,22 +1,44 @@
 #include <algorithm>
+#include <cmath>
 
 #include "core/trigonometry.h"
 #include "gui/panels.h"
 #include "gui/plot_widget.h"
 
 namespace talus {
+namespace {
+
+/// Plots as wide as they can be read, and as high as there is room, in rows.
+struct Grid {
+  int columns = 1;
+  ImVec2 cell;
+};
+
+Grid lay_out_plots(const ImVec2& room, int count, float em) {
+  Grid grid;
+  grid.columns = std::clamp(static_cast<int>(room.x / (15.0f * em)), 1, count);
+  const int rows = (count + grid.columns - 1) / grid.columns;
+  grid.columns = (count + rows - 1) / rows;
+  grid.cell = {std::floor(room.x / static_cast<float>(grid.columns)),
+               std::max(std::floor(room.y / static_cast<float>(rows)), 10.0f * em)};
+  return grid;
+}
+
+}  // namespace
 
 void draw_plots(Gui& gui) {
+  const auto plots = gui.model.plots();
   const ImVec2 room = ImGui::GetContentRegionAvail();
-  const float width = std::max(17.0f * gui.em, room.x / 4.0f - 0.5f * gui.em);
-  const ImVec2 size{width, std::max(6.0f * gui.em, room.y)};
-  const double tilt = degrees(gui.model.frame().tilt);
-  bool first = true;
-  for (const Plot& plot : gui.model.plots()) {
-    if (!first) ImGui::SameLine();
-    first = false;
-    draw_plot(gui, plot, size, plot.over_tilt ? std::optional(tilt) : std::nullopt);
+  const Grid grid = lay_out_plots(room, static_cast<int>(plots.size()), gui.em);
+  PlotMarks marks;
+  marks.shown = degrees(gui.model.frame().tilt);
+  if (gui.model.theta_c_known()) marks.theta_c = degrees(gui.model.theta_c());
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0.0f, 0.0f});
+  for (std::size_t k = 0; k < plots.size(); ++k) {
+    if (k % static_cast<std::size_t>(grid.columns) != 0) ImGui::SameLine();
+    draw_plot(gui, plots[k], grid.cell, plots[k].over_tilt ? marks : PlotMarks{});
   }
+  ImGui::PopStyleVar();
 }
 
 }  // namespace talus

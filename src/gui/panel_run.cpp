@@ -33,13 +33,13 @@ void draw_live(Gui& gui, LiveRun& live) {
       advance(gui, count);
   }
   if (status.depositing) {
-    if (named_button(gui, "deposit", "Deposit the bed", "compute until the bed rests and the tilt begins"))
+    if (named_button(gui, "deposit", "Deposit the bed", "compute until the bed rests and the tilt begins: b"))
       live.finish_deposition();
   }
   ImGui::SetNextItemWidth(6.0f * gui.em);
   named_number(gui, "run to angle", "deg", state.run_to_tilt, "%.2f", "the tilt to run to");
   ImGui::SameLine();
-  if (named_button(gui, "run to", "Run to", "compute until the tilt is reached, then pause"))
+  if (named_button(gui, "run to", "Run to", "compute until the tilt is reached, then pause: g"))
     live.run_to(radians(state.run_to_tilt));
   ImGui::Separator();
   draw_status(status, gui.model.theta_c_known(), gui.model.theta_c());
@@ -47,8 +47,19 @@ void draw_live(Gui& gui, LiveRun& live) {
   ImGui::SetNextItemWidth(6.0f * gui.em);
   named_number(gui, "seed", "seed", state.seed, "of the random deposition");
   ImGui::SameLine();
-  if (named_button(gui, "reset", "Reset", "begin the run anew with this seed"))
-    gui.model.restart(static_cast<std::uint64_t>(std::max(state.seed, 0)));
+  if (named_button(gui, "reset", "Reset", "begin the run anew with this seed: r")) reset(gui);
+  ImGui::Separator();
+  const std::string output = gui.model.recording().output;
+  if (output.empty())
+    ImGui::TextDisabled("not recorded; save it under files");
+  else
+    ImGui::TextWrapped("recorded in %s", output.c_str());
+}
+
+/// Goes on in the line where so much fits there.
+void same_line_if_fits(float width) {
+  ImGui::SameLine();
+  if (ImGui::GetContentRegionAvail().x < width) ImGui::NewLine();
 }
 
 void draw_landmarks(Gui& gui) {
@@ -59,17 +70,21 @@ void draw_landmarks(Gui& gui) {
     Landmark landmark;
     const char* tip;
   };
-  const Place places[] = {{"first", "First", Landmark::first, "home"},
-                          {"theta_d", "theta_d", Landmark::theta_d, "where dilation sets in: d"},
-                          {"percolation", "Spans", Landmark::percolation, "a cluster first spans the bed: p"},
-                          {"theta_c", "theta_c", Landmark::theta_c, "the last frame before failure: c"},
-                          {"last", "Last", Landmark::last, "end"}};
+  const Place places[] = {
+      {"first", "first", Landmark::first, "home"},
+      {"theta_d", "θ_d", Landmark::theta_d, "where contraction turns into dilation: d"},
+      {"length jump", "ℓ_c jumps", Landmark::length_jump,
+       "where the largest coarse-graining length jumps: j"},
+      {"percolation", "spans", Landmark::percolation, "where a cluster first spans from floor to surface: p"},
+      {"theta_c", "θ_c", Landmark::theta_c, "the last frame before failure: c"},
+      {"last", "last", Landmark::last, "end"}};
   bool first = true;
   for (const Place& place : places) {
-    if (!model.has(place.landmark)) continue;
-    if (!first) ImGui::SameLine();
+    if (!first) same_line_if_fits(rich_width(*ImGui::GetFont(), ImGui::GetFontSize(), place.label) + gui.em);
     first = false;
+    ImGui::BeginDisabled(!model.has(place.landmark));
     if (named_button(gui, place.name, place.label, place.tip)) model.go_to(place.landmark);
+    ImGui::EndDisabled();
   }
 }
 

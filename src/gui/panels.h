@@ -19,6 +19,8 @@ void draw_inspector(Gui& gui);
 void draw_plots(Gui& gui);
 /// The map with its title and legend, the mouse on it.
 void draw_map_area(Gui& gui);
+/// How high the map is with its title and legend around a picture of `picture` px.
+float map_area_height(float picture, float em);
 /// All keys.
 void draw_help(Gui& gui);
 

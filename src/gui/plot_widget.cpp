@@ -11,7 +11,6 @@ namespace {
 
 constexpr ImU32 ink = IM_COL32(0, 0, 0, 255);
 constexpr ImU32 faint = IM_COL32(0, 0, 0, 90);
-constexpr ImU32 paper = IM_COL32(255, 255, 255, 255);
 constexpr ImU32 mark_colour = IM_COL32(90, 90, 90, 255);
 
 /// Colours of the curves, in their order; they differ in lightness.
@@ -83,38 +82,49 @@ void draw_ticks(ImDrawList& list, const Axes& axes, float em) {
   }
 }
 
-/// Points of a curve that lie in one column of pixels: more than these four would draw over each other.
+constexpr float column_width = 2.0f;  // px: without a GPU each line takes its time
+
+/// The lowest and the highest point of a curve in a narrow column, in their order: all that can be seen of
+/// those in it.
 struct Column {
-  ImVec2 first, low, high, last;
+  ImVec2 low, high;
+  bool low_first = true;
 };
 
-/// A curve of any number of points, thinned to what can be seen.
-void draw_curve(ImDrawList& list, const Axes& axes, const PlotSeries& series, ImU32 colour, bool log_y,
-                float width) {
-  std::vector<ImVec2> line;
+/// A curve of any number of points, thinned to what can be seen. Line by line: a polyline has no width where
+/// it turns back.
+void draw_curve(ImDrawList& list, const Axes& axes, const PlotSeries& series, ImU32 colour, float width) {
+  std::optional<ImVec2> pen;
   std::optional<Column> column;
+  const auto draw_to = [&](const ImVec2& place) {
+    if (pen) list.AddLine(*pen, place, colour, width);
+    pen = place;
+  };
   const auto end_column = [&] {
-    if (column) line.insert(line.end(), {column->first, column->low, column->high, column->last});
+    if (!column) return;
+    draw_to(column->low_first ? column->low : column->high);
+    if (column->low.y != column->high.y) draw_to(column->low_first ? column->high : column->low);
     column.reset();
   };
-  const auto end_line = [&] {
-    end_column();
-    list.AddPolyline(line.data(), static_cast<int>(line.size()), colour, ImDrawFlags_None, width);
-    line.clear();
-  };
   for (std::size_t k = 0; k < series.x.size(); ++k) {
-    if (!std::isfinite(series.y[k]) || (log_y && !(series.y[k] > 0.0))) {
-      end_line();
+    if (!std::isfinite(series.y[k]) || (axes.log_y && !(series.y[k] > 0.0))) {
+      end_column();
+      pen.reset();
       continue;
     }
     const ImVec2 now{axes.px(series.x[k]), axes.py(series.y[k])};
-    if (column && std::floor(now.x) != std::floor(column->first.x)) end_column();
-    if (!column) column = Column{now, now, now, now};
-    if (now.y < column->low.y) column->low = now;
-    if (now.y > column->high.y) column->high = now;
-    column->last = now;
+    if (column && std::floor(now.x / column_width) != std::floor(column->low.x / column_width)) end_column();
+    if (!column) column = Column{now, now, true};
+    if (now.y < column->low.y) {
+      column->low = now;
+      column->low_first = false;
+    }
+    if (now.y > column->high.y) {
+      column->high = now;
+      column->low_first = true;
+    }
   }
-  end_line();
+  end_column();
 }
 
 /// The value of a curve nearest to x.
@@ -137,20 +147,36 @@ void show_values(const Plot& plot, const Axes& axes) {
   ImGui::EndTooltip();
 }
 
+/// The title, and the names of several curves in their colours: beside it where there is room, else alone.
 void draw_names(ImDrawList& list, const Plot& plot, const ImVec2& place, float right, float em) {
-  add_rich_text(list, place, ink, plot.title);
-  if (plot.series.size() < 2) return;
-  float x = right;
-  for (std::size_t k = plot.series.size(); k-- > 0;) {
-    x -= rich_width(*ImGui::GetFont(), ImGui::GetFontSize(), plot.series[k].name) + 0.8f * em;
-    if (x < place.x + rich_width(*ImGui::GetFont(), ImGui::GetFontSize(), plot.title)) return;
+  const auto width_of = [](const std::string& text) {
+    return rich_width(*ImGui::GetFont(), ImGui::GetFontSize(), text);
+  };
+  float names = 0.0f;
+  for (const PlotSeries& series : plot.series) names += width_of(series.name) + 0.8f * em;
+  const bool several = plot.series.size() > 1;
+  const float title = width_of(plot.title);
+  if (!several || title + names < right - place.x) add_rich_text(list, place, ink, plot.title);
+  if (!several) return;
+  float x = std::max(place.x, right - names + 0.8f * em);
+  for (std::size_t k = 0; k < plot.series.size(); ++k) {
     add_rich_text(list, {x, place.y}, curve_colour(k), plot.series[k].name);
+    x += width_of(plot.series[k].name) + 0.8f * em;
   }
+}
+
+void draw_marks(ImDrawList& list, const Axes& axes, const PlotMarks& marks, float em) {
+  if (marks.shown)
+    list.AddLine({axes.px(*marks.shown), axes.low.y}, {axes.px(*marks.shown), axes.high.y}, mark_colour);
+  if (!marks.theta_c) return;
+  const float x = axes.px(*marks.theta_c), dash = 0.3f * em;
+  for (float y = axes.low.y; y < axes.high.y; y += 2.0f * dash)
+    list.AddLine({x, y}, {x, std::min(y + dash, axes.high.y)}, faint);
 }
 
 }  // namespace
 
-void draw_plot(Gui& gui, const Plot& plot, const ImVec2& size, std::optional<double> mark) {
+void draw_plot(Gui& gui, const Plot& plot, const ImVec2& size, const PlotMarks& marks) {
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   ImGui::InvisibleButton(std::string("plot ").append(plot.name).c_str(), size);
   note_place(gui, std::string("plot ").append(plot.name));
@@ -159,12 +185,11 @@ void draw_plot(Gui& gui, const Plot& plot, const ImVec2& size, std::optional<dou
   const float em = gui.em;
   Axes axes;
   axes.log_y = plot.log_y;
-  axes.low = {corner.x + 3.6f * em, corner.y + 1.4f * em};
-  axes.high = {corner.x + size.x - 0.8f * em, corner.y + size.y - 2.4f * em};
+  axes.low = {corner.x + 3.4f * em, corner.y + 1.5f * em};
+  axes.high = {corner.x + size.x - 0.8f * em, corner.y + size.y - 2.5f * em};
   list.PushClipRect(corner, {corner.x + size.x, corner.y + size.y}, true);
-  draw_names(list, plot, {axes.low.x, corner.y}, axes.high.x, em);
+  draw_names(list, plot, {axes.low.x, corner.y + 0.2f * em}, axes.high.x, em);
   list.PopClipRect();
-  list.AddRectFilled(axes.low, axes.high, paper);
   list.AddRect(axes.low, axes.high, ink);
   const float title = rich_width(*ImGui::GetFont(), ImGui::GetFontSize(), plot.x_title);
   add_rich_text(list, {0.5f * (axes.low.x + axes.high.x - title), axes.high.y + 1.1f * em}, ink,
@@ -178,9 +203,9 @@ void draw_plot(Gui& gui, const Plot& plot, const ImVec2& size, std::optional<dou
   axes.y.widen();
   draw_ticks(list, axes, em);
   list.PushClipRect(axes.low, axes.high, true);
-  if (mark) list.AddLine({axes.px(*mark), axes.low.y}, {axes.px(*mark), axes.high.y}, mark_colour);
+  draw_marks(list, axes, marks, em);
   for (std::size_t k = plot.series.size(); k-- > 0;)
-    draw_curve(list, axes, plot.series[k], curve_colour(k), plot.log_y, plot.series[k].law ? 1.0f : 1.5f);
+    draw_curve(list, axes, plot.series[k], curve_colour(k), plot.series[k].law ? 1.0f : 1.5f);
   list.PopClipRect();
   if (ImGui::IsItemHovered()) show_values(plot, axes);
 }

@@ -7,7 +7,13 @@
 
 namespace talus {
 
-/// Draws a plot into a box of that size at the cursor. `mark`: x of the frame shown. Noted as "plot NAME".
-void draw_plot(Gui& gui, const Plot& plot, const ImVec2& size, std::optional<double> mark);
+/// Vertical lines.
+struct PlotMarks {
+  std::optional<double> shown;    ///< x of the frame shown
+  std::optional<double> theta_c;  ///< dashed
+};
+
+/// Draws a plot into a box of that size at the cursor. Noted as "plot NAME".
+void draw_plot(Gui& gui, const Plot& plot, const ImVec2& size, const PlotMarks& marks);
 
 }  // namespace talus

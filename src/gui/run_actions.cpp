@@ -39,6 +39,38 @@ void send(Gui& gui, const Command& command) {
   }
 }
 
+void reset(Gui& gui) {
+  ViewModel& model = gui.model;
+  if (!model.is_live() || !model.may_discard()) return;
+  try {
+    model.restart(static_cast<std::uint64_t>(std::max(model.state.seed, 0)));
+    model.state.message = "A new run, seed " + std::to_string(model.seed()) + ".";
+  } catch (const Error& error) {
+    model.state.message = error.what();
+  }
+}
+
+void save_state(Gui& gui) {
+  ViewModel& model = gui.model;
+  if (!model.is_live()) {
+    model.state.message = "A replay has nothing to save: its run file holds all of it.";
+    return;
+  }
+  try {
+    if (model.recording().output.empty())
+      model.record(model.state.run_path);
+    else
+      model.live()->save();
+    model.state.message = std::string("Saved at step ")
+                              .append(std::to_string(model.live()->status().step))
+                              .append(" in ")
+                              .append(model.recording().output)
+                              .append(".");
+  } catch (const Error& error) {
+    model.state.message = error.what();
+  }
+}
+
 void push_selected(Gui& gui) {
   const ViewState& state = gui.model.state;
   if (!state.selected) {

@@ -36,6 +36,17 @@ void for_pieces(std::string_view text, const Piece& piece) {
   }
 }
 
+/// What follows a widget: where it is, the tip under the mouse, its label.
+void finish_widget(Gui& gui, const char* name, const char* label, const char* tip) {
+  note_place(gui, name);
+  show_tip(tip);
+  if (*label == '\0') return;
+  ImGui::SameLine(0.0f, ImGui::GetStyle().ItemInnerSpacing.x);
+  rich_text(label);
+}
+
+std::string hidden(const char* name) { return std::string("##").append(name); }
+
 }  // namespace
 
 void note_place(Gui& gui, std::string name, const ImVec2& low, const ImVec2& high) {
@@ -47,8 +58,15 @@ void note_place(Gui& gui, std::string name) {
 }
 
 bool named_button(Gui& gui, const char* name, const char* label, const char* tip) {
-  const bool pressed = ImGui::Button(std::string(label).append("##").append(name).c_str());
+  const ImGuiStyle& style = ImGui::GetStyle();
+  const float width = rich_width(*ImGui::GetFont(), ImGui::GetFontSize(), label);
+  const bool pressed =
+      ImGui::Button(std::string("##").append(name).c_str(), {width + 2.0f * style.FramePadding.x, 0.0f});
   note_place(gui, name);
+  const ImVec2 corner = ImGui::GetItemRectMin();
+  add_rich_text(*ImGui::GetWindowDrawList(),
+                {corner.x + style.FramePadding.x, corner.y + style.FramePadding.y},
+                ImGui::GetColorU32(ImGuiCol_Text), label);
   show_tip(tip);
   return pressed;
 }
@@ -64,11 +82,9 @@ bool named_slider(Gui& gui, const char* name, const char* label, double& value, 
                   const char* format, const char* tip, bool logarithmic) {
   const ImGuiSliderFlags flags =
       ImGuiSliderFlags_AlwaysClamp | (logarithmic ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None);
-  const std::string id = std::string(label).append("##").append(name);
   const bool changed =
-      ImGui::SliderScalar(id.c_str(), ImGuiDataType_Double, &value, &low, &high, format, flags);
-  note_place(gui, name);
-  show_tip(tip);
+      ImGui::SliderScalar(hidden(name).c_str(), ImGuiDataType_Double, &value, &low, &high, format, flags);
+  finish_widget(gui, name, label, tip);
   return changed;
 }
 
@@ -78,7 +94,9 @@ std::optional<double> named_slider_when_done(Gui& gui, const char* name, const c
   float& held =
       *ImGui::GetStateStorage()->GetFloatRef(ImGui::GetID(name), std::numeric_limits<float>::quiet_NaN());
   double value = std::isnan(held) ? current : static_cast<double>(held);
+  ImGui::BeginGroup();  // with its label
   named_slider(gui, name, label, value, low, high, format, tip);
+  ImGui::EndGroup();
   const bool done = ImGui::IsItemDeactivatedAfterEdit();
   held = ImGui::IsItemActive() ? static_cast<float>(value) : std::numeric_limits<float>::quiet_NaN();
   return done ? std::optional(value) : std::nullopt;
@@ -86,17 +104,14 @@ std::optional<double> named_slider_when_done(Gui& gui, const char* name, const c
 
 bool named_number(Gui& gui, const char* name, const char* label, double& value, const char* format,
                   const char* tip) {
-  const bool changed =
-      ImGui::InputDouble(std::string(label).append("##").append(name).c_str(), &value, 0.0, 0.0, format);
-  note_place(gui, name);
-  show_tip(tip);
+  const bool changed = ImGui::InputDouble(hidden(name).c_str(), &value, 0.0, 0.0, format);
+  finish_widget(gui, name, label, tip);
   return changed;
 }
 
 bool named_number(Gui& gui, const char* name, const char* label, int& value, const char* tip) {
-  const bool changed = ImGui::InputInt(std::string(label).append("##").append(name).c_str(), &value, 0);
-  note_place(gui, name);
-  show_tip(tip);
+  const bool changed = ImGui::InputInt(hidden(name).c_str(), &value, 0);
+  finish_widget(gui, name, label, tip);
   return changed;
 }
 

@@ -18,15 +18,16 @@ struct Gui {
   const DrawMap& draw_map;
   std::vector<WidgetPlace>& places;
   GuiRequests& requests;
-  float em = 16.0f;  ///< height of the text, px
+  float em = 16.0f;         ///< height of the text, px
+  std::string panel_asked;  ///< a panel that a key has asked for
 };
 
 /// Remembers where the widget drawn last is.
 void note_place(Gui& gui, std::string name);
 void note_place(Gui& gui, std::string name, const ImVec2& low, const ImVec2& high);
 
-/// Widgets that are remembered under `name`; true where the user has used them. `tip` is shown under the
-/// mouse.
+/// Widgets that are remembered under `name`; true where the user has used them. Labels of buttons are rich
+/// texts. `tip` is shown under the mouse.
 bool named_button(Gui& gui, const char* name, const char* label, const char* tip = nullptr);
 bool named_checkbox(Gui& gui, const char* name, const char* label, bool& value, const char* tip = nullptr);
 bool named_slider(Gui& gui, const char* name, const char* label, double& value, double low, double high,

@@ -252,6 +252,8 @@ GuiRequests GuiWindow::next_picture(ViewModel& model) {
 
 bool GuiWindow::closed() const { return glfwWindowShouldClose(state_->window.get()); }
 
+void GuiWindow::stay_open() { glfwSetWindowShouldClose(state_->window.get(), GLFW_FALSE); }
+
 const std::vector<WidgetPlace>& GuiWindow::places() const { return state_->screen.places(); }
 
 Image GuiWindow::draw_image(const FrameView& view, int width) {

@@ -27,6 +27,7 @@ class GuiWindow {
   GuiRequests next_picture(ViewModel& model);
 
   bool closed() const;  ///< asked to by its user
+  void stay_open();     ///< though it was asked to close
   const std::vector<WidgetPlace>& places() const;
   /// A view as talus render draws it.
   Image draw_image(const FrameView& view, int width);

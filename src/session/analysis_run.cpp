@@ -17,7 +17,6 @@ namespace talus {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
-constexpr double dilation_window = 1.0;  // deg
 
 double theta_c_of(const RunFile& run) {
   for (const auto& [name, value] : run.checkpoint().results)

@@ -34,6 +34,9 @@ struct DilationOnset {
   double low = 0.0;   ///< the range around it in which the mean is not above its minimum by more than the
   double high = 0.0;  ///< noise, which is the rms deviation of the strain from the mean
 };
+/// deg, the window of dilation_onset in analyses.
+inline constexpr double dilation_window = 1.0;
+
 /// The mean is over window/2 on either side, less near the ends, where it stays symmetric. No onset where the
 /// range reaches the end: the strain has not risen by more than the noise.
 DilationOnset dilation_onset(std::span<const double> tilts, std::span<const double> strains, double theta_c,

@@ -14,11 +14,6 @@ double largest_extent(double a, double b, double turn_max) {
   return a * std::cos(turn) + b * std::sin(turn);
 }
 
-/// Width over height of a picture of a part that is 1 long and `depth` deep.
-double picture_aspect(double depth, double turn_max) {
-  return largest_extent(1.0, depth, turn_max) / largest_extent(depth, 1.0, turn_max);
-}
-
 /// Depth over length of the part that fills a picture of that aspect. Where it is turned, pictures can be so
 /// wide, or so high, that no part fills them.
 double shape_of(double aspect, double turn_max) {
@@ -38,6 +33,10 @@ double begin_of(double centre, double stretch, double low, double high) {
 }
 
 }  // namespace
+
+double picture_aspect(double depth, double turn_max) {
+  return largest_extent(1.0, depth, turn_max) / largest_extent(depth, 1.0, turn_max);
+}
 
 ViewCamera clamped(const ViewCamera& camera, const MapExtent& bed, double mean_diameter) {
   const double largest_zoom = std::max(1.0, (bed.x_max - bed.x_min) / (smallest_part * mean_diameter));

@@ -10,6 +10,10 @@ namespace talus {
 /// centre in the bed.
 ViewCamera clamped(const ViewCamera& camera, const MapExtent& bed, double mean_diameter);
 
+/// Width over height of a picture in which a part 1 long and `depth` deep just has room, turned by up to
+/// `turn_max` (rad, >= 0).
+double picture_aspect(double depth, double turn_max);
+
 /// The part of the bed that fills a picture of that aspect (width / height). With zoom 1 it is all of the
 /// bed, and what is left of the picture is beside it; else no more is shown beyond an end of the bed than
 /// there has to be. `turn_max` (rad, >= 0): the part is drawn turned by up to that angle, and all of it is to

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/trigonometry.h"
 #include "session/analysis_transition.h"
 
 namespace talus {
@@ -11,6 +12,16 @@ std::optional<std::size_t> percolation_frame(std::span<const FrameValues> frames
   const auto first = std::ranges::find(frames, true, &FrameValues::spans);
   if (first == frames.end()) return std::nullopt;
   return static_cast<std::size_t>(first - frames.begin());
+}
+
+std::optional<std::size_t> dilation_frame(std::span<const ObservableRow> rows,
+                                          const std::vector<double>& tilts, double theta_c) {
+  std::vector<double> row_tilts, strains;
+  for (const ObservableRow& row : rows) {
+    row_tilts.push_back(at(row, Observable::tilt));
+    strains.push_back(at(row, Observable::volume_strain));
+  }
+  return nearest_frame(tilts, dilation_onset(row_tilts, strains, theta_c, radians(dilation_window)).tilt);
 }
 
 std::optional<std::size_t> length_jump_frame(std::span<const FrameValues> frames, const RunStatics& statics,

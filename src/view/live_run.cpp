@@ -59,10 +59,12 @@ std::string one_line(std::string text) {
 struct LiveRun::State {
   Session session;
   const RunStatics statics;
+  const RunOrigin origin;
   std::optional<RunStore> store;
   std::optional<Recorder> recorder;
+  bool is_recorded = false;  ///< also after it has been packed
   Taken taken;
-  Clock::time_point shown_at;
+  Clock::time_point show_at;  ///< the next frame
   Clock::time_point speed_since;
   std::int64_t speed_step = 0;
 
@@ -71,25 +73,25 @@ struct LiveRun::State {
   std::condition_variable answered;
   std::optional<Goal> goal;
   bool pause_asked = false;
-  bool save_asked = false;
-  std::optional<Command> command_asked;
-  std::exception_ptr refusal;  ///< of the command asked last
+  std::function<void()> request;  ///< that is waited for; the solver does it between two steps
+  std::exception_ptr refusal;     ///< of the request done last
   LiveStatus status;
   std::shared_ptr<const Frame> frame;
   LiveHistory history;
 
   std::jthread solver;  ///< last: ends before what it uses
 
-  explicit State(const Scenario& scenario)
-      : session(scenario), statics(run_statics(scenario, session.world())) {}
+  State(const Scenario& scenario, RunOrigin from)
+      : session(scenario), statics(run_statics(scenario, session.world())), origin(std::move(from)) {}
 
   void play_to(const Goal& next);
-  void ask(std::unique_lock<std::mutex>& lock);
+  void ask(std::function<void()> next);
 
   void work(const std::stop_token& stop);
   bool goes_on();
   void answer();
   void apply(const Command& command);
+  void record(const std::string& output, bool overwrite);
   void take_step();
   void keep(const std::function<void()>& store_something);
   void take_in();
@@ -114,10 +116,14 @@ void LiveRun::State::play_to(const Goal& next) {
   asked.notify_one();
 }
 
-/// Waits until the solver has done what was asked: between two steps, so at most a step.
-void LiveRun::State::ask(std::unique_lock<std::mutex>& lock) {
+/// Waits until the solver has done what is asked: between two steps, so at most a step. Throws what it
+/// throws.
+void LiveRun::State::ask(std::function<void()> next) {
+  std::unique_lock lock(mutex);
+  request = std::move(next);
   asked.notify_one();
-  answered.wait(lock, [this] { return !command_asked && !save_asked; });
+  answered.wait(lock, [this] { return !request; });
+  if (refusal) std::rethrow_exception(std::exchange(refusal, nullptr));
 }
 
 // --- the solver's thread ---
@@ -132,7 +138,7 @@ void LiveRun::State::work(const std::stop_token& stop) {
     show_pause();
     pack();
     std::unique_lock lock(mutex);
-    asked.wait(lock, stop, [this] { return goal || command_asked || save_asked; });
+    asked.wait(lock, stop, [this] { return goal || request; });
     speed_since = Clock::now();
     speed_step = session.world().step;
   }
@@ -146,25 +152,22 @@ bool LiveRun::State::goes_on() {
   return goal.has_value();
 }
 
-/// Commands and saves that are waited for.
+/// Does what is waited for.
 void LiveRun::State::answer() {
   std::unique_lock lock(mutex);
-  if (!command_asked && !save_asked) return;
-  const std::optional<Command> command = command_asked;
-  const bool save = save_asked;
+  if (!request) return;
+  const std::function<void()> next = request;
   lock.unlock();
   std::exception_ptr refused;
   try {
-    if (command) apply(*command);
-  } catch (const Error&) {
+    next();
+  } catch (const std::exception&) {
     refused = std::current_exception();
   }
-  if (save && recorder) keep([this] { recorder->commit(); });
-  if (command || save) show_pause();
+  show_pause();
   lock.lock();
   refusal = refused;
-  command_asked.reset();
-  save_asked = false;
+  request = nullptr;
   answered.notify_one();
 }
 
@@ -173,6 +176,13 @@ void LiveRun::State::apply(const Command& command) {
   take_in();
   const std::lock_guard lock(mutex);
   describe();
+}
+
+/// Records all that the session has done since it began, and what comes.
+void LiveRun::State::record(const std::string& output, bool overwrite) {
+  store = RunStore::create(output, run_header(session, origin), overwrite);
+  recorder.emplace(session, *store);
+  is_recorded = true;
 }
 
 void LiveRun::State::take_step() {
@@ -185,9 +195,8 @@ void LiveRun::State::take_step() {
   }
   take_in();
   keep([this, failed] {
-    if (!recorder)
-      session.clear_segment();
-    else if (failed)
+    if (!recorder) return;
+    if (failed)
       recorder->commit();  // the state before what failed is whole
     else
       recorder->commit_if_due();
@@ -196,7 +205,7 @@ void LiveRun::State::take_step() {
     const std::lock_guard lock(mutex);
     describe();
   }
-  if (Clock::now() - shown_at >= frame_interval) show_frame();
+  if (Clock::now() >= show_at) show_frame();
 }
 
 /// Does something that empties the segment, unless it fails.
@@ -246,7 +255,9 @@ void LiveRun::State::describe() {
 
 void LiveRun::State::show_frame() {
   auto next = std::make_shared<const Frame>(make_frame(session.world(), session.law()));
-  shown_at = Clock::now();
+  // A step late is made good by the next.
+  const auto interval = std::chrono::duration_cast<Clock::duration>(frame_interval);
+  show_at = std::max(show_at + interval, Clock::now());
   const std::lock_guard lock(mutex);
   frame = std::move(next);
 }
@@ -290,14 +301,10 @@ void LiveRun::State::fail(const std::exception& error) {
 
 LiveRun::LiveRun(const Scenario& scenario, const std::string& scenario_text, const std::string& output,
                  bool overwrite, const std::string& command_line)
-    : state_(std::make_unique<State>(scenario)) {
-  const int threads = solver_threads();
-  state_->session.use_threads(threads);
-  if (!output.empty()) {
-    const RunHeader header = run_header(state_->session, {scenario_text, {}, command_line, threads});
-    state_->store = RunStore::create(output, header, overwrite);
-    state_->recorder.emplace(state_->session, *state_->store);
-  }
+    : state_(
+          std::make_unique<State>(scenario, RunOrigin{scenario_text, {}, command_line, solver_threads()})) {
+  state_->session.use_threads(state_->origin.threads);
+  if (!output.empty()) state_->record(output, overwrite);
   state_->show_pause();
   state_->solver = std::jthread([state = state_.get()](const std::stop_token& stop) { state->work(stop); });
 }
@@ -317,17 +324,33 @@ void LiveRun::run_to(double tilt) { state_->play_to({.tilt = tilt}); }
 
 void LiveRun::finish_deposition() { state_->play_to({.end_of_deposition = true}); }
 
+void LiveRun::halt() {
+  state_->ask([state = state_.get()] {
+    {
+      const std::lock_guard lock(state->mutex);
+      state->goal.reset();
+    }
+    state->pack();
+  });
+}
+
 void LiveRun::apply(Command command) {
-  std::unique_lock lock(state_->mutex);
-  state_->command_asked = command;
-  state_->ask(lock);
-  if (state_->refusal) std::rethrow_exception(std::exchange(state_->refusal, nullptr));
+  state_->ask([state = state_.get(), command] { state->apply(command); });
+}
+
+void LiveRun::record(const std::string& output, bool overwrite) {
+  state_->ask([state = state_.get(), &output, overwrite] {
+    if (state->is_recorded) throw Error(ExitCode::usage, "this run is recorded already");
+    state->record(output, overwrite);
+    state->keep([state] { state->recorder->commit(); });
+    state->pack();
+  });
 }
 
 void LiveRun::save() {
-  std::unique_lock lock(state_->mutex);
-  state_->save_asked = true;
-  state_->ask(lock);
+  state_->ask([state = state_.get()] {
+    if (state->recorder) state->keep([state] { state->recorder->commit(); });
+  });
 }
 
 const RunStatics& LiveRun::statics() const { return state_->statics; }

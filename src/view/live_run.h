@@ -32,11 +32,12 @@ struct LiveStatus {
 };
 
 /// All members may be called from one thread, which is not the solver's. While a run is recorded, the
-/// solver's thread writes files: no other may read or write HDF5 (RunFile) meanwhile.
+/// solver's thread writes files: no other may read or write HDF5 (RunFile) meanwhile, but after halt.
 class LiveRun {
  public:
   /// Begins the run of a scenario, paused before its first step. With an `output`, it is recorded as `talus
-  /// run` records it, with its commands; `overwrite` as there. Throws as RunStore::create.
+  /// run` records it, with its commands; `overwrite` as there. Without, all of it is kept in memory. Throws
+  /// as RunStore::create.
   LiveRun(const Scenario& scenario, const std::string& scenario_text, const std::string& output,
           bool overwrite, const std::string& command_line);
   /// Finishes the step under way, commits what there is, and ends. A run that is done is packed.
@@ -49,10 +50,15 @@ class LiveRun {
   void step(std::int64_t count);  ///< so many steps, then pause
   void run_to(double tilt);       ///< rad: plays until the tilt is reached, then pauses
   void finish_deposition();       ///< plays until the tilt begins, then pauses
+  /// Pauses, and returns when the solver rests: from then on it touches no file until it is asked to go on.
+  void halt();
   /// Applies a command before the next step, and returns when that is done; its step number is filled in.
   /// Throws as Session::apply: Error(usage) for no such grain, a value that is not finite or out of range, a
   /// run that is done.
   void apply(Command command);
+  /// Records a run that is not recorded yet, from its beginning, and returns when that is on disk. Throws as
+  /// RunStore::create, and Error(usage) where it is recorded already.
+  void record(const std::string& output, bool overwrite);
   /// Commits a checkpoint, and returns when that is done; does nothing without an output. Where it fails, the
   /// status says so.
   void save();

@@ -47,29 +47,17 @@ std::vector<Plot> empty_plots() {
   std::vector<Plot> plots(plot_count);
   const auto set = [&plots](PlotKind kind, Plot plot) { plot_of(plots, kind) = std::move(plot); };
   const auto one = [](const std::string& name) { return PlotSeries{name, {}, {}, false}; };
-  set(PlotKind::stress, {"stress",
-                         "Γ = Q/P and σ_T/σ_N of the packing",
-                         tilt,
-                         true,
-                         false,
-                         {one("Γ"), one("σ_T/σ_N"), law("sin θ"), law("tan θ")}});
-  set(PlotKind::overloaded,
-      {"overloaded", "p_o, share of overloaded grains", tilt, true, false, {one("p_o")}});
-  set(PlotKind::cluster, {"cluster",
-                          "Largest cluster, share of the overloaded grains",
-                          tilt,
-                          true,
-                          false,
-                          {one("largest cluster")}});
-  set(PlotKind::lengths,
-      {"lengths", "Coarse-graining length l_c in D", tilt, true, false, {one("mean"), one("largest")}});
+  set(PlotKind::stress,
+      {"stress", "Packing", tilt, true, false, {one("Γ = Q/P"), one("σ_T/σ_N"), law("sin θ"), law("tan θ")}});
+  set(PlotKind::overloaded, {"overloaded", "Overloaded grains, share p_o", tilt, true, false, {one("p_o")}});
+  set(PlotKind::cluster,
+      {"cluster", "Largest cluster, share of p_o", tilt, true, false, {one("largest cluster")}});
+  set(PlotKind::lengths, {"lengths", "ℓ_c in D", tilt, true, false, {one("mean"), one("largest")}});
   set(PlotKind::strain, {"strain", "Volume strain ΔV/V in %", tilt, true, false, {one("ΔV/V")}});
-  set(PlotKind::energy,
-      {"energy", "Kinetic energy of a grain in mgD", tilt, true, true, {one("E_kin/(NmgD)")}});
-  set(PlotKind::gamma,
-      {"gamma", "Probability density of γ, this frame", "γ = q/p", false, false, {one("pdf")}});
+  set(PlotKind::energy, {"energy", "Energy E_k/mgD of a grain", tilt, true, true, {one("kinetic energy")}});
+  set(PlotKind::gamma, {"gamma", "Density of γ, this frame", "γ = q/p", false, false, {one("pdf")}});
   set(PlotKind::residual, {"residual", "Solver residual η", "step", false, true, {one("η")}});
-  set(PlotKind::passes, {"passes", "Solver passes over all contacts", "step", false, false, {one("passes")}});
+  set(PlotKind::passes, {"passes", "Solver passes", "step", false, false, {one("passes")}});
   return plots;
 }
 

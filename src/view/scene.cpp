@@ -42,7 +42,7 @@ std::vector<DrawnGrain> drawn_cluster(const Frame& frame, const RunStatics& stat
 
 /// A disc with a broad rim in the colour of the cluster: one in that colour, and its own fill within.
 void add_highlighted(FrameView& view, const Disc& disc) {
-  constexpr float inner = 0.7f;
+  constexpr float inner = 0.78f;
   Disc rim = disc, within = disc;
   rim.fill = rim.rim = cluster_colour;
   within.rim = within.fill;
@@ -95,13 +95,14 @@ void add_ring(FrameView& view, Vec2 centre, double radius, double half_width, co
 void add_overlay(FrameView& view, const Frame& frame, const Overlay& overlay, const RunStatics& statics) {
   if (!overlay.selected) return;
   const double d = statics.mean_diameter;
+  const double pen = std::min(d, (view.x_max - view.x_min) / 60.0);  // finer where little is shown
   const auto grain = static_cast<std::size_t>(*overlay.selected);
   const Vec2 centre{frame.x[grain], frame.y[grain]};
   for (const double diameter : overlay.diameters)
-    add_ring(view, centre, 0.5 * diameter, 0.05 * d, circle_colour, statics);
+    add_ring(view, centre, 0.5 * diameter, 0.05 * pen, circle_colour, statics);
   if (overlay.critical_length)
-    add_ring(view, centre, 0.5 * *overlay.critical_length, 0.09 * d, length_colour, statics);
-  add_ring(view, centre, statics.radius[grain] + 0.05 * d, 0.08 * d, selection_colour, statics);
+    add_ring(view, centre, 0.5 * *overlay.critical_length, 0.09 * pen, length_colour, statics);
+  add_ring(view, centre, statics.radius[grain] + 0.05 * d, 0.08 * pen, selection_colour, statics);
 }
 
 /// Side walls, and a smooth floor.

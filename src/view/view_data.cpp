@@ -39,17 +39,30 @@ void ViewModel::Data::open_replay() {
   rows = file.observables();
   plot_observables(rows, statics, plots);
   plot_steps(file.steps(), plots);
+  dilation = dilation_frame(rows, file.frame_tilts(), theta_c.value_or(std::nan("")));
   // The bed is highest at its beginning or at its end.
   bed = extent_of(*frames->read(replay->count() - 1), statics);
   show(replay->frame(0));
-  series = std::make_unique<FrameSeries>(statics, [from = frames](std::size_t k) { return from->read(k); });
-  series->set_counts(replay->count(), file.frame_count());
+  begin_series();
 }
 
-void ViewModel::Data::start_live(bool overwrite) {
+void ViewModel::Data::begin_series() {
   series.reset();
-  live.reset();  // it lets go of its output, which the next takes
-  live = std::make_unique<LiveRun>(scenario, scenario_text, output, overwrite, command_line);
+  if (replay) {
+    series = std::make_unique<FrameSeries>(statics, [from = frames](std::size_t k) { return from->read(k); });
+    series->set_counts(replay->count(), frames->file().frame_count());
+  } else {
+    series =
+        std::make_unique<FrameSeries>(statics, [from = recorded](std::size_t k) { return from->read(k); });
+    series->set_counts(recorded->all().size(), recorded->all().size());
+  }
+}
+
+void ViewModel::Data::start_live(const std::string& next_output, bool overwrite) {
+  auto next = std::make_unique<LiveRun>(scenario, scenario_text, next_output, overwrite, command_line);
+  output = next_output;
+  series.reset();
+  live = std::move(next);
   statics = live->statics();
   seed = scenario.seed;
   theta_c.reset();
@@ -57,7 +70,7 @@ void ViewModel::Data::start_live(bool overwrite) {
   plots = empty_plots();
   show(live->frame());
   recorded = std::make_shared<RecordedFrames>();
-  series = std::make_unique<FrameSeries>(statics, [from = recorded](std::size_t k) { return from->read(k); });
+  begin_series();
 }
 
 std::shared_ptr<const Frame> ViewModel::Data::read(std::size_t k) {
@@ -130,6 +143,8 @@ std::optional<std::size_t> ViewModel::Data::place_of(Landmark landmark) const {
     case Landmark::percolation:
       return percolation_frame(series->values());
     case Landmark::theta_d:
+      return dilation;
+    case Landmark::length_jump:
       if (!series->has_all_values()) return std::nullopt;
       return length_jump_frame(series->values(), statics, theta_c.value_or(std::nan("")));
   }

@@ -44,10 +44,13 @@ struct ViewModel::Data {
   std::shared_ptr<RunFrames> frames;
   std::optional<Replay> replay;
   std::optional<Analysis> analysis;
+  std::optional<std::size_t> dilation;  ///< the frame at which it begins
 
   // Of a run that is computed.
   Scenario scenario;
-  std::string scenario_text, output, command_line;
+  std::vector<std::string> scenario_settings;
+  std::string scenario_text, command_line;
+  std::string first_output, output;  ///< asked for at first; of this run: empty, it is not recorded
   std::unique_ptr<LiveRun> live;
   std::shared_ptr<RecordedFrames> recorded;
 
@@ -79,7 +82,9 @@ struct ViewModel::Data {
 
   // view_data.cpp: what is shown, and how it goes on.
   void open_replay();
-  void start_live(bool overwrite);
+  /// Begins the run of `scenario`, and shows it instead of what was shown.
+  void start_live(const std::string& output, bool overwrite);
+  void begin_series();
   /// Frame k of a replay; null, with the reason in `error`, where it cannot be read.
   std::shared_ptr<const Frame> read(std::size_t k);
   /// Shows the frame that a replay is at; where it cannot be read, the one before stays and playing ends.
@@ -96,13 +101,15 @@ struct ViewModel::Data {
   // view_shown.cpp: what is made of it.
   double shown_theta_c() const;
   /// The settings of the map, with what the run has to say.
-  MapSettings settings(const ViewState& state) const;
+  MapSettings map_settings(const ViewState& state) const;
   const Clusters& shown_clusters(const MapSettings& settings);
   const std::vector<ClusterColour>& shown_colours(const MapSettings& settings);
   const Inspection* inspect_selected(const ViewState& state);
   MapExtent part(const ViewState& state, double aspect) const;
   /// The frame that displacements are measured from; null where there is none.
   std::shared_ptr<const Frame> reference(const MapSettings& settings, std::optional<double> since);
+  /// Width over height of a picture in which the bed just has room.
+  double bed_aspect(const ViewState& state) const;
   const FrameView& whole_map(const ViewState& state, const MapExtent& part);
   FrameView picture(const ViewState& state, const MapExtent& part);
   std::string render_command(const ViewState& state) const;

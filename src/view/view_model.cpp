@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "core/errors.h"
+#include "io/run_store.h"
 #include "maps/bed_view.h"
 #include "view/camera.h"
 #include "view/view_data.h"
@@ -22,6 +23,16 @@ bool is_run(const std::string& path) {
   return std::string_view(begin.data(), begin.size()) == "\x89HDF";
 }
 
+/// "slope-2.h5" after "slope.h5": the first that is not there yet.
+std::string next_output(const std::string& first) {
+  const std::filesystem::path path(first);
+  for (int k = 2;; ++k) {
+    const std::string name = path.stem().string() + "-" + std::to_string(k) + path.extension().string();
+    const std::string next = (path.parent_path() / name).string();
+    if (run_presence(next) == RunPresence::none) return next;
+  }
+}
+
 }  // namespace
 
 ViewModel ViewModel::open(const std::string& path, const std::vector<std::string>& settings,
@@ -36,9 +47,10 @@ ViewModel ViewModel::open(const std::string& path, const std::vector<std::string
     data->open_replay();
   } else {
     data->scenario = read_scenario(path, settings, &data->scenario_text);
-    data->output = output;
+    data->scenario_settings = settings;
     data->command_line = command_line;
-    data->start_live(overwrite);
+    data->first_output = output;
+    data->start_live(output, overwrite);
   }
   ViewModel model(std::move(data));
   const MapExtent& bed = model.data_->bed;
@@ -59,9 +71,36 @@ std::uint64_t ViewModel::seed() const { return data_->seed; }
 
 void ViewModel::restart(std::uint64_t seed) {
   if (!is_live()) return;
+  data_->live->halt();
   data_->scenario.seed = seed;
-  data_->start_live(true);
+  data_->start_live(data_->output.empty() ? "" : next_output(data_->first_output), false);
   state.selected.reset();
+}
+
+void ViewModel::record(const std::string& output) {
+  if (!is_live()) return;
+  data_->live->record(output, false);
+  data_->output = data_->first_output = output;
+  state.discard_asked = false;
+}
+
+bool ViewModel::may_discard() {
+  const bool saved = !is_live() || !data_->output.empty() || data_->live->status().step == 0;
+  if (saved || std::exchange(state.discard_asked, false)) return true;
+  state.discard_asked = true;
+  state.message = "This run is not saved: once more to give it up, or s to save it.";
+  return false;
+}
+
+void ViewModel::hold() {
+  if (is_live())
+    data_->live->halt();
+  else
+    data_->begin_series();
+}
+
+Recording ViewModel::recording() const {
+  return {data_->path, data_->scenario_settings, data_->output, data_->seed};
 }
 
 // --- replay ---
@@ -102,7 +141,7 @@ bool ViewModel::update(double seconds) {
     data.show_replayed();
     changed = true;
   }
-  changed = data.follow_frames(overload_rule(data.settings(state))) || changed;
+  changed = data.follow_frames(overload_rule(data.map_settings(state))) || changed;
   state.camera = centred(clamped(state.camera, data.bed, mean_diameter()), data.part(state, data.aspect));
   if (!data.error.empty()) state.message = std::exchange(data.error, {});
   return changed;
@@ -133,6 +172,12 @@ FrameView ViewModel::furnished_map() const {
   view.legends = whole.legends;
   return view;
 }
+
+const FrameView& ViewModel::annotated_map() const {
+  return data_->whole_map(state, common_part(data_->part(state, data_->aspect), data_->bed));
+}
+
+double ViewModel::bed_aspect() const { return data_->bed_aspect(state); }
 
 std::array<double, 4> ViewModel::shown_region(double aspect) const {
   const MapExtent part = data_->part(state, aspect);

@@ -18,6 +18,14 @@
 
 namespace talus {
 
+/// Where a live run comes from, and where it is recorded.
+struct Recording {
+  std::string scenario;
+  std::vector<std::string> settings;
+  std::string output;  ///< empty: nowhere
+  std::uint64_t seed = 0;
+};
+
 class ViewModel {
  public:
   /// A run file (replay) or a scenario (live), by what the file is. `output` of a live run may be empty:
@@ -33,9 +41,19 @@ class ViewModel {
   bool is_live() const;
   const std::string& path() const;
   LiveRun* live();  ///< null where a run file is replayed
-  /// A live run anew from its scenario, with this seed. Commands made before are gone with the run before.
+  /// A live run anew from its scenario, with this seed, and without the commands made before. Where the run
+  /// before was recorded, this one is too, in a file beside it: "slope-2.h5" after "slope.h5". Throws as
+  /// LiveRun; then the run before is still there.
   void restart(std::uint64_t seed);
   std::uint64_t seed() const;
+  /// Records a live run that was not, from its beginning. Throws as LiveRun::record.
+  void record(const std::string& output);
+  Recording recording() const;
+  /// Whether what is shown may be given up: where a live run has not been saved, only when asked again.
+  bool may_discard();
+  /// Ends all that is read or written in the background, until the next update: before another run is opened,
+  /// as HDF5 is for one thread at a time.
+  void hold();
 
   // Replay. Frames are those of RunFile::all_frame_tilts().
   std::size_t frame_count() const;  ///< 0 for a live run
@@ -66,6 +84,10 @@ class ViewModel {
   /// The same with its legends, its title and its caption, and without what is beside the bed; of the aspect
   /// that map was asked for last. A map that cannot be drawn has the reason as its title.
   FrameView furnished_map() const;
+  /// Title, caption and legends of the map asked for last.
+  const FrameView& annotated_map() const;
+  /// Width over height of a picture in which the whole bed just has room, as it is shown: turned or not.
+  double bed_aspect() const;
   /// The part of the bed that map(aspect) shows, m: x_min, x_max, y_min, y_max.
   std::array<double, 4> shown_region(double aspect) const;
   /// The grain whose disc holds the place (m, frame of the bed), or is nearest to it within a D.

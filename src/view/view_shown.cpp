@@ -32,7 +32,7 @@ std::vector<double> tilts_of(const RecordedFrames& recorded) {
 
 double ViewModel::Data::shown_theta_c() const { return theta_c.value_or(radians(assumed_theta_c)); }
 
-MapSettings ViewModel::Data::settings(const ViewState& state) const {
+MapSettings ViewModel::Data::map_settings(const ViewState& state) const {
   MapSettings settings = state.map;
   if (settings.layers.empty()) settings.layers = {MapKind::gamma};
   settings.theta_c = shown_theta_c();
@@ -69,7 +69,7 @@ const std::vector<ClusterColour>& ViewModel::Data::shown_colours(const MapSettin
 
 const Inspection* ViewModel::Data::inspect_selected(const ViewState& state) {
   if (!state.selected || *state.selected < 0 || *state.selected >= frame->grain_count()) return nullptr;
-  const MapSettings by = settings(state);
+  const MapSettings by = map_settings(state);
   const OverloadRule rule = overload_rule(by);
   if (inspection.frame != frame || !(inspection.rule == rule) ||
       inspection.neighbourhood != state.neighbourhood || inspection.of.grain != *state.selected) {
@@ -82,11 +82,15 @@ const Inspection* ViewModel::Data::inspect_selected(const ViewState& state) {
   return &inspection.of;
 }
 
+double ViewModel::Data::bed_aspect(const ViewState& state) const {
+  return picture_aspect((bed.y_max - bed.y_min) / (bed.x_max - bed.x_min),
+                        std::max(0.0, map_settings(state).tilt_max));
+}
+
 MapExtent ViewModel::Data::part(const ViewState& state, double shown_aspect) const {
-  const double own = (bed.x_max - bed.x_min) / (bed.y_max - bed.y_min);
-  const double turn_max = std::max(0.0, settings(state).tilt_max);
-  return shown_part(state.camera, bed, statics.mean_diameter, shown_aspect > 0.0 ? shown_aspect : own,
-                    turn_max);
+  const double turn_max = std::max(0.0, map_settings(state).tilt_max);
+  return shown_part(state.camera, bed, statics.mean_diameter,
+                    shown_aspect > 0.0 ? shown_aspect : bed_aspect(state), turn_max);
 }
 
 std::shared_ptr<const Frame> ViewModel::Data::reference(const MapSettings& settings,
@@ -103,7 +107,7 @@ std::shared_ptr<const Frame> ViewModel::Data::reference(const MapSettings& setti
 
 const FrameView& ViewModel::Data::whole_map(const ViewState& state, const MapExtent& shown) {
   MapSource source;
-  source.settings = settings(state);
+  source.settings = map_settings(state);
   source.frame = frame;
   source.reference = reference(source.settings, state.since);
   source.per_degree = !state.since;
@@ -127,13 +131,14 @@ FrameView ViewModel::Data::picture(const ViewState& state, const MapExtent& show
       overlay.critical_length = of->coarse_graining_length;
     }
   }
-  return shown_map(whole_map(state, shown), shown, *frame, overlay, shown_clusters(settings(state)), statics);
+  return shown_map(whole_map(state, shown), shown, *frame, overlay, shown_clusters(map_settings(state)),
+                   statics);
 }
 
 std::string ViewModel::Data::render_command(const ViewState& state) const {
   RenderRequest shown;
   shown.run = path;
-  shown.settings = settings(state);
+  shown.settings = map_settings(state);
   shown.tilt = frame->tilt;
   shown.since = state.since;
   shown.mean_diameter = statics.mean_diameter;

@@ -26,8 +26,8 @@ struct ViewState {
   bool highlight_cluster = true;
   bool show_help = false;
   bool show_controls = true, show_inspector = true, show_plots = true;
-  float text_scale = 1.0f;
-  std::string message;  ///< last thing worth telling: a file written, an error
+  float picture_share = 0.0f;  ///< of the height, for the map; 0: as high as the bed, the plots get the rest
+  std::string message;         ///< last thing worth telling: a file written, an error
 
   // What the action widgets hold.
   double push_speed = 1.0;  ///< sqrt(g D)
@@ -38,6 +38,8 @@ struct ViewState {
   int seed = 1;               ///< of the next reset
   std::string folder;         ///< that the list of files shows; empty: where the program was started
   std::string picture_path = "talus.png";
+  bool discard_asked = false;         ///< whether a run that is not saved may be given up
+  std::string run_path = "talus.h5";  ///< where a run is saved that was not recorded
 };
 
 }  // namespace talus

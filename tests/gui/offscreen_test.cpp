@@ -219,6 +219,41 @@ TEST_F(Replay, a_small_window_has_what_is_needed) {
   EXPECT_LE(help.y1, 400.0f);
 }
 
+TEST_F(Replay, panels_open_by_keys) {
+  for (const auto& [key, widget] : {std::pair{'M', "map kind"}, {'F', "save picture"}, {'R', "frame"}}) {
+    gui_.key(key);
+    EXPECT_TRUE(gui_.has(widget)) << key;
+  }
+}
+
+TEST_F(Replay, the_bar_goes_where_it_is_told_to) {
+  gui_.key('M');
+  const Image before = gui_.frame();
+  gui_.click("range");
+  ASSERT_TRUE(model_.state.map.range_high.has_value());
+  EXPECT_GT(difference(before, gui_.frame(), gui_.place("map")), 0.01);
+  EXPECT_NE(model_.render_command().find("--range"), std::string::npos);
+  gui_.key('2');
+  EXPECT_FALSE(gui_.has("range")) << "overloaded grains have no bar";
+}
+
+TEST_F(Replay, the_border_of_the_plots_is_moved) {
+  const float before = gui_.place("border").y0;
+  gui_.drag("border", 0.5f, 0.5f, 0.5f, -20.0f);
+  EXPECT_LT(gui_.place("border").y0, before - 50.0f);
+  EXPECT_GT(gui_.place("border").y0, 0.3f * before);
+  EXPECT_LE(gui_.place("map").y1, gui_.place("border").y0);
+}
+
+TEST_F(Replay, places_that_a_run_does_not_have_cannot_be_gone_to) {
+  gui_.key('R');
+  EXPECT_TRUE(gui_.has("theta_c"));
+  EXPECT_FALSE(model_.has(Landmark::theta_c)) << "at 1 deg nothing fails";
+  gui_.click("last");
+  gui_.click("theta_c");
+  EXPECT_EQ(model_.frame_index() + 1, model_.frame_count());
+}
+
 TEST_F(Replay, ends_on_request) {
   EXPECT_FALSE(gui_.requests().quit);
   gui_.key('q');
@@ -287,7 +322,23 @@ TEST_F(Live, plays_pauses_and_begins_anew) {
   EXPECT_FALSE(wait_until([&, k = 0]() mutable { return status().step != step || ++k > 10; }) &&
                status().step != step);
   gui_.click("reset");
+  EXPECT_EQ(status().step, step) << "it was not saved: that is asked for first";
+  EXPECT_NE(model_.state.message.find("not saved"), std::string::npos);
+  gui_.click("reset");
   EXPECT_TRUE(wait_until([&] { return status().step == 0; }));
+}
+
+TEST_F(Live, is_saved_by_a_key_and_goes_on_there) {
+  gui_.click("step 10");
+  ASSERT_TRUE(wait_until([&] { return status().step == 10 && !status().running; }));
+  model_.state.run_path = folder_.path("late.h5");
+  gui_.key('s');
+  EXPECT_EQ(model_.recording().output, folder_.path("late.h5"));
+  EXPECT_NE(model_.state.message.find("Saved at step 10"), std::string::npos) << model_.state.message;
+  EXPECT_TRUE(std::filesystem::exists(folder_.path("late.h5.run")));
+  gui_.key('F');
+  EXPECT_FALSE(gui_.has("run path")) << "it is recorded now";
+  EXPECT_TRUE(gui_.has("save state"));
 }
 
 TEST_F(Live, friction_and_pushes_are_commands) {
@@ -298,13 +349,22 @@ TEST_F(Live, friction_and_pushes_are_commands) {
   gui_.click("push");
   gui_.click("friction", 0.5f);
   const std::vector<Command> commands = model_.live()->commands();
-  ASSERT_GE(commands.size(), 2u);
+  ASSERT_EQ(commands.size(), 2u) << "one for each";
   EXPECT_EQ(commands[0].kind, CommandKind::push);
   EXPECT_EQ(commands[0].grain, 0);
   EXPECT_EQ(commands[0].step, status().step);
   EXPECT_EQ(commands.back().kind, CommandKind::friction);
   EXPECT_NEAR(commands.back().x, status().friction, 1e-12);
   EXPECT_NE(commands.back().x, 0.5) << "which it was before";
+  gui_.drag("tilt rate", 0.3f, 0.5f, 0.7f, 0.5f);
+  ASSERT_EQ(model_.live()->commands().size(), 3u) << "only where it is let go";
+  EXPECT_EQ(model_.live()->commands()[2].kind, CommandKind::tilt_rate);
+  EXPECT_NEAR(model_.live()->commands()[2].x, 7.0, 0.5);
+  EXPECT_EQ(status().tilt_rate, model_.live()->commands()[2].x);
+  gui_.click("drop");
+  ASSERT_EQ(model_.live()->commands().size(), 4u);
+  EXPECT_EQ(model_.live()->commands()[3].kind, CommandKind::drop);
+  EXPECT_EQ(model_.live()->commands()[3].grain, 5) << "grains";
 }
 
 }  // namespace

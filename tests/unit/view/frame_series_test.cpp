@@ -188,6 +188,19 @@ TEST(Landmarks, are_the_frames_where_values_change) {
   EXPECT_FALSE(percolation_frame(std::span(series.values()).first(3)).has_value());
 }
 
+TEST(Landmarks, dilation_begins_where_the_volume_is_smallest) {
+  std::vector<ObservableRow> rows(201);  // every 0.1 deg
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const double angle = 0.1 * static_cast<double>(k);
+    at(rows[k], Observable::tilt) = radians(angle);
+    at(rows[k], Observable::volume_strain) = 1e-5 * (angle - 12.0) * (angle - 12.0);
+  }
+  const std::vector<double> tilts = {radians(0.0), radians(5.0), radians(10.0), radians(13.0), radians(20.0)};
+  EXPECT_EQ(dilation_frame(rows, tilts, radians(20.0)), 3u);
+  EXPECT_FALSE(dilation_frame(rows, tilts, radians(11.0)).has_value()) << "up to 11 deg it contracts";
+  EXPECT_FALSE(dilation_frame({}, tilts, radians(20.0)).has_value());
+}
+
 TEST(Landmarks, nearest_frame_is_by_tilt) {
   EXPECT_EQ(nearest_frame({0.0, 1.0, 2.0}, 1.6), 2u);
   EXPECT_EQ(nearest_frame({0.0, 1.0, 2.0}, -3.0), 0u);

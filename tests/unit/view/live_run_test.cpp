@@ -107,6 +107,58 @@ TEST(LiveRun, looked_at_all_the_time_gives_the_bits_of_a_plain_run) {
   EXPECT_TRUE(run.recorded_frames(99).empty());
 }
 
+TEST(LiveRun, saved_late_is_recorded_from_its_beginning) {
+  const test::TemporaryFolder folder;
+  const std::string path = folder.path("late.h5");
+  {
+    LiveRun run = live(small_bed());
+    run.finish_deposition();
+    paused(run);
+    run.apply({0, CommandKind::push, 3, 0.2, 0.1});
+    run.step(5);
+    paused(run);
+    run.record(path, false);
+    EXPECT_THROW(run.record(folder.path("other.h5"), false), Error);
+    run.play();
+    EXPECT_TRUE(paused(run).done);
+  }
+  Session same = plain_run(0);
+  while (same.phase() == Phase::deposition) same.advance();
+  same.apply({0, CommandKind::push, 3, 0.2, 0.1});
+  while (same.phase() != Phase::done) same.advance();
+  const RunFile run = RunFile::open(path);
+  EXPECT_EQ(hash_text(state_hash(run.checkpoint().world)), hash_of(same));
+  EXPECT_EQ(run.steps(), same.segment().steps);
+  EXPECT_EQ(run.observables(), same.segment().observables);
+  EXPECT_EQ(run.all_frame_tilts().size(), same.segment().frames.size());
+  ASSERT_EQ(run.commands().size(), 1u);
+  EXPECT_EQ(run.commands()[0].grain, 3);
+}
+
+TEST(LiveRun, that_cannot_be_saved_goes_on) {
+  const test::TemporaryFolder folder;
+  LiveRun run = live(small_bed());
+  run.step(4);
+  paused(run);
+  EXPECT_THROW(run.record(folder.path("missing/late.h5"), false), Error);
+  run.step(4);
+  EXPECT_EQ(paused(run).step, 8);
+  EXPECT_EQ(run.status().error, "");
+  run.record(folder.path("late.h5"), false);
+}
+
+TEST(LiveRun, halted_rests_until_it_is_asked_to_go_on) {
+  LiveRun run = live(small_bed());
+  run.play();
+  run.halt();
+  const LiveStatus rests = run.status();
+  EXPECT_FALSE(rests.running);
+  std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  EXPECT_EQ(run.status().step, rests.step);
+  run.step(1);
+  EXPECT_EQ(paused(run).step, rests.step + 1);
+}
+
 TEST(LiveRun, takes_as_many_steps_as_asked_for) {
   LiveRun run = live(small_bed());
   for (const std::int64_t count : {1, 10, 30}) {

@@ -79,10 +79,10 @@ TEST_F(ViewOfRun, opens_at_its_first_frame_with_the_map_of_gamma) {
 
 TEST_F(ViewOfRun, goes_to_its_landmarks) {
   EXPECT_TRUE(model_->has(Landmark::theta_c));
-  EXPECT_FALSE(model_->has(Landmark::theta_d)) << "nothing was worked out yet";
+  EXPECT_FALSE(model_->has(Landmark::length_jump)) << "nothing was worked out yet";
   ASSERT_TRUE(wait_for_all());
   const std::pair<Landmark, std::size_t> places[] = {{Landmark::last, 7},
-                                                     {Landmark::theta_d, 3},
+                                                     {Landmark::length_jump, 3},
                                                      {Landmark::theta_c, 4},
                                                      {Landmark::percolation, 3},
                                                      {Landmark::first, 0}};
@@ -135,7 +135,7 @@ TEST_F(ViewOfRun, takes_curves_from_a_stored_analysis) {
   ASSERT_EQ(plot(*model_, "overloaded").series[0].y.size(), 6u);
   EXPECT_EQ(plot(*model_, "overloaded").series[0].y[3], 0.75);
   EXPECT_NEAR(plot(*model_, "lengths").series[1].y[3], std::sqrt(8.0), 1e-6);
-  EXPECT_TRUE(model_->has(Landmark::theta_d));
+  EXPECT_TRUE(model_->has(Landmark::length_jump));
   EXPECT_TRUE(model_->has(Landmark::percolation));
   model_->state.map.threshold_factor = 1.5;  // not of the analysis
   model_->update(0.0);
@@ -398,9 +398,44 @@ TEST_F(ViewOfScenario, begins_a_recorded_run_anew) {
   ASSERT_TRUE(comes_true(model, [&model] { return model.live()->status().done; }));
   model.update(0.0);
   EXPECT_EQ(model.render_command(), "talus render " + output + " --map gamma --at 1 --theta-c 20");
-  model.restart(4);
-  EXPECT_EQ(model.seed(), 4u);
-  EXPECT_EQ(model.live()->status().step, 0);
+  for (const char* next : {"a-2.h5", "a-3.h5"}) {
+    model.restart(4);
+    EXPECT_EQ(model.seed(), 4u);
+    EXPECT_EQ(model.live()->status().step, 0);
+    EXPECT_EQ(model.recording().output, folder_.path(next));
+    model.live()->step(2);
+    model.live()->halt();
+    model.live()->save();
+  }
+  EXPECT_EQ(RunFile::open(output).header().seed, 3u) << "it is still there";
+}
+
+TEST_F(ViewOfScenario, that_cannot_begin_anew_goes_on) {
+  const std::string output = folder_.path("b/a.h5");
+  std::filesystem::create_directory(folder_.path("b"));
+  ViewModel model = ViewModel::open(folder_.path("a.toml"), {}, output, false, "talus view");
+  model.live()->step(2);
+  model.live()->halt();
+  std::filesystem::remove_all(folder_.path("b"));
+  EXPECT_THROW(model.restart(4), Error);
+  ASSERT_NE(model.live(), nullptr);
+  EXPECT_EQ(model.recording().output, output);
+  EXPECT_EQ(model.map(2.0).discs.empty(), false);
+}
+
+TEST_F(ViewOfScenario, is_given_up_unsaved_only_when_asked_twice) {
+  EXPECT_TRUE(model_->may_discard()) << "it has not begun";
+  model_->live()->step(3);
+  ASSERT_TRUE(comes_true(*model_, [this] { return model_->live()->status().step == 3; }));
+  EXPECT_FALSE(model_->may_discard());
+  EXPECT_NE(model_->state.message.find("not saved"), std::string::npos);
+  EXPECT_TRUE(model_->may_discard());
+  EXPECT_FALSE(model_->may_discard()) << "each time anew";
+  model_->record(folder_.path("saved.h5"));
+  EXPECT_TRUE(model_->may_discard());
+  EXPECT_EQ(model_->recording().output, folder_.path("saved.h5"));
+  EXPECT_THROW(model_->record(folder_.path("other.h5")), Error) << "it is recorded already";
+  EXPECT_EQ(model_->recording().output, folder_.path("saved.h5"));
 }
 
 TEST_F(ViewOfScenario, begins_anew_with_another_seed) {
