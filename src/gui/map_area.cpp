@@ -44,10 +44,10 @@ void draw_gravity(const ImVec2& middle, float em, double fall) {
   const auto x = static_cast<float>(sine(fall)), y = static_cast<float>(cosine(fall));
   const float reach = 1.1f * em;
   const ImVec2 tip{middle.x + reach * x, middle.y + reach * y};
-  list.AddLine({middle.x - reach * x, middle.y - reach * y}, tip, ink, 1.5f);
+  list.AddLine({middle.x - reach * x, middle.y - reach * y}, tip, ink, 0.1f * em);
   for (const float side : {-0.5f, 0.5f})
     list.AddLine({tip.x - 0.5f * reach * (x - side * y), tip.y - 0.5f * reach * (y + side * x)}, tip, ink,
-                 1.5f);
+                 0.1f * em);
   list.AddText({middle.x - 1.5f * em, middle.y - 0.5f * em}, ink, "g");
 }
 
@@ -101,7 +101,7 @@ void draw_map_area(Gui& gui) {
   list.AddImage(gui.draw_map(view, pixels, static_cast<int>(room.y)), shown.corner, end, {0.0f, 0.0f},
                 {1.0f, (end.y - shown.corner.y) / shown_height});
   const ImVec2 under{shown.corner.x + room.x - 1.4f * gui.em, ImGui::GetCursorScreenPos().y + 1.2f * gui.em};
-  draw_gravity(under, gui.em, view.tilt - view.turn);
+  if (room.x > 26.0f * gui.em) draw_gravity(under, gui.em, view.tilt - view.turn);
   use_mouse(gui, shown);
   draw_legends(gui.model.annotated_map());
 }

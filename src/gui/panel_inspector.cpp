@@ -58,7 +58,7 @@ void draw_mohr_circle(Gui& gui, const Inspection& grain, double theta_c) {
   list.AddLine({corner.x, origin.y}, {corner.x + size.x, origin.y}, ink);
   list.AddLine({origin.x, corner.y + em}, {origin.x, corner.y + size.y}, ink);
   list.AddCircle({origin.x + 0.5f * scale, origin.y},
-                 std::max(1.0f, static_cast<float>(0.5 * grain.state.ratio) * scale), ink, 64, 1.5f);
+                 std::max(1.0f, static_cast<float>(0.5 * grain.state.ratio) * scale), ink, 64, 0.1f * em);
   const auto slope = static_cast<float>(std::tan(theta_c));
   for (const float side : {-1.0f, 1.0f}) {
     const float reach = std::min(0.9f * width, 0.37f * width / slope);

@@ -205,7 +205,7 @@ void draw_plot(Gui& gui, const Plot& plot, const ImVec2& size, const PlotMarks& 
   list.PushClipRect(axes.low, axes.high, true);
   draw_marks(list, axes, marks, em);
   for (std::size_t k = plot.series.size(); k-- > 0;)
-    draw_curve(list, axes, plot.series[k], curve_colour(k), plot.series[k].law ? 1.0f : 1.5f);
+    draw_curve(list, axes, plot.series[k], curve_colour(k), (plot.series[k].law ? 0.06f : 0.1f) * em);
   list.PopClipRect();
   if (ImGui::IsItemHovered()) show_values(plot, axes);
 }

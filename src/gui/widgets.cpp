@@ -41,8 +41,12 @@ void finish_widget(Gui& gui, const char* name, const char* label, const char* ti
   note_place(gui, name);
   show_tip(tip);
   if (*label == '\0') return;
-  ImGui::SameLine(0.0f, ImGui::GetStyle().ItemInnerSpacing.x);
-  rich_text(label);
+  const ImGuiStyle& style = ImGui::GetStyle();
+  ImGui::SameLine(0.0f, style.ItemInnerSpacing.x);
+  const ImVec2 corner = ImGui::GetCursorScreenPos();
+  add_rich_text(*ImGui::GetWindowDrawList(), {corner.x, corner.y + style.FramePadding.y},
+                ImGui::GetColorU32(ImGuiCol_Text), label);
+  ImGui::Dummy({rich_width(*ImGui::GetFont(), ImGui::GetFontSize(), label), ImGui::GetFrameHeight()});
 }
 
 std::string hidden(const char* name) { return std::string("##").append(name); }

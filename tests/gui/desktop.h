@@ -25,7 +25,9 @@ class Desktop {
 
   /// Waits for the window whose title contains the text. False after ten seconds.
   bool wait_for_window(const std::string& title);
-  /// The title of that window.
+  /// That window, as xdotool names it.
+  const std::string& window() const { return window_; }
+  /// Its title.
   std::string title() const;
   /// Waits until the title contains a text, or does not. False after ten seconds.
   bool wait_for_title(const std::string& text, bool contained = true) const;

@@ -9,14 +9,10 @@
 #include <thread>
 
 #include "cli/process.h"
-#include "gui/desktop.h"
+#include "gui/window_fixture.h"
 
 namespace talus::test {
 namespace {
-
-const char* const small_bed =
-    "seed = 3\n[bed]\nlength = 10\ndepth = 4\n[tilt]\nstep = 0.01\nend_angle = 1.0\n[output]\nframe_every = "
-    "0.25\n";
 
 TEST(View, without_a_display_says_so_in_one_line) {
   const TemporaryFolder folder;
@@ -53,62 +49,6 @@ TEST(View, refuses_sizes_that_are_none) {
     EXPECT_NE(outcome.err.find("WIDTHxHEIGHT"), std::string::npos) << outcome.err;
   }
 }
-
-/// talus view on a desktop of its own.
-class Window : public testing::Test {
- protected:
-  void SetUp() override {
-    if (const std::string missing = missing_for_desktop(); !missing.empty()) GTEST_SKIP() << missing;
-    desktop_ = std::make_unique<Desktop>();
-    write_file(folder_, "bed.toml", small_bed);
-  }
-  void TearDown() override {
-    if (process_ > 0) {
-      kill(process_, SIGKILL);
-      wait_for(process_);
-    }
-  }
-
-  void start(std::vector<std::string> arguments) {
-    for (const char* word : {"--places", "places", "--size", "1200x800"}) arguments.emplace_back(word);
-    arguments.insert(arguments.begin(), "view");
-    process_ = start_talus(arguments, folder_.path());
-    ASSERT_TRUE(desktop_->wait_for_window("– Talus")) << "no window";
-  }
-  int end() {
-    const int code = wait_for(process_);
-    process_ = -1;
-    return code;
-  }
-
-  /// Middle of a widget, px of the window; waits until it is there.
-  std::pair<double, double> middle_of(const std::string& name) {
-    for (int wait = 0; wait < 200; ++wait) {
-      std::ifstream places(folder_.path("places"));
-      for (std::string line; std::getline(places, line);) {
-        double x0 = 0.0, y0 = 0.0, x1 = 0.0, y1 = 0.0;
-        if (line.starts_with(name + "\t") &&
-            std::sscanf(line.c_str() + name.size(), "%lf %lf %lf %lf", &x0, &y0, &x1, &y1) == 4)
-          return {0.5 * (x0 + x1), 0.5 * (y0 + y1)};
-      }
-      std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    }
-    ADD_FAILURE() << "no widget " << name;
-    return {0.0, 0.0};
-  }
-  void move_to(const std::string& name) {
-    const auto [x, y] = middle_of(name);
-    desktop_->move(x, y);
-  }
-  void click(const std::string& name) {
-    move_to(name);
-    desktop_->click();
-  }
-
-  TemporaryFolder folder_;
-  std::unique_ptr<Desktop> desktop_;
-  pid_t process_ = -1;
-};
 
 /// How many colours there are in a picture.
 std::size_t colours_of(const Image& image) {
@@ -186,6 +126,23 @@ TEST_F(Window, a_recorded_run_that_was_left_can_go_on) {
   EXPECT_EQ(end(), 75);
   ASSERT_EQ(run_talus({"run", "bed.toml", "-q", "-o", "bed.h5", "--resume"}, folder_.path()).exit_code, 0);
   EXPECT_EQ(json_value(run_talus({"info", "bed.h5", "--json"}, folder_.path()).out, "complete"), "true");
+}
+
+TEST_F(Window, a_session_with_commands_replays_headless) {
+  start({"bed.toml", "-o", "bed.h5"});
+  click("deposit");
+  ASSERT_TRUE(wait_until_gone("deposit")) << "the bed rests";
+  move_to("map");
+  desktop_->key("n");
+  desktop_->key("u");
+  desktop_->key("space");
+  EXPECT_TRUE(desktop_->wait_for_title("1.00°")) << desktop_->title();
+  desktop_->key("q");
+  EXPECT_EQ(end(), 0);
+  const Outcome info = run_talus({"info", "bed.h5"}, folder_.path());
+  EXPECT_NE(info.out.find("push"), std::string::npos) << info.out;
+  const Outcome replay = run_talus({"replay", "bed.h5"}, folder_.path());
+  EXPECT_EQ(replay.exit_code, 0) << replay.err;
 }
 
 TEST_F(Window, bad_files_are_said_before_it_opens) {

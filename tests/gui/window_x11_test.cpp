@@ -1,0 +1,39 @@
+/// What other programs of a desktop do to the window of `talus view`.
+
+#include "gui/window_fixture.h"
+#include "gui/x11_client.h"
+
+namespace talus::test {
+namespace {
+
+TEST_F(Window, opens_a_file_that_is_dropped_on_it) {
+  ASSERT_EQ(run_talus({"run", "bed.toml", "-q", "-o", "first.h5"}, folder_.path()).exit_code, 0);
+  ASSERT_EQ(run_talus({"run", "bed.toml", "-q", "-o", "second.h5"}, folder_.path()).exit_code, 0);
+  start({"first.h5"});
+  ASSERT_TRUE(drop_file(desktop_->window(), folder_.path("second.h5")));
+  EXPECT_TRUE(desktop_->wait_for_title("second.h5")) << desktop_->title();
+  write_file(folder_, "bad.h5", "not a run");
+  ASSERT_TRUE(drop_file(desktop_->window(), folder_.path("bad.h5")));
+  move_to("map");
+  desktop_->key("End");
+  EXPECT_TRUE(desktop_->wait_for_title("second.h5, 1.00°")) << "what cannot be opened leaves what is shown";
+  ASSERT_TRUE(drop_file(desktop_->window(), folder_.path("bed.toml")));
+  EXPECT_TRUE(desktop_->wait_for_title("bed.toml")) << desktop_->title();
+  desktop_->key("q");
+  EXPECT_EQ(end(), 0);
+}
+
+TEST_F(Window, is_closed_by_its_button_but_not_with_a_run_that_is_not_saved) {
+  start({"bed.toml"});
+  click("step 10");
+  move_to("map");
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  ask_to_close(desktop_->window());
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  EXPECT_TRUE(desktop_->wait_for_title("bed.toml")) << "it asks first";
+  ask_to_close(desktop_->window());
+  EXPECT_EQ(end(), 0);
+}
+
+}  // namespace
+}  // namespace talus::test
