@@ -55,20 +55,19 @@ TEST(Readme, commands_name_what_exists) {
   }
 }
 
-TEST(MapsPage, commands_and_options_exist) {
-  ASSERT_GT(commands("docs/maps.md").size(), 3u);
+/// Commands of a page are subcommands that these sources define, and all options it names are theirs; returns
+/// how many options it names.
+int check_page(const std::string& name, const std::vector<const char*>& sources_of) {
   std::string sources;
-  for (const char* name :
-       {"map_options", "render_command", "animate_command", "panel_command", "run_command"})
-    sources += text_of(std::string("src/app/") + name + ".cpp");
-  for (const std::string& command : commands("docs/maps.md")) {
+  for (const char* source : sources_of) sources += text_of(std::string("src/app/") + source + ".cpp");
+  for (const std::string& command : commands(name)) {
     std::istringstream words(command);
     std::string program, subcommand;
     words >> program >> subcommand;
     EXPECT_EQ(program, "build/release/talus");
     EXPECT_NE(sources.find("\"" + subcommand + "\", \""), std::string::npos) << command;
   }
-  const std::string page = text_of("docs/maps.md");
+  const std::string page = text_of(name);
   int options = 0;
   for (std::size_t at = page.find("--"); at != std::string::npos; at = page.find("--", at + 1)) {
     const std::size_t end = page.find_first_not_of("-abcdefghijklmnopqrstuvwxyz", at);
@@ -78,7 +77,37 @@ TEST(MapsPage, commands_and_options_exist) {
     ++options;
     at = end;
   }
-  EXPECT_GT(options, 20);
+  return options;
+}
+
+TEST(MapsPage, commands_and_options_exist) {
+  ASSERT_GT(commands("docs/maps.md").size(), 3u);
+  EXPECT_GT(check_page("docs/maps.md",
+                       {"map_options", "render_command", "animate_command", "panel_command", "run_command"}),
+            20);
+}
+
+TEST(ViewPage, commands_and_options_exist) {
+  ASSERT_GT(commands("docs/view.md").size(), 3u);
+  EXPECT_GT(check_page("docs/view.md", {"view_command", "replay_command", "info_command", "render_command",
+                                        "analyze_command"}),
+            2);
+}
+
+TEST(ViewPage, lists_the_keys_of_the_window) {
+  const std::string page = text_of("docs/view.md"), keys = text_of("src/gui/keys.cpp");
+  const std::string table = page.substr(page.find("| key |"));
+  const std::string begin = "\n    {\"";
+  int found = 0;
+  for (std::size_t at = keys.find(begin); at != std::string::npos; at = keys.find(begin, at + 1)) {
+    const std::size_t from = at + begin.size();
+    std::istringstream line(keys.substr(from, keys.find("\", \"", from) - from));
+    for (std::string key; line >> key; ++found) {
+      if (key.size() > 1 && key.back() == ',') key.pop_back();
+      EXPECT_NE(table.find(key), std::string::npos) << key;
+    }
+  }
+  EXPECT_GT(found, 40);
 }
 
 TEST(Readme, pages_it_links_to_exist) {

@@ -1,0 +1,83 @@
+/// The window of `talus view`, drawn in memory while a scenario is computed beside it: how many pictures a
+/// second there are when 30 are asked for, and what they cost the solver. A row of a Markdown table each.
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "core/errors.h"
+#include "gui/offscreen.h"
+#include "program.h"
+
+namespace talus::bench {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double seconds_shown = 10.0;
+constexpr double picture_interval = 1.0 / 30.0;  // s
+constexpr int width = 1400, height = 900;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+void print_row(const char* what, std::vector<double> pictures, double elapsed, std::int64_t steps) {
+  std::ranges::sort(pictures);
+  const auto ms = [&pictures](double share) {
+    return 1e3 * pictures[static_cast<std::size_t>(share * static_cast<double>(pictures.size() - 1))];
+  };
+  std::printf("| %s | %.1f | %.1f | %.1f | %.1f | %.0f |\n", what,
+              static_cast<double>(pictures.size()) / elapsed, ms(0.5), ms(0.95), ms(1.0),
+              static_cast<double>(steps) / elapsed);
+  std::fflush(stdout);
+}
+
+/// Draws at most 30 pictures a second for a while, each read back, as the run goes on.
+void look(const char* what, ViewModel& model, OffscreenGui& gui) {
+  const std::int64_t first = model.live()->status().step;
+  std::vector<double> pictures;
+  const auto start = Clock::now();
+  while (seconds_since(start) < seconds_shown) {
+    const auto begin = Clock::now();
+    (void)gui.frame();
+    pictures.push_back(seconds_since(begin));
+    std::this_thread::sleep_for(std::chrono::duration<double>(picture_interval - pictures.back()));
+  }
+  print_row(what, std::move(pictures), seconds_since(start), model.live()->status().step - first);
+}
+
+int run(int argc, char** argv) {
+  if (argc != 2) throw Error(ExitCode::usage, "usage: view_bench SCENARIO.toml");
+  ViewModel model = ViewModel::open(argv[1], {}, "", false, "view_bench");
+  model.live()->finish_deposition();
+  while (model.live()->status().running) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  std::printf("Window of %d x %d px, %d grains; the solver has one thread.\n\n", width, height,
+              model.statics().free_count);
+  std::printf(
+      "| what is shown | pictures/s | ms each, median | 95 %% | longest | steps/s "
+      "|\n|---|--:|--:|--:|--:|--:|\n");
+  model.live()->play();
+  const auto start = Clock::now();
+  const std::int64_t first = model.live()->status().step;
+  std::this_thread::sleep_for(std::chrono::duration<double>(seconds_shown));
+  std::printf("| nothing is drawn | | | | | %.0f |\n",
+              static_cast<double>(model.live()->status().step - first) / seconds_since(start));
+  OffscreenGui gui(model, width, height);
+  look("gamma, all plots", model, gui);
+  model.state.selected = model.statics().free_count / 2;
+  look("the same, a grain selected", model, gui);
+  model.state.map.layers = {MapKind::clusters, MapKind::forces};
+  look("clusters and forces, a grain selected", model, gui);
+  return 0;
+}
+
+}  // namespace
+}  // namespace talus::bench
+
+int main(int argc, char** argv) {
+  return talus::bench::run_program("view_bench", talus::bench::run, argc, argv);
+}
