@@ -7,6 +7,7 @@
 
 #include <chrono>
 #include <functional>
+#include <random>
 #include <thread>
 
 #include "cli/process.h"
@@ -365,6 +366,42 @@ TEST_F(Live, friction_and_pushes_are_commands) {
   ASSERT_EQ(model_.live()->commands().size(), 4u);
   EXPECT_EQ(model_.live()->commands()[3].kind, CommandKind::drop);
   EXPECT_EQ(model_.live()->commands()[3].grain, 5) << "grains";
+}
+
+/// Keys and clicks anywhere, from a fixed seed; what would leave the window or write files is left out.
+void use_at_random(OffscreenGui& gui, ViewModel& model, int events) {
+  std::mt19937_64 random(7);
+  const auto below = [&random](std::uint64_t count) { return random() % count; };
+  const std::string keys = " djpc<>1234567890omv[],.;'tf+-waxzniygbrukRMAFGhl?";
+  for (int k = 0; k < events; ++k) {
+    const std::vector<WidgetPlace> places = gui.places();
+    const std::string name = places.empty() ? "" : places[below(places.size())].name;
+    const float x = 0.01f * static_cast<float>(below(100)), y = 0.01f * static_cast<float>(below(100));
+    const bool writes = name.starts_with("file ") || name.starts_with("save");
+    if (below(2) == 0 || writes || name.empty()) {
+      gui.key(static_cast<unsigned char>(keys[below(keys.size())]));
+    } else if (below(4) == 0) {
+      gui.drag(name, x, y, y, x);
+    } else if (below(4) == 0) {
+      gui.scroll(name, below(2) == 0 ? 2.0f : -2.0f, x, y);
+    } else {
+      gui.click(name, x, y);
+    }
+    if (k % 16 == 0) gui.resize(300 + static_cast<int>(below(1200)), 250 + static_cast<int>(below(700)));
+    (void)gui.frame(0.1);
+    ASSERT_GT(model.frame().grain_count(), 0) << "after " << k << " events";
+  }
+}
+
+TEST_F(Replay, survives_use_at_random) {
+  use_at_random(gui_, model_, 60);
+  EXPECT_LT(model_.frame_index(), model_.frame_count());
+}
+
+TEST_F(Live, survives_use_at_random) {
+  use_at_random(gui_, model_, 60);
+  model_.live()->halt();
+  EXPECT_FALSE(status().running);
 }
 
 }  // namespace
