@@ -2,10 +2,7 @@
 
 #include <imgui_stdlib.h>
 
-#include <array>
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
 #include <limits>
 
 #include "render/font.h"
@@ -176,15 +173,6 @@ void fact(std::string_view label, const std::string& value) {
   rich_text(label);
   ImGui::SameLine(0.42f * ImGui::GetWindowContentRegionMax().x);
   rich_text(value);
-}
-
-std::string formatted(const char* format, ...) {
-  std::array<char, 512> text{};
-  va_list values;
-  va_start(values, format);
-  std::vsnprintf(text.data(), text.size(), format, values);
-  va_end(values);
-  return text.data();
 }
 
 }  // namespace talus

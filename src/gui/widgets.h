@@ -3,6 +3,8 @@
 
 #include <imgui.h>
 
+#include <array>
+#include <cstdio>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -53,6 +55,11 @@ void add_rich_text(ImDrawList& list, const ImVec2& place, ImU32 colour, std::str
 void fact(std::string_view label, const std::string& value);
 
 /// Numbers in a text, as the C library formats them.
-std::string formatted(const char* format, ...);
+template <typename... Values>
+std::string formatted(const char* format, const Values&... values) {
+  std::array<char, 512> text{};
+  std::snprintf(text.data(), text.size(), format, values...);
+  return text.data();
+}
 
 }  // namespace talus

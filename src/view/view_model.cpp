@@ -28,7 +28,7 @@ std::string next_output(const std::string& first) {
   const std::filesystem::path path(first);
   for (int k = 2;; ++k) {
     const std::string name = path.stem().string() + "-" + std::to_string(k) + path.extension().string();
-    const std::string next = (path.parent_path() / name).string();
+    std::string next = (path.parent_path() / name).string();
     if (run_presence(next) == RunPresence::none) return next;
   }
 }
