@@ -89,10 +89,10 @@ void write_places(const std::string& path, const std::vector<WidgetPlace>& place
 
 /// Ends what was shown. Returns what there is to say about what was recorded.
 std::string close(ViewModel model) {
-  const std::string failure = model.is_live() ? model.live()->status().error : "";
+  const LiveStatus status = model.is_live() ? model.live()->status() : LiveStatus{};
   const Recording recording = model.recording();
   { const ViewModel ended = std::move(model); }  // commits what there is
-  if (!failure.empty()) throw Error(ExitCode::internal, failure);
+  if (!status.error.empty()) throw Error(status.error_code, status.error);
   return way_on(recording);
 }
 

@@ -294,6 +294,8 @@ void LiveRun::State::end() {
 void LiveRun::State::fail(const std::exception& error) {
   const std::lock_guard lock(mutex);
   status.error = one_line(error.what());
+  const auto* known = dynamic_cast<const Error*>(&error);
+  status.error_code = known ? known->code() : ExitCode::internal;
   goal.reset();
 }
 

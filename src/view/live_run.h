@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/errors.h"
 #include "core/observables.h"
 #include "core/snapshot.h"
 #include "session/command.h"
@@ -29,6 +30,7 @@ struct LiveStatus {
   double friction = 0.0;          ///< between grains, as it is now
   std::string state_hash;         ///< of the state after `step` steps; empty while running
   std::string error;              ///< what went wrong, as one line; play, step and run_to try again
+  ExitCode error_code = ExitCode::internal;  ///< of `error`
 };
 
 /// All members may be called from one thread, which is not the solver's. While a run is recorded, the

@@ -254,6 +254,7 @@ TEST(LiveRun, that_fails_says_why_and_keeps_its_state) {
   run.play();
   const LiveStatus status = paused(run);
   EXPECT_NE(status.error.find("did not come to rest"), std::string::npos) << status.error;
+  EXPECT_EQ(status.error_code, ExitCode::bad_data);
   EXPECT_EQ(status.step, 20);
   EXPECT_EQ(run.frame()->step, 20);
   EXPECT_EQ(status.state_hash, hash_of(plain_run(20)));
