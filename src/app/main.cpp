@@ -24,7 +24,8 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   app.footer(
       "Exit codes: 0 done, 64 usage, 65 bad scenario, run or problem, 66 missing input,\n"
-      "69 no context, display or tool, 70 internal, 71 out of memory, 73 cannot create output, 74 I/O error,\n"
+      "69 no context, display or tool, 70 internal, 71 out of memory, 73 cannot create output, 74 I/O "
+      "error,\n"
       "75 stopped and resumable.");
   try {
     talus::add_run_command(app);

@@ -140,7 +140,7 @@ void set_style(float scale) {
   const auto gray = [](float value, float alpha = 1.0f) { return ImVec4(value, value, value, alpha); };
   const auto blue = [](float alpha) { return ImVec4(0.0f, 0.35f, 0.70f, alpha); };
   const std::pair<ImGuiCol, ImVec4> colours[] = {
-      {ImGuiCol_WindowBg, gray(1.0f)},         {ImGuiCol_Border, gray(0.72f)},
+      {ImGuiCol_WindowBg, gray(1.0f)},          {ImGuiCol_Border, gray(0.72f)},
       {ImGuiCol_Separator, gray(0.82f)},        {ImGuiCol_Text, gray(0.08f)},
       {ImGuiCol_TextDisabled, gray(0.42f)},     {ImGuiCol_FrameBg, gray(1.0f)},
       {ImGuiCol_Button, gray(0.90f)},           {ImGuiCol_ButtonHovered, gray(0.83f)},

@@ -14,7 +14,8 @@ inline constexpr Index grain_count = 6;
 inline constexpr Index free_grain_count = 4;
 
 RunHeader header();
-/// Commit number k holds k % 3 frames, at ascending tilts, 2 rows of observables, 5 of steps and k / 2 commands.
+/// Commit number k holds k % 3 frames, at ascending tilts, 2 rows of observables, 5 of steps and k / 2
+/// commands.
 Segment segment(int k);
 Checkpoint checkpoint(int k);
 
