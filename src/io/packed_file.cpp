@@ -6,6 +6,9 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <string_view>
 
 #include "core/errors.h"
 #include "core/hash.h"
@@ -50,6 +53,19 @@ void write_help(hdf5::Writer& writer) {
 void seal(std::vector<std::byte>& file) {
   const auto hash = hash_bytes(std::span(file).subspan(seal_size));
   std::ranges::copy(seal_of(file.size(), hash), file.begin());
+}
+
+bool is_run(const std::string& path) {
+  const std::filesystem::path name(path);
+  std::error_code unknown;
+  if (name.extension() == ".h5" || name.extension() == ".run" || std::filesystem::is_directory(name, unknown))
+    return true;
+  const std::string_view signatures[] = {seal_begin, "\x89HDF\r\n"};
+  std::string begin(std::string_view(seal_begin).size(), '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  return std::ranges::any_of(signatures,
+                             [&begin](std::string_view signature) { return begin.starts_with(signature); });
 }
 
 void verify_seal(const std::string& path) {

@@ -51,6 +51,10 @@ class RunFile {
   std::unique_ptr<State> state_;
 };
 
+/// Whether what is at `path` is, or is named as, a run: a packed file, an HDF5 file, a folder, or
+/// something.h5.
+bool is_run(const std::string& path);
+
 /// A frame as it will be read back: in single precision where the file stores floats.
 Frame as_stored(Frame frame);
 

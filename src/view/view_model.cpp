@@ -1,27 +1,15 @@
 #include "view/view_model.h"
 
-#include <array>
 #include <filesystem>
-#include <fstream>
 
 #include "core/errors.h"
-#include "io/run_store.h"
+#include "io/run_file.h"
 #include "maps/bed_view.h"
 #include "view/camera.h"
 #include "view/view_data.h"
 
 namespace talus {
 namespace {
-
-/// A run file, or the folder of a run; anything else is read as a scenario.
-bool is_run(const std::string& path) {
-  std::error_code unknown;
-  const std::string extension = std::filesystem::path(path).extension().string();
-  if (extension == ".h5" || extension == ".run" || std::filesystem::is_directory(path, unknown)) return true;
-  std::array<char, 4> begin{};
-  std::ifstream(path, std::ios::binary).read(begin.data(), begin.size());
-  return std::string_view(begin.data(), begin.size()) == "\x89HDF";
-}
 
 /// "slope-2.h5" after "slope.h5": the first that is not there yet.
 std::string next_output(const std::string& first) {

@@ -6,6 +6,8 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
 
 #include "core/errors.h"
 #include "io/run_file.h"
@@ -52,6 +54,22 @@ TEST(RunStore, a_second_writer_is_refused_and_told_whose_the_run_is) {
         << error.what();
   }
   EXPECT_EQ(RunFile::open(path).frame_count(), 0u);  // nothing was touched
+}
+
+TEST(RunStore, a_run_is_told_from_a_scenario_by_what_it_holds) {
+  const example::TemporaryFolder folder;
+  const auto with = [&folder](const std::string& name, const std::string& bytes) {
+    std::ofstream(folder.path(name), std::ios::binary) << bytes;
+    return is_run(folder.path(name));
+  };
+  EXPECT_TRUE(with("packed", "talus run file 1\nsize 0"));
+  EXPECT_TRUE(with("other", "\x89HDF\r\n\x1a\n"));
+  EXPECT_TRUE(with("named.h5", ""));
+  EXPECT_FALSE(with("bed.toml", "seed = 1\n"));
+  EXPECT_FALSE(with("empty", ""));
+  EXPECT_TRUE(is_run(folder.path("not_there.h5"))) << "that is what it is named as";
+  EXPECT_FALSE(is_run(folder.path("not_there.toml")));
+  EXPECT_TRUE(is_run(folder.path("")));
 }
 
 TEST(RunStore, a_run_is_refused_where_one_exists) {

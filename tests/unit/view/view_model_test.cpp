@@ -339,6 +339,12 @@ TEST(ViewOfNothing, says_what_is_missing) {
 
 // --- live ---
 
+/// Done, and its last frame is there to be shown.
+bool has_ended(ViewModel& model) {
+  const LiveStatus status = model.live()->status();
+  return status.done && !status.running;
+}
+
 class ViewOfScenario : public testing::Test {
  protected:
   ViewOfScenario() {
@@ -363,7 +369,7 @@ TEST_F(ViewOfScenario, follows_the_run) {
   model_->live()->play();
   ASSERT_TRUE(comes_true(*model_, [this] {
     model_->map(2.0);
-    return model_->live()->status().done;
+    return has_ended(*model_);
   }));
   ASSERT_TRUE(comes_true(*model_, [this] { return plot(*model_, "overloaded").series[0].x.size() >= 5; }));
   EXPECT_EQ(plot(*model_, "overloaded").series[0].x.size(), 5u) << "at 0, 0.25 ... 1 deg";
@@ -381,7 +387,7 @@ TEST_F(ViewOfScenario, measures_displacements_from_the_frame_recorded_before) {
   model_->state.map.range_low = 1e-12;  // the bed is small, and creeps
   model_->state.map.range_high = 1e-3;
   model_->live()->play();
-  ASSERT_TRUE(comes_true(*model_, [this] { return model_->live()->status().done; }));
+  ASSERT_TRUE(comes_true(*model_, [this] { return has_ended(*model_); }));
   model_->update(0.0);
   const std::vector<Disc> discs = model_->map(2.0).discs;
   EXPECT_FALSE(std::ranges::all_of(discs, [&discs](const Disc& disc) {
@@ -395,7 +401,7 @@ TEST_F(ViewOfScenario, begins_a_recorded_run_anew) {
   EXPECT_EQ(model.seed(), 3u);
   EXPECT_EQ(model.render_command(), "") << "no frame is recorded yet";
   model.live()->play();
-  ASSERT_TRUE(comes_true(model, [&model] { return model.live()->status().done; }));
+  ASSERT_TRUE(comes_true(model, [&model] { return has_ended(model); }));
   model.update(0.0);
   EXPECT_EQ(model.render_command(), "talus render " + output + " --map gamma --at 1 --theta-c 20");
   for (const char* next : {"a-2.h5", "a-3.h5"}) {
