@@ -112,10 +112,22 @@ void finish_maps(LiveMaps& maps, const RunArguments& arguments) {
   }
 }
 
+/// Maps of a complete run that was ended before all of them were drawn.
+void draw_what_is_missing(const RunArguments& arguments) {
+  std::optional<LiveMaps> maps = prepare_maps(arguments, request_of(arguments), true);
+  if (!maps) return;
+  const RunFile file = RunFile::open(arguments.output);
+  const Scenario scenario =
+      parse_scenario(file.header().scenario_resolved, arguments.output + ":/parameters");
+  maps->begin(file.header(), arguments.output, scenario.tilt.step);
+  maps->meet(file);
+}
+
 void run(const RunArguments& arguments) {
   const RunPresence presence = run_presence(arguments.output);
   if (arguments.resume && presence == RunPresence::packed) {
     if (!arguments.quiet) std::printf("%s is complete already.\n", arguments.output.c_str());
+    draw_what_is_missing(arguments);
     return;
   }
   const volatile std::sig_atomic_t* stop = catch_stop_signals();

@@ -86,6 +86,18 @@ TEST_F(RunFrames, of_an_interrupted_run_are_those_of_a_whole_one) {
     EXPECT_EQ(pixels_of(folder_.path() / "parts" / name), pixels_of(folder_.path() / "whole" / name)) << name;
 }
 
+TEST_F(RunFrames, of_a_complete_run_are_made_whole) {
+  ASSERT_EQ(talus(run("whole.h5", "whole")).exit_code, 0);
+  const std::set<std::string> names = names_in(folder_.path() / "whole");
+  const fs::path last = folder_.path() / "whole" / *names.rbegin();
+  const auto pixels = pixels_of(last);
+  fs::remove(last);
+  const Outcome again = talus(run("whole.h5", "whole", {"--resume"}));
+  EXPECT_EQ(again.exit_code, 0) << again.err;
+  ASSERT_EQ(names_in(folder_.path() / "whole"), names);
+  EXPECT_EQ(pixels_of(last), pixels);
+}
+
 TEST_F(RunFrames, that_cannot_be_written_do_not_lose_the_run) {
   ASSERT_EQ(talus({"run", "bed.toml", "-o", "plain.h5"}).exit_code, 0);
   fs::create_directories(folder_.path() / "maps/clusters_005.00.png/x");  // no file can take its place
