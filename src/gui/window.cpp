@@ -24,7 +24,8 @@ constexpr float nowhere = -FLT_MAX;          ///< ImGui: the mouse is outside
 constexpr double longest_wait = 0.1;         ///< s, before the model is asked again
 /// Pictures after the last change: ImGui knows what is under the mouse one picture later, and hints fade in.
 constexpr int settling_pictures = 4;
-constexpr double fast_after_change = 0.5;  ///< s, in which the model is asked for every picture
+constexpr double fast_after_change = 0.5;  ///< s, in which the model is asked often
+constexpr double shortest_wait = 0.003;    ///< s, between two such questions: the solver needs the core too
 constexpr double blink_time = 0.25;        ///< s, of the cursor in a text field
 
 /// The OpenGL of a window that is current.
@@ -175,7 +176,9 @@ void wait(WindowState& state, const ViewModel& model) {
   const double now = glfwGetTime();
   const bool busy = state.pictures_due > 0 || state.screen.input().waiting() || model.playing() ||
                     now - state.last_change < fast_after_change;
-  const double seconds = busy ? state.last_picture + picture_time - now : longest_wait;
+  const double until_picture = state.last_picture + picture_time - now;
+  const double at_least = state.pictures_due > 0 || state.screen.input().waiting() ? 0.0 : shortest_wait;
+  const double seconds = busy ? std::max(until_picture, at_least) : longest_wait;
   if (seconds > 0.0)
     glfwWaitEventsTimeout(seconds);
   else
