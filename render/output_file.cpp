@@ -1,29 +1,36 @@
 #include "render/output_file.h"
 
-#include <fcntl.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
 
 #include "core/errors.h"
+#include "core/locked_file.h"
 
 namespace talus {
+namespace {
 
-OutputFile::OutputFile(const std::string& path)
-    : path_(path), temporary_path_(path + ".part-" + std::to_string(getpid())) {
-  descriptor_ = open(temporary_path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (descriptor_ < 0) throw system_error(ExitCode::cannot_create, "create", path_, errno);
+Descriptor create(const std::string& temporary, const std::string& path) {
+  std::optional<Descriptor> file = create_locked(temporary);
+  if (!file)
+    throw Error(ExitCode::cannot_create,
+                path + " is being written by another process; wait for it to end, or choose another output");
+  return std::move(*file);
 }
 
+}  // namespace
+
+OutputFile::OutputFile(const std::string& path)
+    : path_(path), temporary_path_(path + ".part"), file_(create(temporary_path_, path_)) {}
+
 OutputFile::~OutputFile() {
-  if (descriptor_ >= 0) close(descriptor_);
   if (!committed_) unlink(temporary_path_.c_str());
 }
 
 void OutputFile::write(std::span<const std::uint8_t> bytes) {
   while (!bytes.empty()) {
-    const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
+    const ssize_t written = ::write(file_.get(), bytes.data(), bytes.size());
     if (written < 0 && errno == EINTR) continue;
     if (written <= 0) throw system_error(ExitCode::io_error, "write", path_, errno);
     bytes = bytes.subspan(static_cast<std::size_t>(written));
@@ -31,11 +38,9 @@ void OutputFile::write(std::span<const std::uint8_t> bytes) {
 }
 
 void OutputFile::commit() {
-  const int closed = close(descriptor_);
-  descriptor_ = -1;
-  if (closed != 0) throw system_error(ExitCode::io_error, "write", path_, errno);
-  if (std::rename(temporary_path_.c_str(), path_.c_str()) != 0)
-    throw system_error(ExitCode::cannot_create, "create", path_, errno);
+  while (fsync(file_.get()) != 0)
+    if (errno != EINTR) throw system_error(ExitCode::io_error, "make durable (fsync)", path_, errno);
+  if (std::rename(temporary_path_.c_str(), path_.c_str()) != 0) throw creation_error("create", path_, errno);
   committed_ = true;
 }
 

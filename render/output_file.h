@@ -5,12 +5,15 @@
 #include <span>
 #include <string>
 
+#include "core/descriptor.h"
+
 namespace talus {
 
-/// A file under a temporary name beside `path`, which gets its final name by commit and vanishes without.
+/// A file under the temporary name `path`.part, which gets its final name by commit and vanishes without.
+/// What a kill leaves under the temporary name is replaced when the same file is written again.
 class OutputFile {
  public:
-  /// Throws Error(cannot_create).
+  /// Throws creation_error, and Error(cannot_create) where another process writes the same file.
   explicit OutputFile(const std::string& path);
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
@@ -19,13 +22,13 @@ class OutputFile {
   const std::string& temporary_path() const { return temporary_path_; }
   /// Throws Error(io_error).
   void write(std::span<const std::uint8_t> bytes);
-  /// Throws Error(io_error).
+  /// Makes the content durable, then gives it its name. Throws Error(io_error), Error(cannot_create).
   void commit();
 
  private:
   std::string path_;
   std::string temporary_path_;
-  int descriptor_ = -1;
+  Descriptor file_;
   bool committed_ = false;
 };
 

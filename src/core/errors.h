@@ -41,4 +41,8 @@ class LocatedError : public Error {
 /// `path: reason of errno`, as an Error with the given code.
 Error system_error(ExitCode code, const std::string& action, const std::string& path, int errno_value);
 
+/// The same of a file or folder that cannot be made: io_error where the disk is full or fails, else
+/// cannot_create.
+Error creation_error(const std::string& action, const std::string& path, int errno_value);
+
 }  // namespace talus

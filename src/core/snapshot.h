@@ -3,7 +3,9 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -58,5 +60,14 @@ struct RunStatics {
 /// Named facts about a run, in writing order: provenance, timing, results.
 using Facts = std::vector<std::pair<std::string, std::string>>;
 using Figures = std::vector<std::pair<std::string, double>>;
+
+/// The value that goes by a name; none where nothing does.
+template <typename Value>
+std::optional<Value> find_value(const std::vector<std::pair<std::string, Value>>& named,
+                                std::string_view name) {
+  for (const auto& [key, value] : named)
+    if (key == name) return value;
+  return std::nullopt;
+}
 
 }  // namespace talus

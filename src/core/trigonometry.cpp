@@ -1,5 +1,7 @@
 #include "core/trigonometry.h"
 
+#include <cmath>
+
 namespace talus {
 namespace {
 
@@ -21,5 +23,15 @@ double alternating_series(double square, int first) {
 double sine(double angle) { return angle * alternating_series(angle * angle, 2); }
 
 double cosine(double angle) { return alternating_series(angle * angle, 1); }
+
+double arctangent(double slope) {
+  constexpr int halvings = 3;  // to an angle of at most pi/16
+  constexpr int terms = 12;    // slope^(2 k) / (2 k + 1) is then below 1e-18 for k = 12
+  for (int k = 0; k < halvings; ++k) slope /= 1.0 + std::sqrt(1.0 + slope * slope);
+  const double square = slope * slope;
+  double sum = 0.0;
+  for (int k = terms; k >= 1; --k) sum = square * (1.0 / (2 * k + 1) - sum);
+  return (1 << halvings) * (slope - slope * sum);
+}
 
 }  // namespace talus

@@ -1,6 +1,6 @@
 #pragma once
-/// Sine and cosine of our own, so that gravity has the same bits on every machine: glibc's differ between
-/// processors with and without fused multiply-add.
+/// Sine, cosine and arctangent of our own, so that gravity and what a run records have the same bits on every
+/// machine: glibc's differ between processors with and without fused multiply-add.
 
 namespace talus {
 
@@ -13,5 +13,7 @@ constexpr double degrees(double radians) { return radians * (180.0 / pi); }
 double sine(double angle);
 /// Cosine of an angle in radians, |angle| <= pi/2; error below 2 units in the last place near 1.
 double cosine(double angle);
+/// Arctangent in radians, |slope| <= 1e100; error below 6 units in the last place.
+double arctangent(double slope);
 
 }  // namespace talus

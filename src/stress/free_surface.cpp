@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/trigonometry.h"
+
 namespace talus {
 namespace {
 
@@ -46,7 +48,7 @@ double surface_inclination(const Grains& grains, const Boundary& boundary, doubl
     moment += distance * height[k];
     squares += distance * distance;
   }
-  return squares > 0.0 ? std::atan(moment / squares) : 0.0;
+  return squares > 0.0 ? arctangent(moment / squares) : 0.0;
 }
 
 }  // namespace talus

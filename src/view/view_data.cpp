@@ -9,12 +9,6 @@
 namespace talus {
 namespace {
 
-std::optional<double> theta_c_of(const RunFile& run) {
-  for (const auto& [name, value] : run.checkpoint().results)
-    if (name == "theta_c" && std::isfinite(value)) return value;
-  return std::nullopt;
-}
-
 MapExtent extent_of(const Frame& frame, const RunStatics& statics) {
   MapExtent extent = bed_extent(statics);
   extend(extent, frame, statics);
@@ -34,7 +28,8 @@ void ViewModel::Data::open_replay() {
   const RunFile& file = frames->file();
   statics = file.header().statics;
   seed = file.header().seed;
-  theta_c = theta_c_of(file);
+  theta_c = find_value(file.checkpoint().results, "theta_c");
+  if (theta_c && !std::isfinite(*theta_c)) theta_c.reset();  // it has not failed
   analysis = read_usable_analysis(path, file);
   rows = file.observables();
   plot_observables(rows, statics, plots);

@@ -34,19 +34,32 @@ TEST(Trigonometry, cosine_is_within_two_units_in_the_last_place_of_a_half) {
   }
 }
 
+TEST(Trigonometry, arctangent_is_within_six_units_in_the_last_place) {
+  for (int i = 1; i < samples - 1; ++i) {
+    const double slope = std::tan(sample_angle(i));
+    const double expected = std::atan(slope);
+    ASSERT_NEAR(arctangent(slope), expected, 6.0 * unit_in_last_place(expected)) << "at " << slope;
+  }
+  EXPECT_NEAR(arctangent(1e100), pi / 2, 1e-15);
+  EXPECT_EQ(arctangent(1e-100), 1e-100);
+}
+
 TEST(Trigonometry, has_exact_symmetries_and_values) {
   EXPECT_EQ(sine(0.0), 0.0);
   EXPECT_EQ(cosine(0.0), 1.0);
+  EXPECT_EQ(arctangent(0.0), 0.0);
   for (double angle : {0.1, 0.4, 1.5}) {
     EXPECT_EQ(sine(-angle), -sine(angle));
     EXPECT_EQ(cosine(-angle), cosine(angle));
+    EXPECT_EQ(arctangent(-angle), -arctangent(angle));
   }
 }
 
-// The bits that every machine must give, at 20 degrees.
+// The bits that every machine must give, at 20 degrees and at a slope of 0.36.
 TEST(Trigonometry, keeps_its_bits) {
   EXPECT_EQ(sine(radians(20.0)), 0x1.5e3a8748a0bf5p-2);
   EXPECT_EQ(cosine(radians(20.0)), 0x1.e11f642522d1cp-1);
+  EXPECT_EQ(arctangent(0.36), 0x1.61d9527631ea8p-2);
 }
 
 TEST(Trigonometry, radians_and_degrees_are_inverse) {

@@ -1,0 +1,17 @@
+#pragma once
+/// Text read word by word or line by line.
+
+#include <sstream>
+#include <string>
+
+namespace talus {
+
+/// A stream over a text that throws where memory is missing. Others set a bit then, and look as if the text
+/// had ended.
+inline std::istringstream text_stream(const std::string& text) {
+  std::istringstream stream(text);
+  stream.exceptions(std::ios::badbit);
+  return stream;
+}
+
+}  // namespace talus
