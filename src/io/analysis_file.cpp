@@ -2,9 +2,10 @@
 
 #include <unistd.h>
 
-#include <sstream>
+#include <algorithm>
 
 #include "core/errors.h"
+#include "core/text_stream.h"
 #include "io/durable_file.h"
 #include "io/packed_file.h"
 #include "io/run_records.h"
@@ -17,7 +18,7 @@ const std::string group = "/analysis";
 /// "lc_cut = 40; joining = contacts": the parameters that a data set depends on, with their values.
 std::string parameters_text(const AnalysisField& field, const Facts& parameters) {
   std::string text;
-  std::istringstream names(field.parameters);
+  std::istringstream names = text_stream(field.parameters);
   for (std::string name; names >> name;)
     for (const auto& [key, value] : parameters)
       if (key == name) text += (text.empty() ? "" : "; ") + name + " = " + value;
@@ -64,12 +65,28 @@ Sizes stored_sizes(hdf5::Reader& reader) {
   return sizes;
 }
 
+/// The frames of the tilt, those that an analysis has rows for.
+std::size_t tilted_frames(const std::string& path) {
+  const auto tilts = hdf5::Reader::from_file(path).read_finite("/frames/tilt");
+  const auto highest = std::ranges::max_element(tilts);
+  return static_cast<std::size_t>(highest - tilts.begin()) + (tilts.empty() ? 0 : 1);
+}
+
+/// Others take the rows of all these frames without looking.
+void check_frame_count(const hdf5::Reader& reader, std::size_t rows, std::size_t frames) {
+  if (rows != frames)
+    reader.refuse(group, "(a group) has rows for " + std::to_string(rows) + " frames, the tilt has " +
+                             std::to_string(frames));
+}
+
 /// The packed file at `path` without an analysis.
 std::vector<std::byte> bare_bytes(const std::string& path, const std::string& state_hash) {
   verify_seal(path);
   std::vector<std::byte> bytes = read_file(path);
   hdf5::Reader reader = hdf5::Reader::from_memory(bytes, path, {});
-  if (reader.read_text("/checkpoint/state_hash") != state_hash)
+  const std::string stored_hash = reader.has("/checkpoint") ? reader.read_text("/checkpoint/state_hash")
+                                                            : hash_text(talus::state_hash(World{}));
+  if (stored_hash != state_hash)
     throw Error(ExitCode::cannot_create,
                 path + ": has become the file of another run while it was analysed; analyse it again");
   // HDF5 leaves holes where something is removed from a file, so a file that has an analysis is packed again.
@@ -88,6 +105,7 @@ std::optional<Analysis> read_analysis(const std::string& path) {
   for (const std::string& name : reader.names(group + "/parameters"))
     analysis.parameters.emplace_back(name, reader.read_text(group + "/parameters/" + name));
   analysis.sizes = stored_sizes(reader);
+  check_frame_count(reader, analysis.sizes.at('T'), tilted_frames(path));
   for (const AnalysisField& field : analysis_schema())
     if (is_array(field) && is_present(field, analysis.sizes))
       analysis.data_sets.emplace(analysis_name(field), read_array(reader, field.data_set));
@@ -99,8 +117,7 @@ void store_analysis(const std::string& path, const Analysis& analysis, const std
   write_analysis(writer, analysis);
   std::vector<std::byte> file = writer.image();
   seal(file);
-  // A name that no other process uses: two that write one file at a time would make one that is not whole.
-  write_durably(path, file, path + "." + std::to_string(::getpid()) + ".tmp");
+  write_durably(path, file, path + ".tmp");
 }
 
 }  // namespace talus

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "io/run_records.h"
 
 namespace talus {
@@ -38,8 +40,10 @@ std::vector<Command> read_commands(hdf5::Reader& reader) {
   const auto step = reader.read<std::int64_t>(here + "step");
   const auto kind = reader.read<std::int8_t>(here + "kind");
   const auto grain = reader.read<Index>(here + "grain");
-  const auto x = reader.read<double>(here + "x");
-  const auto y = reader.read<double>(here + "y");
+  const auto x = reader.read_finite(here + "x");
+  const auto y = reader.read_finite(here + "y");
+  if (!std::ranges::is_sorted(step) || (!step.empty() && step.front() < 0))
+    reader.refuse(here + "step", "does not ascend from 0");
   std::vector<Command> commands;
   for (std::size_t k = 0; k < step.size(); ++k)
     commands.push_back({step[k], kind_of(reader, kind[k]), grain[k], x[k], y[k]});

@@ -9,7 +9,7 @@
 #include <filesystem>
 
 #include "core/errors.h"
-#include "io/descriptor.h"
+#include "core/locked_file.h"
 
 namespace talus {
 namespace {
@@ -28,14 +28,6 @@ void sync(int file, const std::string& path) {
     if (errno != EINTR) throw system_error(ExitCode::io_error, "make durable (fsync)", path, errno);
 }
 
-void write_and_sync(const std::string& path, std::span<const std::byte> bytes) {
-  Descriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
-  if (file.get() < 0) throw system_error(ExitCode::io_error, "create", path, errno);
-  write_all(file.get(), bytes, path);
-  sync(file.get(), path);
-  if (!file.close()) throw system_error(ExitCode::io_error, "close", path, errno);
-}
-
 }  // namespace
 
 std::vector<std::byte> read_file(const std::string& path) {
@@ -49,26 +41,31 @@ std::vector<std::byte> read_file(const std::string& path) {
 }
 
 void write_durably(const std::string& path, std::span<const std::byte> bytes, const std::string& temporary) {
+  const std::optional<Descriptor> file = create_locked(temporary);
+  if (!file)
+    throw Error(ExitCode::cannot_create,
+                path + " is being written by another process; wait for it to end, or choose another output");
   try {
-    write_and_sync(temporary, bytes);
+    write_all(file->get(), bytes, temporary);
+    sync(file->get(), temporary);
     if (::rename(temporary.c_str(), path.c_str()) != 0)
       throw system_error(ExitCode::io_error, "rename its temporary file to", path, errno);
   } catch (const Error&) {
     ::unlink(temporary.c_str());
     throw;
   }
-  sync_folder(parent_folder(path));
+  sync_name(path);
 }
 
 void make_folder(const std::string& path) {
   if (::mkdir(path.c_str(), 0777) != 0 && errno != EEXIST)
-    throw system_error(ExitCode::cannot_create, "create the folder", path, errno);
-  sync_folder(parent_folder(path));
+    throw creation_error("create the folder", path, errno);
+  sync_name(path);
 }
 
-void sync_folder(const std::string& path) {
-  const Descriptor folder(::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (folder.get() < 0) throw system_error(ExitCode::io_error, "open the folder", path, errno);
+void sync_name(const std::string& path) {
+  const Descriptor folder(::open(parent_folder(path).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (folder.get() < 0) throw system_error(ExitCode::io_error, "open the folder of", path, errno);
   sync(folder.get(), path);
 }
 

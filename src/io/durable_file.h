@@ -13,14 +13,16 @@ namespace talus {
 std::vector<std::byte> read_file(const std::string& path);
 
 /// Writes `bytes` to the name `temporary`, makes them durable, renames to `path` and makes the name durable:
-/// a file called `path` is always whole. Both names must be on one file system. Throws Error(io_error).
+/// a file called `path` is always whole. Both names must be on one file system. A temporary file that a kill
+/// left is replaced. Throws Error(io_error), creation_error, and Error(cannot_create) where another process
+/// writes to the same name.
 void write_durably(const std::string& path, std::span<const std::byte> bytes, const std::string& temporary);
 
-/// Creates a folder durably; one that exists already is taken. Throws Error(cannot_create).
+/// Creates a folder durably; one that exists already is taken. Throws creation_error.
 void make_folder(const std::string& path);
 
-/// Makes the names in a folder durable. Throws Error(io_error).
-void sync_folder(const std::string& path);
+/// Makes durable that a file or folder has this name, or has it no longer. Throws Error(io_error).
+void sync_name(const std::string& path);
 
 /// Removes a file if there is one. Throws Error(io_error).
 void remove_file(const std::string& path);

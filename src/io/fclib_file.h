@@ -10,6 +10,8 @@
 
 namespace talus {
 
+struct ForeignFile;
+
 /// What a problem file holds. Vectors of unknowns are (n, t) of contact 0, (n, t) of contact 1, ...
 struct FclibProblem {
   std::string title;
@@ -33,6 +35,9 @@ void write_fclib(const std::string& path, const FclibProblem& problem, const std
 /// and Error(bad_data), naming the data set, where it is no problem in two dimensions, or is not whole,
 /// finite and of sizes that fit.
 FclibProblem read_fclib(const std::string& path);
+
+/// The problem in the arrays of a file called `path`; throws as read_fclib does.
+FclibProblem checked_problem(const std::string& path, const ForeignFile& found);
 
 /// Writes a copy of the problem file `from` to `to`, with r and u as its /solution, in place of one that it
 /// has. `to` appears whole or not at all, and may be `from`.

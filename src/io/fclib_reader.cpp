@@ -2,57 +2,37 @@
 #include <limits>
 
 #include "core/errors.h"
-#include "core/hash.h"
-#include "io/durable_file.h"
 #include "io/fclib_file.h"
 #include "io/fclib_schema.h"
-#include "io/hdf5_handle.h"
+#include "io/foreign_file.h"
 
 namespace talus {
 namespace {
 
-using hdf5::Handle;
-
-/// A problem file of any program, held in memory.
+/// A problem file of any program, as far as it is known to be one of numbers.
 class FclibFile {
  public:
-  explicit FclibFile(const std::string& path) : path_(path) {
-    hdf5::set_library_policy();
-    std::vector<std::byte> bytes = read_file(path);
-    const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-    if (bytes.empty()) throw Error(ExitCode::bad_data, path + ": is empty");
-    if (H5Pset_fapl_core(access.get(), 1 << 20, false) < 0 ||
-        H5Pset_file_image(access.get(), bytes.data(), bytes.size()) < 0)
-      throw Error(ExitCode::out_of_memory, path + ": no memory to open it");
-    const std::string name = hdf5::memory_name(path + " " + hash_text(hash_bytes(bytes)));
-    file_ = Handle(H5Fopen(name.c_str(), H5F_ACC_RDONLY, access.get()), H5Fclose);
-    if (file_.get() < 0) throw Error(ExitCode::bad_data, path + ": is not an HDF5 file");
-  }
+  FclibFile(std::string path, ForeignFile found) : path_(std::move(path)), found_(std::move(found)) {}
 
   /// Whether a group or data set is there.
   bool has(const std::string& path) const {
-    for (std::size_t slash = path.find('/', 1);; slash = path.find('/', slash + 1)) {
-      if (H5Lexists(file_.get(), path.substr(0, slash).c_str(), H5P_DEFAULT) <= 0) return false;
-      if (slash == std::string::npos) return true;
-    }
+    return found_.groups.contains(path) || found_.reals.contains(path) || found_.integers.contains(path);
   }
 
   /// All values of a data set of numbers, whatever its shape.
   template <typename T>
-  std::vector<T> read(const std::string& path) const {
-    const Handle set = open(path, std::is_same_v<T, double>);
-    std::vector<T> values(value_count(set, path));
-    if (!values.empty() &&
-        H5Dread(set.get(), hdf5::memory_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
-      refuse(path, "cannot be read");
-    if constexpr (std::is_same_v<T, double>) check_finite(path, values);
-    return values;
+  const std::vector<T>& read(const std::string& path) const {
+    const auto& arrays = of<T>();
+    const auto values = arrays.find(path);
+    if (values == arrays.end()) refuse(path, "is missing");
+    if constexpr (std::is_same_v<T, double>) check_finite(path, values->second);
+    return values->second;
   }
 
   /// The same, of a size that is known; `why` says whose size it is.
   template <typename T>
-  std::vector<T> read(const std::string& path, std::size_t size, const std::string& why) const {
-    std::vector<T> values = read<T>(path);
+  const std::vector<T>& read(const std::string& path, std::size_t size, const std::string& why) const {
+    const std::vector<T>& values = read<T>(path);
     if (values.size() != size)
       refuse(path, "has " + std::to_string(values.size()) + " values, expected " + std::to_string(size) +
                        ", " + why);
@@ -66,23 +46,12 @@ class FclibFile {
   }
 
  private:
-  Handle open(const std::string& path, bool of_reals) const {
-    if (!has(path)) refuse(path, "is missing");
-    Handle set(H5Dopen2(file_.get(), path.c_str(), H5P_DEFAULT), H5Dclose);
-    if (set.get() < 0) refuse(path, "cannot be opened: it is no data set");
-    const Handle type(H5Dget_type(set.get()), H5Tclose);
-    const H5T_class_t kind = H5Tget_class(type.get());
-    if (kind != H5T_INTEGER && !(of_reals && kind == H5T_FLOAT))
-      refuse(path, of_reals ? "does not hold numbers" : "does not hold integers");
-    return set;
-  }
-
-  std::size_t value_count(const Handle& set, const std::string& path) const {
-    constexpr hssize_t most = hssize_t{1} << 29;  // 4 GiB of doubles
-    const Handle space(H5Dget_space(set.get()), H5Sclose);
-    const hssize_t count = H5Sget_simple_extent_npoints(space.get());
-    if (count < 0 || count > most) refuse(path, "has a size that cannot be true");
-    return static_cast<std::size_t>(count);
+  template <typename T>
+  const std::map<std::string, std::vector<T>>& of() const {
+    if constexpr (std::is_same_v<T, double>)
+      return found_.reals;
+    else
+      return found_.integers;
   }
 
   void check_finite(const std::string& path, const std::vector<double>& values) const {
@@ -92,8 +61,18 @@ class FclibFile {
   }
 
   std::string path_;
-  Handle file_;
+  ForeignFile found_;
 };
+
+/// The groups and data sets that a problem is read from.
+std::vector<DataSetField> problem_fields() {
+  std::vector<DataSetField> fields;
+  for (const char* group : {"/fclib_local", "/fclib_local/V", "/fclib_local/R", "/talus"})
+    fields.push_back({group, ElementType::text, {}, {}, {}});
+  for (const DataSetField& field : fclib_schema())
+    if (field.type != ElementType::text && !field.path.starts_with("/solution/")) fields.push_back(field);
+  return fields;
+}
 
 void check_kind(const FclibFile& file, const std::string& path) {
   if (!file.has("/fclib_local"))
@@ -123,7 +102,7 @@ void check_index(const FclibFile& file, const std::string& path, const std::vect
 /// Lines of compressed rows or columns: the line of each entry.
 std::vector<Index> line_of_entries(const FclibFile& file, std::size_t lines, std::size_t entries) {
   const std::string path = "/fclib_local/W/p";
-  const auto begin = file.read<Index>(path, lines + 1, "the rows of W and one");
+  const auto& begin = file.read<Index>(path, lines + 1, "the rows of W and one");
   if (begin[0] != 0 || static_cast<std::size_t>(begin[lines]) != entries)
     file.refuse(path, "goes from " + std::to_string(begin[0]) + " to " + std::to_string(begin[lines]) +
                           ", expected 0 to " + std::to_string(entries) + ", the entries of W");
@@ -210,8 +189,8 @@ void read_additions(const FclibFile& file, FclibProblem& problem) {
 
 }  // namespace
 
-FclibProblem read_fclib(const std::string& path) {
-  const FclibFile file(path);
+FclibProblem checked_problem(const std::string& path, const ForeignFile& found) {
+  const FclibFile file(path, found);
   check_kind(file, path);
   FclibProblem problem;
   read_vectors(file, problem);
@@ -219,6 +198,10 @@ FclibProblem read_fclib(const std::string& path) {
   check_diagonal(file, problem);
   read_additions(file, problem);
   return problem;
+}
+
+FclibProblem read_fclib(const std::string& path) {
+  return checked_problem(path, read_foreign(path, problem_fields()));
 }
 
 }  // namespace talus

@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "core/errors.h"
-#include "core/hash.h"
+#include "io/child_process.h"
 #include "io/durable_file.h"
 #include "io/fclib_file.h"
 #include "io/fclib_schema.h"
@@ -117,8 +117,6 @@ std::vector<std::byte> image_of(hid_t file) {
   return bytes;
 }
 
-void write_file(const std::string& path, hid_t file) { write_durably(path, image_of(file), path + ".tmp"); }
-
 }  // namespace
 
 void write_fclib(const std::string& path, const FclibProblem& problem, const std::vector<double>& guess_u) {
@@ -132,22 +130,22 @@ void write_fclib(const std::string& path, const FclibProblem& problem, const std
   write(file.get(), "/guesses/1/u", guess_u);
   for (const auto& [set, values] : problem.reals) write(file.get(), set, values);
   for (const auto& [set, values] : problem.integers) write(file.get(), set, values);
-  write_file(path, file.get());
+  write_durably(path, image_of(file.get()), path + ".tmp");
 }
 
 void write_fclib_solution(const std::string& from, const std::string& to, const std::vector<double>& r,
                           const std::vector<double>& u) {
   std::vector<std::byte> bytes = read_file(from);
-  const Handle access = in_memory();
-  checked(H5Pset_file_image(access.get(), bytes.data(), bytes.size()), "take a file");
-  const std::string name = hdf5::memory_name("solved " + hash_text(hash_bytes(bytes)));
-  const Handle file(H5Fopen(name.c_str(), H5F_ACC_RDWR, access.get()), H5Fclose);
-  if (file.get() < 0) throw Error(ExitCode::bad_data, from + ": is not an HDF5 file that can be added to");
-  if (H5Lexists(file.get(), "/solution", H5P_DEFAULT) > 0)
-    checked(H5Ldelete(file.get(), "/solution", H5P_DEFAULT), "remove /solution");
-  write(file.get(), "/solution/r", r);
-  write(file.get(), "/solution/u", u);
-  write_file(to, file.get());
+  const auto with_solution = [&] {  // HDF5 may fail on a file of another program: not in this process
+    const Handle file = hdf5::open_image(bytes, from, H5F_ACC_RDWR);
+    if (file.get() < 0) throw Error(ExitCode::bad_data, from + ": is not an HDF5 file that can be added to");
+    if (H5Lexists(file.get(), "/solution", H5P_DEFAULT) > 0)
+      checked(H5Ldelete(file.get(), "/solution", H5P_DEFAULT), "remove /solution");
+    write(file.get(), "/solution/r", r);
+    write(file.get(), "/solution/u", u);
+    return image_of(file.get());
+  };
+  write_durably(to, in_child_process(from, bytes.size(), with_solution), to + ".tmp");
 }
 
 }  // namespace talus

@@ -3,14 +3,21 @@
 
 #include <hdf5.h>
 
+#include <cerrno>
+#include <new>
+#include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
+#include "core/errors.h"
+#include "core/hash.h"
 #include "io/run_schema.h"
 
 namespace talus::hdf5 {
 
-/// Owns one HDF5 identifier.
+/// Owns one HDF5 identifier. Where an allocation has failed it stays open: HDF5 can crash when it closes what
+/// it could not complete.
 class Handle {
  public:
   using Close = herr_t (*)(hid_t);
@@ -24,7 +31,7 @@ class Handle {
     return *this;
   }
   ~Handle() {
-    if (id_ >= 0) close_(id_);
+    if (id_ >= 0 && errno != ENOMEM) close_(id_);
   }
 
   hid_t get() const { return id_; }
@@ -34,15 +41,80 @@ class Handle {
   Close close_ = nullptr;
 };
 
-/// Keeps HDF5 from printing errors, which we report ourselves, and from loading plugins into this process.
+/// Keeps HDF5 from printing errors, which we report ourselves, from loading plugins into this process, and
+/// from tidying up when the process ends: there is nothing left to write then, and after an error it can
+/// crash.
 inline void set_library_policy() {
+  errno = 0;
+  H5dont_atexit();
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   H5PLset_loading_state(0);
+}
+
+/// To be asked after a call of HDF5 on the file `name` that failed: where the system is the cause, that is
+/// thrown (std::bad_alloc, Error(io_error)). HDF5 does not tell it reliably, least of all when it has no
+/// memory to note it; errno does, since set_library_policy.
+inline void throw_cause(const std::string& name) {
+  if (errno == ENOMEM) throw std::bad_alloc();
+  if (errno == EIO) throw system_error(ExitCode::io_error, "read", name, EIO);
 }
 
 /// A name for a file in memory. HDF5 takes files of equal names for the same one, and looks for a file of
 /// that name on disk: below /dev/null there can be none.
 inline std::string memory_name(const std::string& name) { return "/dev/null/" + name; }
+
+/// Opens a file in memory; the handle is not valid where HDF5 cannot. HDF5 copies the image and never writes
+/// to the bytes it is given. Throws Error(out_of_memory).
+inline Handle open_image(std::vector<std::byte>& image, const std::string& name, unsigned access_flags) {
+  set_library_policy();
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  if (H5Pset_fapl_core(access.get(), 1 << 20, false) < 0 ||
+      H5Pset_file_image(access.get(), image.data(), image.size()) < 0)
+    throw Error(ExitCode::out_of_memory, name + ": no memory to open it");
+  const std::string unique = memory_name(name + " " + hash_text(hash_bytes(image)));
+  return {H5Fopen(unique.c_str(), access_flags, access.get()), H5Fclose};
+}
+
+/// What a path leads to.
+enum class Found { nothing, an_object, a_link_elsewhere };
+
+/// Follows a path from "/" on; no link to another file or place is followed.
+inline Found find(hid_t file, const std::string& path) {
+  for (std::size_t slash = path.find('/', 1);; slash = path.find('/', slash + 1)) {
+    const std::string part = path.substr(0, slash);
+    H5L_info_t link{};
+    if (H5Lexists(file, part.c_str(), H5P_DEFAULT) <= 0) return Found::nothing;
+    if (H5Lget_info(file, part.c_str(), &link, H5P_DEFAULT) < 0 || link.type != H5L_TYPE_HARD)
+      return Found::a_link_elsewhere;
+    if (slash == std::string::npos) return Found::an_object;
+  }
+}
+
+/// Whether the values of a data set lie in its own file, and are no view of other data sets.
+inline bool is_stored_within(hid_t set) {
+  const Handle creation(H5Dget_create_plist(set), H5Pclose);
+  const H5D_layout_t layout = H5Pget_layout(creation.get());
+  return layout >= 0 && layout != H5D_VIRTUAL && H5Pget_external_count(creation.get()) == 0;
+}
+
+/// Whether a file of so many bytes can hold `count` values: deflate makes data at most 1032 times smaller,
+/// and nothing that is read at once is above 4 GiB of doubles.
+inline bool can_hold(hsize_t file_size, hsize_t count) {
+  constexpr hsize_t most = hsize_t{1} << 29;
+  return count <= most && count / 1032 <= file_size;
+}
+
+/// The attribute of a data set with the hash of its values.
+inline constexpr const char* hash_attribute = "hash";
+
+/// The hash of a data set that is written whole: of its path, so that no link leads to another unseen, and of
+/// its values as they are stored; of a text without the zeros at its end.
+inline std::uint64_t piece_hash(const std::string& path, std::span<const std::byte> values) {
+  Hasher hasher;
+  hasher.add_array(path);
+  hasher.add_array(values);
+  return hasher.value();
+}
 
 template <typename T>
 hid_t memory_type() {

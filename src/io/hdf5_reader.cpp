@@ -1,20 +1,26 @@
 #include "io/hdf5_reader.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <span>
 
 #include "core/errors.h"
-#include "core/hash.h"
 
 namespace talus::hdf5 {
 namespace {
 
-constexpr hsize_t largest_block = hsize_t{1} << 29;  // values read at once: 4 GiB of doubles
-
-Handle open_or_refuse(hid_t file, const std::string& name) {
-  if (file < 0)
+Handle open_or_refuse(Handle file, const std::string& name) {
+  if (file.get() < 0) throw_cause(name);
+  if (file.get() < 0)
     throw Error(ExitCode::bad_data,
                 name + ": HDF5 cannot open it, although its hash is right: it was made otherwise");
-  return Handle(file, H5Fclose);
+  return file;
+}
+
+hsize_t size_of(const Handle& file) {
+  hsize_t size = 0;
+  return H5Fget_filesize(file.get(), &size) < 0 ? 0 : size;
 }
 
 std::string shape_text(const std::vector<hsize_t>& dims) {
@@ -26,34 +32,31 @@ std::string shape_text(const std::vector<hsize_t>& dims) {
   return text + "]";
 }
 
-bool is_fixed_text(hid_t type) {
-  return H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) == 0 &&
-         H5Tget_size(type) < largest_block;
+std::string short_number(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.6g", value);
+  return text.data();
 }
+
+bool is_fixed_text(hid_t type) { return H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) == 0; }
 
 }  // namespace
 
 Reader::Reader(Handle file, std::string name, Sizes sizes)
-    : file_(std::move(file)), name_(std::move(name)), sizes_(std::move(sizes)) {}
+    : file_(std::move(file)), file_size_(size_of(file_)), name_(std::move(name)), sizes_(std::move(sizes)) {}
 
-Reader Reader::from_memory(const std::vector<std::byte>& image, const std::string& name, const Sizes& known) {
-  set_library_policy();
-  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-  // HDF5 copies the image and never writes to the buffer it is given.
-  void* bytes = const_cast<std::byte*>(image.data());
-  if (H5Pset_fapl_core(access.get(), 1 << 20, false) < 0 ||
-      H5Pset_file_image(access.get(), bytes, image.size()) < 0)
-    throw Error(ExitCode::out_of_memory, name + ": no memory to open it");
-  const std::string unique = memory_name(name + " " + hash_text(hash_bytes(image)));
-  return Reader(open_or_refuse(H5Fopen(unique.c_str(), H5F_ACC_RDONLY, access.get()), name), name, known);
+Reader Reader::from_memory(std::vector<std::byte> image, const std::string& name, const Sizes& known) {
+  return Reader(open_or_refuse(open_image(image, name, H5F_ACC_RDONLY), name), name, known);
 }
 
 Reader Reader::from_file(const std::string& path) {
   set_library_policy();
-  return Reader(open_or_refuse(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), path), path, {});
+  Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+  return Reader(open_or_refuse(std::move(file), path), path, {});
 }
 
 void Reader::refuse(const std::string& path, const std::string& problem) const {
+  throw_cause(name_);
   throw Error(ExitCode::bad_data, name_ + ": data set " + path + " " + problem);
 }
 
@@ -80,14 +83,20 @@ void Reader::check_shape(const std::string& path, const std::vector<hsize_t>& di
 }
 
 Reader::DataSet Reader::open(const std::string& path) {
+  const Found found = find(file_.get(), path);
+  if (found == Found::nothing) refuse(path, "is missing");
+  if (found == Found::a_link_elsewhere) refuse(path, "is a link to another place, which is not followed");
   DataSet set;
   set.id = Handle(H5Dopen2(file_.get(), path.c_str(), H5P_DEFAULT), H5Dclose);
-  if (set.id.get() < 0) refuse(path, "is missing");
+  if (set.id.get() < 0) refuse(path, "cannot be opened: it is no data set");
   const Handle type(H5Dget_type(set.id.get()), H5Tclose), space(H5Dget_space(set.id.get()), H5Sclose);
   const ElementType expected = field_of(path).type;
   const bool same = expected == ElementType::text ? is_fixed_text(type.get())
                                                   : H5Tequal(type.get(), file_type(expected)) > 0;
   if (!same) refuse(path, "has another type than " + std::string(type_name(expected)));
+  if (expected == ElementType::text && !can_hold(file_size_, H5Tget_size(type.get())))
+    refuse(path, "is too long to be true");
+  if (!is_stored_within(set.id.get())) refuse(path, "has its values in another file");
   const int rank = H5Sget_simple_extent_ndims(space.get());
   if (rank < 0) refuse(path, "has no shape");
   set.dims.resize(static_cast<std::size_t>(rank));
@@ -102,13 +111,12 @@ std::size_t Reader::block_size(const DataSet& set, const std::string& path, std:
   if (count > set.dims[0] || first > set.dims[0] - count)
     refuse(path, "has " + std::to_string(set.dims[0]) + " rows; row " + std::to_string(first + count) +
                      " was asked for");
-  hsize_t size = count;
+  constexpr hsize_t most = hsize_t{1} << 40;  // more than any file can hold
+  hsize_t size = std::min<hsize_t>(count, most);
   for (std::size_t d = 1; d < set.dims.size(); ++d)
-    if (set.dims[d] == 0 || size > largest_block / set.dims[d])
-      size = set.dims[d] == 0 ? 0 : largest_block + 1;
-    else
-      size *= set.dims[d];
-  if (size > largest_block) refuse(path, "of shape " + shape_text(set.dims) + " is too large to be true");
+    size = set.dims[d] > most / std::max<hsize_t>(size, 1) ? most : size * set.dims[d];
+  if (!can_hold(file_size_, size))
+    refuse(path, "of shape " + shape_text(set.dims) + " is too large to be true");
   return size;
 }
 
@@ -129,6 +137,16 @@ void Reader::read_block(const DataSet& set, const std::string& path, std::uint64
     refuse(path, "cannot be read");
 }
 
+void Reader::check(const std::string& path, const std::vector<double>& values, double low,
+                   double high) const {
+  for (std::size_t k = 0; k < values.size(); ++k)
+    if (!(values[k] >= low && values[k] <= high && std::isfinite(values[k])))
+      refuse(path, "holds " + short_number(values[k]) + " at index " + std::to_string(k) + ", expected " +
+                       (std::isinf(high) && std::isinf(low) ? "a finite number"
+                        : std::isinf(high)                  ? "a finite number >= " + short_number(low)
+                                           : short_number(low) + " to " + short_number(high)));
+}
+
 std::string Reader::read_text(const std::string& path) {
   const DataSet set = open(path);
   const Handle type(H5Dget_type(set.id.get()), H5Tclose);
@@ -137,25 +155,60 @@ std::string Reader::read_text(const std::string& path) {
   return text.substr(0, text.find('\0'));
 }
 
-bool Reader::has(const std::string& path) const {
-  return H5Lexists(file_.get(), path.c_str(), H5P_DEFAULT) > 0;
+namespace {
+
+std::optional<std::uint64_t> stored_hash(hid_t set) {
+  if (H5Aexists(set, hash_attribute) <= 0) return std::nullopt;
+  const Handle attribute(H5Aopen(set, hash_attribute, H5P_DEFAULT), H5Aclose);
+  const Handle type(H5Aget_type(attribute.get()), H5Tclose), space(H5Aget_space(attribute.get()), H5Sclose);
+  std::uint64_t hash = 0;
+  if (H5Tequal(type.get(), H5T_STD_U64LE) <= 0 || H5Sget_simple_extent_npoints(space.get()) != 1 ||
+      H5Aread(attribute.get(), H5T_NATIVE_UINT64, &hash) < 0)
+    return std::nullopt;
+  return hash;
 }
 
-std::uint64_t Reader::row_count(const std::string& path) {
+}  // namespace
+
+Reader::Stored Reader::read_stored(const std::string& path) {
   const DataSet set = open(path);
-  return set.dims.empty() ? 1 : set.dims[0];
+  Stored stored{{set.dims.begin(), set.dims.end()}, {}, stored_hash(set.id.get())};
+  if (field_of(path).type == ElementType::text) {
+    const std::string text = read_text(path);
+    const auto bytes = std::as_bytes(std::span(text));
+    stored.values.assign(bytes.begin(), bytes.end());
+  } else {
+    stored.values = read_row_bytes(path, 0, rows_of(set));
+  }
+  return stored;
 }
+
+std::vector<std::byte> Reader::read_row_bytes(const std::string& path, std::uint64_t first,
+                                              std::uint64_t count) {
+  const DataSet set = open(path);
+  const hid_t type = file_type(field_of(path).type);
+  std::vector<std::byte> values(block_size(set, path, first, count) * H5Tget_size(type));
+  read_block(set, path, first, count, type, values.data());
+  return values;
+}
+
+bool Reader::has(const std::string& path) const { return find(file_.get(), path) != Found::nothing; }
+
+std::uint64_t Reader::row_count(const std::string& path) { return rows_of(open(path)); }
 
 std::vector<std::string> Reader::names(const std::string& group) {
+  if (find(file_.get(), group) != Found::an_object) refuse(group, "(a group) is missing");
   const Handle id(H5Gopen2(file_.get(), group.c_str(), H5P_DEFAULT), H5Gclose);
   H5G_info_t info{};
-  if (id.get() < 0 || H5Gget_info(id.get(), &info) < 0) refuse(group, "(a group) is missing");
+  if (id.get() < 0 || H5Gget_info(id.get(), &info) < 0) refuse(group, "is not a group");
   std::vector<std::string> names;
   for (hsize_t k = 0; k < info.nlinks; ++k) {
     std::array<char, 256> name{};
+    H5L_info_t link{};
     H5O_info_t object{};
     if (H5Lget_name_by_idx(id.get(), ".", H5_INDEX_CRT_ORDER, H5_ITER_INC, k, name.data(), name.size(),
                            H5P_DEFAULT) < 0 ||
+        H5Lget_info(id.get(), name.data(), &link, H5P_DEFAULT) < 0 || link.type != H5L_TYPE_HARD ||
         H5Oget_info_by_name(id.get(), name.data(), &object, H5P_DEFAULT) < 0)
       refuse(group, "(a group) cannot be listed");
     if (object.type == H5O_TYPE_DATASET) names.emplace_back(name.data());

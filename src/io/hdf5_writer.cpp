@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "core/errors.h"
 
@@ -10,14 +11,14 @@ namespace {
 
 constexpr std::size_t growth = std::size_t{1} << 20;  // bytes by which the image in memory grows
 constexpr hsize_t series_chunk = 1 << 16;             // rows of a series in a chunk
-constexpr std::size_t default_chunk_cache = std::size_t{1} << 20;
 constexpr unsigned deflate_level = 4;
 
-/// Passes on what HDF5 returned, unless it is a failure.
+/// Passes on what HDF5 returned, unless it is a failure: in memory, of which there is too little then.
 template <typename Result>
 Result checked(Result result, const std::string& action) {
-  if (result < 0) throw Error(ExitCode::io_error, "HDF5 cannot " + action + " (in memory)");
-  return result;
+  if (result >= 0) return result;
+  throw Error(ExitCode::out_of_memory, "out of memory: HDF5 cannot " + action +
+                                           " in memory; use a smaller bed (bed.length, bed.depth)");
 }
 
 std::string parent_of(const std::string& path) { return path.substr(0, path.rfind('/')); }
@@ -48,11 +49,24 @@ void attach_text(hid_t object, const char* name, const std::string& text) {
   attach(object, name, text_type(text.size()).get(), {}, text.c_str());
 }
 
+void attach_hash(hid_t object, std::uint64_t hash) {
+  attach(object, hash_attribute, H5T_STD_U64LE, {}, &hash);
+}
+
 Handle properties(hid_t kind) {
   Handle list(checked(H5Pcreate(kind), "create properties"), H5Pclose);
   if (kind != H5P_FILE_ACCESS && kind != H5P_FILE_CREATE && kind != H5P_DATASET_ACCESS)
     checked(H5Pset_obj_track_times(list.get(), false), "leave out times");  // equal runs, equal bytes
   return list;
+}
+
+/// Names in the order of their writing, kept with their group: not in an index of their own, which grows at
+/// the end of the file and is lost with it.
+void keep_names_in_order(const Handle& creation, const std::string& path) {
+  constexpr unsigned most_in_group = 10000;
+  checked(H5Pset_link_creation_order(creation.get(), H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED),
+          "keep the order of " + path);
+  checked(H5Pset_link_phase_change(creation.get(), most_in_group, 0), "keep the names of " + path);
 }
 
 /// The shape of a chunk; empty for data that is stored in one piece as it is.
@@ -86,13 +100,13 @@ Handle creation_properties(ElementType type, const std::vector<hsize_t>& chunk) 
   return list;
 }
 
-/// A cache that holds the chunk being filled, whatever its size.
-Handle access_properties(const std::vector<hsize_t>& chunk) {
-  std::size_t bytes = sizeof(double);
+/// A cache that holds the chunk being filled and no more: those before it are in the file, frame by frame,
+/// and a file that is cut keeps the frames before the cut.
+Handle access_properties(ElementType type, const std::vector<hsize_t>& chunk) {
+  std::size_t bytes = size_of(type);
   for (hsize_t extent : chunk) bytes *= extent;
   Handle access = properties(H5P_DATASET_ACCESS);
-  checked(H5Pset_chunk_cache(access.get(), H5D_CHUNK_CACHE_NSLOTS_DEFAULT,
-                             std::max(default_chunk_cache, bytes), 1.0),
+  checked(H5Pset_chunk_cache(access.get(), H5D_CHUNK_CACHE_NSLOTS_DEFAULT, bytes, 1.0),
           "size the chunk cache");
   return access;
 }
@@ -105,6 +119,8 @@ Writer::Writer(Sizes sizes, std::size_t user_block) : sizes_(std::move(sizes)), 
   checked(H5Pset_fapl_core(access.get(), growth, false), "choose memory");
   const Handle creation = properties(H5P_FILE_CREATE);
   checked(H5Pset_userblock(creation.get(), user_block), "keep a user block");
+  keep_names_in_order(creation, "/");
+  checked(H5Pset_est_link_info(creation.get(), 16, 12), "make room for groups");
   file_ =
       Handle(checked(H5Fcreate(memory_name("written").c_str(), H5F_ACC_TRUNC, creation.get(), access.get()),
                      "create a file"),
@@ -112,7 +128,7 @@ Writer::Writer(Sizes sizes, std::size_t user_block) : sizes_(std::move(sizes)), 
 }
 
 Writer::Writer(Sizes sizes, std::size_t user_block, const std::vector<std::byte>& image)
-    : sizes_(std::move(sizes)), user_block_(user_block) {
+    : sizes_(std::move(sizes)), user_block_(user_block), has_contents_(true) {
   set_library_policy();
   const Handle access = properties(H5P_FILE_ACCESS);
   checked(H5Pset_fapl_core(access.get(), growth, false), "choose memory");
@@ -132,12 +148,13 @@ void Writer::create(const std::string& path) {
   const std::vector<hsize_t> chunk = chunk_of(field, set.dims, sizes_);
   const Handle space = space_of(set.dims);
   const Handle creation = creation_properties(field.type, chunk);
-  const Handle access = access_properties(chunk);
+  const Handle access = access_properties(field.type, chunk);
   set.id = Handle(checked(H5Dcreate2(file_.get(), path.c_str(), file_type(field.type), space.get(),
                                      H5P_DEFAULT, creation.get(), access.get()),
                           "create " + path),
                   H5Dclose);
   attach_text(set.id.get(), "unit", field.unit);
+  contents_.append(path).append("\n");
   open_.insert_or_assign(path, std::move(set));
 }
 
@@ -164,19 +181,40 @@ void Writer::write_block(const std::string& path, std::uint64_t first_row, std::
   checked(H5Dwrite(set.id.get(), type, memory.get(), space.get(), H5P_DEFAULT, data), "write " + path);
 }
 
-void Writer::put_text(const std::string& path, const std::string& text, const std::string& unit) {
+void Writer::write_bytes(const std::string& path, std::span<const std::byte> values, hid_t type) {
+  create(path);
+  if (H5Tequal(type, file_type(field_of(path).type)) <= 0)
+    throw Error(ExitCode::internal, "values of another type than that of " + path);
+  write_block(path, 0, values.size() / H5Tget_size(type), type, values.data());
+  attach_hash(open_.at(path).id.get(), piece_hash(path, values));
+}
+
+void Writer::write_bytes(const std::string& path, std::span<const std::byte> values) {
+  write_bytes(path, values, file_type(field_of(path).type));
+}
+
+void Writer::write_row_bytes(const std::string& path, std::uint64_t first_row,
+                             std::span<const std::byte> values) {
+  const hid_t type = file_type(field_of(path).type);
+  write_block(path, first_row, values.size() / H5Tget_size(type), type, values.data());
+}
+
+Handle Writer::put_text(const std::string& path, const std::string& text, const std::string& unit) {
   create_group(parent_of(path));
   const Handle type = text_type(text.size()), space = space_of({}), creation = properties(H5P_DATASET_CREATE);
-  const Handle set(checked(H5Dcreate2(file_.get(), path.c_str(), type.get(), space.get(), H5P_DEFAULT,
-                                      creation.get(), H5P_DEFAULT),
-                           "create " + path),
-                   H5Dclose);
+  Handle set(checked(H5Dcreate2(file_.get(), path.c_str(), type.get(), space.get(), H5P_DEFAULT,
+                                creation.get(), H5P_DEFAULT),
+                     "create " + path),
+             H5Dclose);
   checked(H5Dwrite(set.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, text.c_str()), "write " + path);
   attach_text(set.get(), "unit", unit);
+  return set;
 }
 
 void Writer::write_text(const std::string& path, const std::string& text) {
-  put_text(path, text, field_of(path).unit);
+  const Handle set = put_text(path, text, field_of(path).unit);
+  attach_hash(set.get(), piece_hash(path, std::as_bytes(std::span(text))));
+  contents_.append(path).append("\n");
 }
 
 void Writer::write_help(const std::string& path, const std::string& text) {
@@ -188,8 +226,7 @@ void Writer::create_group(const std::string& path) {
   create_group(parent_of(path));
   if (checked(H5Lexists(file_.get(), path.c_str(), H5P_DEFAULT), "look for " + path) > 0) return;
   const Handle creation = properties(H5P_GROUP_CREATE);
-  checked(H5Pset_link_creation_order(creation.get(), H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED),
-          "keep the order of " + path);
+  keep_names_in_order(creation, path);
   const Handle group(checked(H5Gcreate2(file_.get(), path.c_str(), H5P_DEFAULT, creation.get(), H5P_DEFAULT),
                              "create " + path),
                      H5Gclose);
@@ -226,7 +263,14 @@ void Writer::set_attribute(const std::string& path, const char* name, const std:
   attach_text(object.get(), name, text);
 }
 
+void Writer::write_contents() {
+  if (std::exchange(has_contents_, true)) return;
+  checked(H5Fflush(file_.get(), H5F_SCOPE_LOCAL), "bring values into a file");
+  write_text("/contents", contents_);
+}
+
 std::vector<std::byte> Writer::image() {
+  write_contents();
   checked(H5Fflush(file_.get(), H5F_SCOPE_LOCAL), "complete a file");
   const ssize_t size = checked(H5Fget_file_image(file_.get(), nullptr, 0), "measure a file");
   std::vector<std::byte> bytes(user_block_ + static_cast<std::size_t>(size));

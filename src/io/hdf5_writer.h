@@ -25,12 +25,11 @@ class Writer {
   /// Creates a data set with its unit, filled with NaN where it holds floats.
   void create(const std::string& path);
 
-  /// Writes a whole data set, created by this call. Throws Error(internal) where the number of values is
-  /// wrong.
+  /// Writes a whole data set, created by this call, with the hash of its values. Throws Error(internal) where
+  /// their number or their type is wrong.
   template <typename T>
   void write(const std::string& path, std::span<const T> values) {
-    create(path);
-    write_block(path, 0, values.size(), memory_type<T>(), values.data());
+    write_bytes(path, std::as_bytes(values), memory_type<T>());
   }
   template <typename T>
   void write(const std::string& path, const std::vector<T>& values) {
@@ -40,6 +39,8 @@ class Writer {
   void write_scalar(const std::string& path, T value) {
     write(path, std::span<const T>(&value, 1));
   }
+  /// The same of values as they are stored.
+  void write_bytes(const std::string& path, std::span<const std::byte> values);
   /// A scalar string of fixed length.
   void write_text(const std::string& path, const std::string& text);
 
@@ -48,6 +49,7 @@ class Writer {
   void write_rows(const std::string& path, std::uint64_t first_row, const std::vector<T>& values) {
     write_block(path, first_row, values.size(), memory_type<T>(), values.data());
   }
+  void write_row_bytes(const std::string& path, std::uint64_t first_row, std::span<const std::byte> values);
 
   void create_group(const std::string& path);
   /// A second name for a data set.
@@ -61,7 +63,11 @@ class Writer {
 
   const Sizes& sizes() const { return sizes_; }
 
-  /// The bytes of the file, with zeros in the user block.
+  /// The list of all data sets written so far. What is written after it, without need for the run, lies
+  /// behind all that was, and is lost first where the file is cut.
+  void write_contents();
+
+  /// Completes the file, with its contents. Its bytes, with zeros in the user block.
   std::vector<std::byte> image();
 
  private:
@@ -69,13 +75,16 @@ class Writer {
     Handle id;
     std::vector<hsize_t> dims;
   };
-  void put_text(const std::string& path, const std::string& text, const std::string& unit);
+  Handle put_text(const std::string& path, const std::string& text, const std::string& unit);
+  void write_bytes(const std::string& path, std::span<const std::byte> values, hid_t type);
   void write_block(const std::string& path, std::uint64_t first_row, std::size_t count, hid_t type,
                    const void* data);
 
   Sizes sizes_;
   std::size_t user_block_;
+  bool has_contents_ = false;
   Handle file_;
+  std::string contents_;                 ///< paths of the data sets, one a line
   std::map<std::string, DataSet> open_;  ///< kept open so that a chunk is compressed once, when it is full
 };
 

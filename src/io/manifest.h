@@ -35,6 +35,9 @@ struct Manifest {
 /// Lines of words, the last with the hash of all before it.
 std::string manifest_text(const Manifest& manifest);
 
+/// The manifest in a text; `path` is what messages call it. Throws Error(bad_data) where it is damaged.
+Manifest parse_manifest(const std::string& text, const std::string& path);
+
 /// Reads `folder`/manifest. Throws Error(missing_input) where there is none, and Error(bad_data) where it is
 /// damaged.
 Manifest read_manifest(const std::string& folder);

@@ -5,15 +5,16 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <string_view>
 
+#include "core/descriptor.h"
 #include "core/errors.h"
 #include "core/hash.h"
 #include "core/version.h"
-#include "io/descriptor.h"
 #include "io/run_records.h"
 
 namespace talus {
@@ -31,24 +32,25 @@ std::vector<std::byte> seal_of(std::uint64_t size, std::uint64_t hash) {
   return block;
 }
 
-/// The metadata that H5MD 1.1 asks for.
-void write_h5md(hdf5::Writer& writer, const RunStatics& statics) {
+/// Thrown to leave write_frames.
+struct Interrupted {};
+
+}  // namespace
+
+void write_h5md(hdf5::Writer& writer, bool periodic) {
   writer.set_attribute("/h5md", "version", std::vector<std::int32_t>{1, 1});
   writer.set_attribute("/h5md/author", "name", "unspecified");
   writer.set_attribute("/h5md/creator", "name", "talus");
   writer.set_attribute("/h5md/creator", "version", version);
   const std::string box = "/particles/grains/box";
   writer.set_attribute(box, "dimension", std::vector<std::int32_t>{2});
-  writer.set_attribute(box, "boundary",
-                       std::vector<std::string>{statics.periodic ? "periodic" : "none", "none"});
+  writer.set_attribute(box, "boundary", std::vector<std::string>{periodic ? "periodic" : "none", "none"});
 }
 
 void write_help(hdf5::Writer& writer) {
   for (const DataSetField& field : run_schema())
     if (!field.path.ends_with("/*")) writer.write_help(field.path, field.help);
 }
-
-}  // namespace
 
 void seal(std::vector<std::byte>& file) {
   const auto hash = hash_bytes(std::span(file).subspan(seal_size));
@@ -68,6 +70,12 @@ bool is_run(const std::string& path) {
                              [&begin](std::string_view signature) { return begin.starts_with(signature); });
 }
 
+std::uint64_t sealed_size(std::span<const std::byte> file) {
+  const std::string begin(reinterpret_cast<const char*>(file.data()), std::min(file.size(), seal_size));
+  const std::string words = std::string(seal_begin) + "size ";
+  return begin.starts_with(words) ? std::strtoull(begin.c_str() + words.size(), nullptr, 10) : 0;
+}
+
 void verify_seal(const std::string& path) {
   const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
   if (file.get() < 0) throw system_error(ExitCode::missing_input, "open", path, errno);
@@ -84,14 +92,14 @@ void verify_seal(const std::string& path) {
     size += count;
   }
   if (block != seal_of(size, hasher.value()))
-    throw Error(
-        ExitCode::bad_data,
-        path + ": is damaged: its " + std::to_string(size) + " bytes have the hash " +
-            hash_text(hasher.value()) +
-            ", its first lines say otherwise; restore it from a copy, or compute it again with --overwrite");
+    throw Error(ExitCode::bad_data, path + ": is damaged: its " + std::to_string(size) +
+                                        " bytes have the hash " + hash_text(hasher.value()) +
+                                        ", its first lines say otherwise; restore it from a copy, or keep "
+                                        "what is whole of it: talus repair " +
+                                        path + " -o NEW.h5");
 }
 
-std::vector<std::byte> packed_bytes(const RunFile& run) {
+std::vector<std::byte> packed_bytes(const RunFile& run, const std::function<bool()>& goes_on) try {
   const std::vector<ObservableRow> observables = run.all_observables();
   const std::vector<StepRow> steps = run.steps();
   const std::vector<Command> commands = run.commands();
@@ -106,16 +114,22 @@ std::vector<std::byte> packed_bytes(const RunFile& run) {
                        {'P', checkpoint.world.boundary.planes.size()}},
                       seal_size);
   write_header(writer, run.header());
-  write_h5md(writer, run.header().statics);
-  write_frames(writer, [&run](std::size_t k) { return run.frame(k); });
+  write_h5md(writer, run.header().statics.periodic);
+  write_frames(writer, [&](std::size_t k) {
+    if (goes_on && !goes_on()) throw Interrupted{};
+    return run.frame(k);
+  });
   write_observables(writer, observables);
   write_steps(writer, steps);
   write_commands(writer, commands);
   write_checkpoint(writer, checkpoint);
+  writer.write_contents();
   write_help(writer);
   std::vector<std::byte> file = writer.image();
   seal(file);
   return file;
+} catch (const Interrupted&) {
+  return {};
 }
 
 }  // namespace talus

@@ -2,6 +2,9 @@
 /// The packed file of a finished run: its seal, its H5MD metadata, its bytes. Private to this room.
 
 #include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -16,12 +19,15 @@ inline constexpr std::size_t seal_size = 512;
 /// Fills the first seal_size bytes with the seal of the rest.
 void seal(std::vector<std::byte>& file);
 
+/// The size that the seal of a file gives it; 0 where it has none.
+std::uint64_t sealed_size(std::span<const std::byte> file);
+
 /// Reads the whole file at `path` once. Throws Error(missing_input) where it cannot be read and
 /// Error(bad_data) where its seal is missing or wrong.
 void verify_seal(const std::string& path);
 
 /// The packed file, sealed, of all that `run` holds. Equal runs give equal bytes, however they were
-/// committed.
-std::vector<std::byte> packed_bytes(const RunFile& run);
+/// committed. Asks before each frame whether it `goes_on`, if asked to; returns nothing where it does not.
+std::vector<std::byte> packed_bytes(const RunFile& run, const std::function<bool()>& goes_on = {});
 
 }  // namespace talus

@@ -9,6 +9,7 @@
 #include "io/manifest.h"
 #include "io/packed_file.h"
 #include "io/run_records.h"
+#include "io/structure_probe.h"
 
 namespace talus {
 namespace {
@@ -24,8 +25,9 @@ Sizes sizes_of(const StoredSegment& segment, std::size_t grains) {
           {'N', grains}};
 }
 
-hdf5::Reader open_stored(const std::string& folder, const StoredFile& file, const Sizes& known) {
-  return hdf5::Reader::from_memory(read_stored(folder, file), (fs::path(folder) / file.name).string(), known);
+hdf5::Reader open_image_of(const std::string& folder, const StoredFile& file, std::vector<std::byte> bytes,
+                           const Sizes& known) {
+  return hdf5::Reader::from_memory(std::move(bytes), (fs::path(folder) / file.name).string(), known);
 }
 
 template <typename Row>
@@ -48,7 +50,9 @@ struct RunFile::State {
 
   hdf5::Reader& segment(std::size_t s) {
     if (!reader || open_segment != s) {
-      reader = open_stored(folder, segments[s].file, sizes_of(segments[s], header.statics.radius.size()));
+      const StoredFile& file = segments[s].file;
+      const Sizes sizes = sizes_of(segments[s], header.statics.radius.size());
+      reader = open_image_of(folder, file, read_stored(folder, file), sizes);
       open_segment = s;
     }
     return *reader;
@@ -60,12 +64,19 @@ struct RunFile::State {
     for (; s < segments.size() && k >= segments[s].frames; ++s) k -= segments[s].frames;
     if (s == segments.size())
       throw Error(ExitCode::internal, "the run has " + std::to_string(all_tilts.size()) + " frames only");
-    return record(segment(s), k);
+    Frame frame = record(segment(s), k);
+    check_frame(segment(s), frame, header.statics, plane_count());
+    return frame;
+  }
+
+  /// Without its last state a run does not tell; two walls and a floor are the most that there can be.
+  std::size_t plane_count() const {
+    return checkpoint.world.grains.count() == 0 ? 3 : checkpoint.world.boundary.planes.size();
   }
 
   void read_tilts() {
     for (std::size_t s = 0; s < segments.size(); ++s)
-      append(all_tilts, segment(s).read<double>("/frames/tilt"));
+      append(all_tilts, segment(s).read_finite("/frames/tilt"));
     const auto highest = std::ranges::max_element(all_tilts);
     tilts.assign(all_tilts.begin(), highest == all_tilts.end() ? highest : std::next(highest));
   }
@@ -84,9 +95,11 @@ StoredSegment whole_file(hdf5::Reader& reader) {
 [[noreturn]] void refuse_absent(const std::string& path) {
   std::error_code unknown;
   if (fs::is_directory(run_folder(path), unknown))
-    throw Error(ExitCode::missing_input, run_folder(path) +
-                                             ": nothing is committed there yet; wait for the first "
-                                             "checkpoint, or start again: talus run ... --resume");
+    throw Error(ExitCode::missing_input,
+                run_folder(path) +
+                    ": nothing is committed there yet; wait for the first "
+                    "checkpoint, or start again: talus run ... --resume; where it was damaged, "
+                    "keep what is whole: talus repair");
   throw Error(ExitCode::missing_input,
               path + ": no such run; expected a run file, or a folder " + run_folder(path));
 }
@@ -109,10 +122,21 @@ RunFile::~RunFile() = default;
 
 RunFile RunFile::open_packed(const std::string& path) {
   verify_seal(path);
+  probe_packed(path);
+  return read_packed(hdf5::Reader::from_file(path));
+}
+
+RunFile RunFile::of_bytes(std::vector<std::byte> bytes, const std::string& name) {
+  return read_packed(hdf5::Reader::from_memory(std::move(bytes), name, {}));
+}
+
+RunFile RunFile::read_packed(hdf5::Reader&& reader) {
   auto state = std::make_unique<State>();
-  state->reader = hdf5::Reader::from_file(path);
+  state->reader = std::move(reader);
   state->header = read_header(*state->reader);
-  state->checkpoint = read_checkpoint(*state->reader);
+  const bool may_lack = find_value(state->header.provenance, lost_fact).has_value();
+  state->checkpoint = may_lack && !state->reader->has("/checkpoint") ? read_results(*state->reader)
+                                                                     : read_checkpoint(*state->reader);
   state->segments = {whole_file(*state->reader)};
   state->read_tilts();
   return RunFile(std::move(state));
@@ -120,12 +144,15 @@ RunFile RunFile::open_packed(const std::string& path) {
 
 RunFile RunFile::open_folder(const std::string& folder) {
   const Manifest manifest = read_manifest(folder);
+  std::vector<std::vector<std::byte>> files = {read_stored(folder, manifest.header),
+                                               read_stored(folder, manifest.checkpoint)};
+  probe_folder(folder, files, manifest.segments);
   auto state = std::make_unique<State>();
   state->folder = folder;
-  hdf5::Reader header = open_stored(folder, manifest.header, {});
+  hdf5::Reader header = open_image_of(folder, manifest.header, std::move(files[0]), {});
   state->header = read_header(header);
-  hdf5::Reader checkpoint =
-      open_stored(folder, manifest.checkpoint, {{'N', state->header.statics.radius.size()}});
+  hdf5::Reader checkpoint = open_image_of(folder, manifest.checkpoint, std::move(files[1]),
+                                          {{'N', state->header.statics.radius.size()}});
   state->checkpoint = read_checkpoint(checkpoint);
   state->segments = manifest.segments;
   state->read_tilts();
@@ -153,6 +180,8 @@ bool RunFile::complete() const { return state_->folder.empty(); }
 const std::vector<double>& RunFile::frame_tilts() const { return state_->tilts; }
 const std::vector<double>& RunFile::all_frame_tilts() const { return state_->all_tilts; }
 const Checkpoint& RunFile::checkpoint() const { return state_->checkpoint; }
+
+std::string RunFile::lost() const { return find_value(state_->header.provenance, lost_fact).value_or(""); }
 
 std::uint64_t RunFile::contact_count() const {
   std::uint64_t count = 0;

@@ -11,12 +11,19 @@
 
 namespace talus {
 
+namespace hdf5 {
+class Reader;
+}
+
 class RunFile {
  public:
   /// Opens `path`: a packed file, a folder `path.run/`, or such a folder by its own name; its writer may be
   /// at work. Throws Error(missing_input) where there is no such run, and Error(bad_data) with the name of
   /// the file or data set that is damaged.
   static RunFile open(const std::string& path);
+
+  /// A packed file in memory, which this process has made. Throws Error(bad_data), naming `name`.
+  static RunFile of_bytes(std::vector<std::byte> bytes, const std::string& name);
 
   RunFile(RunFile&&) noexcept;
   RunFile& operator=(RunFile&&) noexcept;
@@ -42,11 +49,16 @@ class RunFile {
   /// What was done to the run while it went on, in order.
   std::vector<Command> commands() const;
   const Checkpoint& checkpoint() const;  ///< the last state, with results and timing
+  /// Whether the last state is there; it may be lost in a run that was repaired, and is without grains then.
+  bool has_state() const { return checkpoint().world.grains.count() > 0; }
+  /// What was lost of a run before it was repaired; empty for a run of which nothing is missing.
+  std::string lost() const;
 
  private:
   struct State;
   explicit RunFile(std::unique_ptr<State> state);
   static RunFile open_packed(const std::string& path);
+  static RunFile read_packed(hdf5::Reader&& reader);
   static RunFile open_folder(const std::string& folder);
   std::unique_ptr<State> state_;
 };

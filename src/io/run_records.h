@@ -20,6 +20,14 @@ void write_frames(hdf5::Writer& writer, const std::function<Frame(std::size_t)>&
 /// Frame `row` of the file; or only its step, time, tilt, x and y.
 Frame read_frame(hdf5::Reader& reader, std::size_t row);
 Frame read_positions(hdf5::Reader& reader, std::size_t row);
+/// Refuses a frame whose grains or contacts cannot be those of a bed with so many planes: what others use as
+/// an index, or make a grid from, without looking.
+void check_frame(const hdf5::Reader& reader, const Frame& frame, const RunStatics& statics,
+                 std::size_t planes);
+
+/// The metadata that H5MD 1.1 asks for, and the meaning of each data set.
+void write_h5md(hdf5::Writer& writer, bool periodic);
+void write_help(hdf5::Writer& writer);
 
 /// /observables and /steps. Sizes: R, S.
 void write_observables(hdf5::Writer& writer, const std::vector<ObservableRow>& rows);
@@ -34,6 +42,10 @@ std::vector<Command> read_commands(hdf5::Reader& reader);
 /// /checkpoint, /results and /provenance/timing. Sizes: N, C, P.
 void write_checkpoint(hdf5::Writer& writer, const Checkpoint& checkpoint);
 Checkpoint read_checkpoint(hdf5::Reader& reader);
+/// Of a repaired run whose last state is lost: only /results and /provenance/timing.
+Checkpoint read_results(hdf5::Reader& reader);
+/// The provenance that says what was lost of a run before it was repaired.
+inline constexpr const char* lost_fact = "repaired_lost";
 
 /// Records of several numbers per item: { {x0, y0}, {x1, y1}, ... } in one array, and one component of it
 /// back.

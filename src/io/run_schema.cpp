@@ -1,9 +1,8 @@
 #include "io/run_schema.h"
 
-#include <sstream>
-
 #include "core/errors.h"
 #include "core/observables.h"
+#include "core/text_stream.h"
 #include "io/analysis_schema.h"
 
 namespace talus {
@@ -13,6 +12,7 @@ using enum ElementType;
 
 std::vector<DataSetField> header_fields() {
   return {
+      {"/contents", text, "", "1", "paths of the data sets of this table that the file holds, one a line"},
       {"/parameters/schema_version", int32, "", "1", "version of this table of data sets"},
       {"/parameters/scenario_given", text, "", "1", "the scenario as the user wrote it, TOML"},
       {"/parameters/scenario_resolved", text, "", "1", "the scenario with every key, TOML"},
@@ -35,6 +35,8 @@ std::vector<DataSetField> header_fields() {
 
 std::vector<DataSetField> frame_fields() {
   return {
+      {"/frames/hash", uint64, "T", "1",
+       "XXH3 of all that the data sets below hold of a frame, its contacts included"},
       {"/frames/step", int64, "T", "1",
        "steps taken since the beginning of the run; also linked as `step` beside each `value` of "
        "/particles/grains"},
@@ -182,9 +184,30 @@ std::string_view type_name(ElementType type) {
   return "text";
 }
 
+std::size_t size_of(ElementType type) {
+  switch (type) {
+    case float32:
+    case int32:
+      return 4;
+    case float64:
+    case int64:
+    case uint64:
+      return 8;
+    case int8:
+    case text:
+      break;
+  }
+  return 1;
+}
+
 const std::vector<DataSetField>& run_schema() {
   static const std::vector<DataSetField> schema = make_schema();
   return schema;
+}
+
+bool is_by_frame(const DataSetField& field) {
+  const bool has_rows = field.shape.starts_with('T') || field.shape.starts_with('M');
+  return has_rows && !field.path.starts_with("/analysis/");
 }
 
 const DataSetField& field_of(const std::string& path) {
@@ -201,7 +224,7 @@ const DataSetField& field_of(const std::string& path) {
 
 std::vector<Extent> extents(const DataSetField& field) {
   std::vector<Extent> shape;
-  std::istringstream words(field.shape);
+  std::istringstream words = text_stream(field.shape);
   for (std::string word; words >> word;) {
     Extent extent;
     if (word[0] >= 'A' && word[0] <= 'Z') {

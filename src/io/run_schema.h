@@ -11,12 +11,14 @@
 namespace talus {
 
 /// Counts up with each change of the table. A reader accepts versions from the oldest on: version 1 has no
-/// /commands.
-inline constexpr std::int32_t run_schema_version = 2;
+/// /commands, and before version 3 there is no hash of each piece.
+inline constexpr std::int32_t run_schema_version = 3;
 inline constexpr std::int32_t oldest_run_schema_version = 1;
 
 enum class ElementType { float32, float64, int8, int32, int64, uint64, text };
 std::string_view type_name(ElementType type);
+/// Bytes of a value; 1 for text.
+std::size_t size_of(ElementType type);
 
 struct DataSetField {
   std::string path;  ///< `.../*` stands for data sets whose names the run itself chooses
@@ -27,6 +29,10 @@ struct DataSetField {
 };
 
 const std::vector<DataSetField>& run_schema();
+
+/// Whether a data set has one row, or some, for each frame: its rows are covered by the hashes of the frames,
+/// and not by one of its own.
+bool is_by_frame(const DataSetField& field);
 
 /// The row of a data set, of a run or of its analysis. Throws Error(internal) where no table has it.
 const DataSetField& field_of(const std::string& path);

@@ -48,18 +48,30 @@ bool is_named(const Manifest& manifest, const std::string& name) {
                              [&](const auto& segment) { return segment.file.name == name; });
 }
 
-/// Removes what a kill left behind: own files that the manifest does not name.
-void remove_leftovers(const std::string& folder, const Manifest& manifest) {
+/// The checkpoint of the commit before the last; empty where there is none.
+std::string spare_checkpoint(const std::string& folder, const Manifest& manifest) {
+  std::string spare;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+    if (const std::string name = entry.path().filename().string();
+        name.starts_with("checkpoint_") && name.ends_with(".h5") &&
+        name.size() == manifest.checkpoint.name.size() && name < manifest.checkpoint.name)
+      spare = std::max(spare, name);
+  return spare;
+}
+
+/// Removes what a kill left behind: own files that the manifest does not name, but for the spare checkpoint.
+void remove_leftovers(const std::string& folder, const Manifest& manifest, const std::string& spare) {
   std::vector<std::string> leftovers;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder))
-    if (const std::string name = entry.path().filename().string(); is_own(name) && !is_named(manifest, name))
+    if (const std::string name = entry.path().filename().string();
+        is_own(name) && !is_named(manifest, name) && name != spare)
       leftovers.push_back(name);
   for (const std::string& name : leftovers) remove_file(in(folder, name));
 }
 
 /// Removes the folder of a packed run, the lock last. What cannot be removed stays and does no harm; so does
 /// a folder where somebody keeps other files.
-void discard_folder(const std::string& folder) {
+void remove_folder(const std::string& folder) {
   ::unlink(in(folder, Manifest::file_name).c_str());
   std::error_code unknown;
   std::vector<std::string> paths;
@@ -130,9 +142,9 @@ void refuse_existing(const std::string& path, bool overwrite) {
 /// Removes a run that is to be overwritten. The manifest goes first, so that no kill leaves half a run.
 void remove_run(const std::string& path, const std::string& folder) {
   remove_file(in(folder, Manifest::file_name));
-  sync_folder(folder);
+  sync_name(in(folder, Manifest::file_name));
   remove_file(path);
-  sync_folder(parent_folder(path));
+  sync_name(path);
 }
 
 }  // namespace
@@ -145,6 +157,8 @@ struct RunStore::State {
   std::string folder;
   WriterLock lock;
   Manifest manifest;
+  /// The checkpoint of the commit before, for `talus repair`; the manifest does not name it.
+  std::string spare;
   std::size_t grains = 0;
   /// Of the next commit. A commit that failed may have left its files, or even its manifest: no name is used
   /// twice.
@@ -164,7 +178,7 @@ RunStore RunStore::create(const std::string& path, const RunHeader& header, bool
   auto state = std::make_unique<State>(path);
   refuse_existing(path, overwrite);  // again, now that nobody else can change it
   if (overwrite) remove_run(path, folder);
-  remove_leftovers(folder, {});
+  remove_leftovers(folder, {}, {});
   state->manifest.header = store(folder, header_name, header_bytes(header));
   state->grains = header.statics.radius.size();
   return RunStore(std::move(state));
@@ -175,6 +189,8 @@ RunStore RunStore::resume(const std::string& path, RunHeader& header, Checkpoint
   if (run_presence(path) != RunPresence::folder)
     throw Error(ExitCode::missing_input, folder + ": no interrupted run there");
   auto state = std::make_unique<State>(path);
+  if (run_presence(path) != RunPresence::folder)
+    throw Error(ExitCode::cannot_create, path + " was being written by another process until this moment");
   state->manifest = read_manifest(folder);
   state->serial = serial_of(state->manifest.checkpoint) + 1;
   const RunFile run =
@@ -182,12 +198,14 @@ RunStore RunStore::resume(const std::string& path, RunHeader& header, Checkpoint
   header = run.header();
   checkpoint = run.checkpoint();
   state->grains = header.statics.radius.size();
-  remove_leftovers(folder, state->manifest);
+  state->spare = spare_checkpoint(folder, state->manifest);
+  remove_leftovers(folder, state->manifest, state->spare);
   return RunStore(std::move(state));
 }
 
 void RunStore::commit(const Segment& segment, const Checkpoint& checkpoint) {
   const auto start = std::chrono::steady_clock::now();
+  state_->lock.require();
   const std::uint64_t serial = state_->serial++;
   Manifest next = state_->manifest;
   if (!is_empty(segment))
@@ -197,26 +215,38 @@ void RunStore::commit(const Segment& segment, const Checkpoint& checkpoint) {
   const std::string text = manifest_text(next);
   store(state_->folder, Manifest::file_name, std::as_bytes(std::span(text)));  // here the commit happens
   std::swap(state_->manifest, next);
+  std::swap(state_->spare, next.checkpoint.name);
   if (!next.checkpoint.name.empty())
     ::unlink(in(state_->folder, next.checkpoint.name).c_str());  // or a leftover
   state_->seconds_writing += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-void RunStore::pack() {
+bool RunStore::pack(const std::function<bool()>& goes_on) {
   const std::string& folder = state_->folder;
-  write_durably(state_->path, packed_bytes(RunFile::open(folder)),
-                in(folder, "packed.h5") + temporary_suffix);
+  state_->lock.require();
+  const std::vector<std::byte> bytes = packed_bytes(RunFile::open(folder), goes_on);
+  if (bytes.empty()) return false;
+  write_durably(state_->path, bytes, in(folder, "packed.h5") + temporary_suffix);
   try {
     RunFile::open(state_->path);  // until it can be read, the folder is all there is of the run
   } catch (const Error&) {
     remove_file(state_->path);
     throw;
   }
-  discard_folder(folder);
+  remove_folder(folder);
   state_.reset();
+  return true;
 }
 
 double RunStore::seconds_writing() const { return state_->seconds_writing; }
+
+void discard_folder(const std::string& path) {
+  std::error_code unknown;
+  const std::string folder = run_folder(path);
+  if (run_presence(path) != RunPresence::packed || !fs::is_directory(folder, unknown)) return;
+  const WriterLock lock(folder);
+  remove_folder(folder);
+}
 
 std::string run_folder(const std::string& path) { return path + ".run"; }
 

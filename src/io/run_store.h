@@ -3,6 +3,7 @@
 /// self-sufficient HDF5 file `PATH` (docs/file_format.md).
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
@@ -58,12 +59,14 @@ class RunStore {
   ~RunStore();
 
   /// Makes a segment and a checkpoint durable, both or neither. After a kill at any instant the folder holds
-  /// either all of this commit or nothing of it.
+  /// either all of this commit or nothing of it. Throws Error(io_error), and Error(cannot_create) where the
+  /// folder has been removed or replaced.
   void commit(const Segment& segment, const Checkpoint& checkpoint);
 
   /// Packs everything committed into the file at `path` (written in the folder, then renamed), and removes
-  /// the folder. Ends the store. Where it throws, the folder is kept, and pack can be called again.
-  void pack();
+  /// the folder. Ends the store. Asks before each frame whether it `goes_on`; returns false where it does
+  /// not. Then, and where it throws, the folder is kept, and pack can be called again.
+  bool pack(const std::function<bool()>& goes_on = {});
 
   /// Seconds spent in commit so far.
   double seconds_writing() const;
@@ -78,6 +81,10 @@ class RunStore {
 /// neither.
 enum class RunPresence { none, folder, packed };
 RunPresence run_presence(const std::string& path);
+
+/// Removes the folder of a run that is packed already, which a kill at the end of packing leaves. Throws
+/// Error(cannot_create) where another process is at it.
+void discard_folder(const std::string& path);
 
 /// The folder in which the run `path` is computed.
 std::string run_folder(const std::string& path);

@@ -17,7 +17,9 @@ template <typename Row, typename Fields>
 std::vector<Row> read_series(hdf5::Reader& reader, const std::string& group, const Fields& fields) {
   std::vector<Row> rows;
   for (std::size_t f = 0; f < fields.size(); ++f) {
-    const auto column = reader.read<double>(group + std::string(fields[f].name));
+    const std::string name(fields[f].name);
+    const bool counts = name == "step" || name == "time" || name == "tilt" || name == "phase";
+    const auto column = counts ? reader.read_finite(group + name) : reader.read<double>(group + name);
     rows.resize(column.size());
     for (std::size_t i = 0; i < column.size(); ++i) rows[i][f] = column[i];
   }

@@ -1,8 +1,6 @@
 #include "io/writer_lock.h"
 
 #include <fcntl.h>
-#include <sys/file.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
@@ -11,6 +9,7 @@
 #include <filesystem>
 
 #include "core/errors.h"
+#include "core/locked_file.h"
 
 namespace talus {
 namespace {
@@ -21,46 +20,37 @@ std::string this_process() {
   return "process " + std::to_string(::getpid()) + " on host " + host.data();
 }
 
-std::string holder(const Descriptor& file, const std::string& path) {
+std::string holder(const std::string& path) {
+  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
   std::array<std::byte, 512> text{};
-  const std::size_t size = read_at_most(file, text, path);
+  const std::size_t size = file.get() < 0 ? 0 : read_at_most(file, text, path);
   return size > 0 ? std::string(reinterpret_cast<const char*>(text.data()), size) : "another process";
 }
 
-/// Whether `path` still names the open file: its last holder may have removed it while we waited for it.
-bool names(const std::string& path, const Descriptor& file) {
-  struct stat opened {
-  }, named{};
-  return ::fstat(file.get(), &opened) == 0 && ::stat(path.c_str(), &named) == 0 &&
-         opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
-}
-
-void sign(const Descriptor& file, const std::string& path) {
+Descriptor lock(const std::string& folder, const std::string& path) {
+  std::optional<Descriptor> file = create_locked(path);
+  if (!file)
+    throw Error(ExitCode::cannot_create, folder + " is being written by " + holder(path) +
+                                             "; wait for it to end, or choose another output with -o");
   const std::string text = this_process();
-  if (::ftruncate(file.get(), 0) != 0 ||
-      ::pwrite(file.get(), text.data(), text.size(), 0) != static_cast<ssize_t>(text.size()))
-    throw system_error(ExitCode::cannot_create, "write", path, errno);
-}
-
-Descriptor lock(const std::string& folder) {
-  const std::string path = (std::filesystem::path(folder) / WriterLock::file_name).string();
-  for (;;) {
-    Descriptor file(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666));
-    if (file.get() < 0) throw system_error(ExitCode::cannot_create, "create", path, errno);
-    if (::flock(file.get(), LOCK_EX | LOCK_NB) != 0) {
-      if (errno == EINTR) continue;
-      if (errno != EWOULDBLOCK) throw system_error(ExitCode::cannot_create, "lock", path, errno);
-      throw Error(ExitCode::cannot_create, folder + " is being written by " + holder(file, path) +
-                                               "; wait for it to end, or choose another output with -o");
-    }
-    if (!names(path, file)) continue;
-    sign(file, path);
-    return file;
-  }
+  if (::pwrite(file->get(), text.data(), text.size(), 0) != static_cast<ssize_t>(text.size()))
+    throw creation_error("write", path, errno);
+  return std::move(*file);
 }
 
 }  // namespace
 
-WriterLock::WriterLock(const std::string& folder) : file_(lock(folder)) {}
+WriterLock::WriterLock(const std::string& folder)
+    : folder_(folder),
+      path_((std::filesystem::path(folder) / WriterLock::file_name).string()),
+      file_(lock(folder, path_)) {}
+
+void WriterLock::require() const {
+  if (is_named(path_, file_)) return;
+  throw Error(ExitCode::cannot_create,
+              folder_ +
+                  " was removed or replaced while it was being written; nothing more is written there: "
+                  "start the run again");
+}
 
 }  // namespace talus

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "io/descriptor.h"
+#include "core/descriptor.h"
 
 namespace talus {
 
@@ -16,7 +16,13 @@ class WriterLock {
   /// lock file cannot be made.
   explicit WriterLock(const std::string& folder);
 
+  /// Throws Error(cannot_create) where the folder is no longer the one that was locked: somebody has removed
+  /// it, and another process may have made a new one.
+  void require() const;
+
  private:
+  std::string folder_;
+  std::string path_;
   Descriptor file_;
 };
 

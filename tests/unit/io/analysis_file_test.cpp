@@ -108,6 +108,20 @@ TEST_F(AnalysisFile, of_another_run_is_left_alone) {
   EXPECT_TRUE(example::file_text(path_) == original_);
 }
 
+TEST_F(AnalysisFile, of_another_number_of_frames_is_refused) {
+  Analysis shorter = make_analysis({{'T', 2}, {'N', example::grain_count}, {'F', 1}, {'X', 5}, {'B', 4}});
+  shorter.parameters = {{"bins", "4"}};
+  store_analysis(path_, shorter, state_);
+  try {
+    read_analysis(path_);
+    ADD_FAILURE() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::bad_data);
+    EXPECT_NE(std::string(error.what()).find("rows for 2 frames, the tilt has 3"), std::string::npos)
+        << error.what();
+  }
+}
+
 TEST_F(AnalysisFile, that_is_damaged_is_refused) {
   store_analysis(path_, example::analysis(2, 1), state_);
   const std::string good = example::file_text(path_);

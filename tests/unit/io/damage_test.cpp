@@ -5,6 +5,7 @@
 #include "core/errors.h"
 #include "io/hdf5_reader.h"
 #include "io/hdf5_writer.h"
+#include "io/manifest.h"
 #include "io/packed_file.h"
 #include "io/run_file.h"
 #include "unit/io/example_run.h"
@@ -60,9 +61,27 @@ TEST(Damage, of_any_file_of_a_folder_is_found) {
   { const RunStore store = example::store_with_commits(path, 3); }
   std::vector<std::string> files;
   for (const auto& entry : fs::directory_iterator(run_folder(path)))
-    if (entry.path().filename() != "lock") files.push_back(entry.path().string());
+    if (entry.path().filename() != "lock" && entry.path().filename() != "checkpoint_000002.h5")  // a spare
+      files.push_back(entry.path().string());
   EXPECT_EQ(files.size(), 6u);
   for (const std::string& file : files) damage_everywhere(path, file, 6);
+}
+
+TEST(Damage, a_manifest_names_files_of_its_folder_only) {
+  Manifest manifest;
+  manifest.header.name = "header.h5";
+  manifest.checkpoint.name = "checkpoint_000002.h5";
+  EXPECT_NO_THROW(parse_manifest(manifest_text(manifest), "manifest"));
+  for (const char* name : {"../header.h5", "/etc/passwd", "checkpoint_99999999999999999999.h5", "lock"}) {
+    manifest.checkpoint.name = name;
+    try {
+      parse_manifest(manifest_text(manifest), "manifest");
+      ADD_FAILURE() << name << " was accepted";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::bad_data);
+      EXPECT_NE(std::string(error.what()).find(name), std::string::npos) << error.what();
+    }
+  }
 }
 
 TEST(Damage, a_file_the_manifest_names_is_missing) {

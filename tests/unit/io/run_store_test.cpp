@@ -136,8 +136,8 @@ TEST(RunStore, resume_clears_leftovers_away_and_keeps_what_is_committed) {
   Checkpoint checkpoint;
   const RunStore resumed = RunStore::resume(path, header, checkpoint);
   EXPECT_EQ(names_in(run_folder(path)), before);
-  EXPECT_EQ(before, (std::vector<std::string>{"checkpoint_000002.h5", "header.h5", "lock", "manifest",
-                                              "segment_000001.h5", "segment_000002.h5"}));
+  EXPECT_EQ(before, (std::vector<std::string>{"checkpoint_000001.h5", "checkpoint_000002.h5", "header.h5",
+                                              "lock", "manifest", "segment_000001.h5", "segment_000002.h5"}));
 }
 
 TEST(RunStore, a_missing_parent_folder_is_named) {
@@ -155,6 +155,39 @@ TEST(RunStore, a_frame_of_another_size_is_refused_as_a_defect) {
   EXPECT_EQ(error_of([&] { store.commit(segment, example::checkpoint(1)); }).code(), ExitCode::internal);
   store.commit(example::segment(1), example::checkpoint(1));  // the failed commit left nothing in the way
   EXPECT_EQ(RunFile::open(folder.path("run.h5")).frame_count(), 1u);
+}
+
+TEST(RunStore, nothing_is_written_into_a_folder_that_took_the_place_of_its_own) {
+  const example::TemporaryFolder folder;
+  const std::string path = folder.path("run.h5");
+  RunStore store = example::store_with_commits(path, 2);
+  fs::rename(run_folder(path), folder.path("moved.run"));
+  const auto commit = [&] { store.commit(example::segment(2), example::checkpoint(2)); };
+  EXPECT_EQ(error_of(commit).code(), ExitCode::cannot_create);
+  const RunStore other = example::store_with_commits(path, 1);
+  const std::vector<std::string> before = names_in(run_folder(path));
+  EXPECT_EQ(error_of(commit).code(), ExitCode::cannot_create);
+  const Error error = error_of([&] { store.pack(); });
+  EXPECT_EQ(error.code(), ExitCode::cannot_create);
+  EXPECT_NE(std::string(error.what()).find("removed or replaced"), std::string::npos) << error.what();
+  EXPECT_EQ(names_in(run_folder(path)), before);
+  EXPECT_FALSE(fs::exists(path));
+}
+
+TEST(RunStore, the_folder_of_a_packed_run_can_be_discarded_and_no_other) {
+  const example::TemporaryFolder folder;
+  const std::string path = folder.path("run.h5");
+  { const RunStore store = example::store_with_commits(path, 2); }
+  discard_folder(path);
+  EXPECT_EQ(run_presence(path), RunPresence::folder);
+  fs::copy(run_folder(path), folder.path("copy"));
+  RunHeader header;
+  Checkpoint checkpoint;
+  RunStore::resume(path, header, checkpoint).pack();
+  fs::rename(folder.path("copy"), run_folder(path));
+  discard_folder(path);
+  EXPECT_FALSE(fs::exists(run_folder(path)));
+  EXPECT_EQ(run_presence(path), RunPresence::packed);
 }
 
 }  // namespace

@@ -1,0 +1,186 @@
+#include "io/child_process.h"
+
+#include <fcntl.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <fstream>
+#include <new>
+#include <span>
+
+#include "core/descriptor.h"
+#include "core/errors.h"
+
+namespace talus {
+namespace {
+
+using Bytes = std::vector<std::byte>;
+
+// A shadow memory of the sanitizers is larger than any limit.
+#if defined(__SANITIZE_ADDRESS__)
+constexpr bool memory_is_limited = false;
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer)
+constexpr bool memory_is_limited = false;
+#else
+constexpr bool memory_is_limited = true;
+#endif
+#else
+constexpr bool memory_is_limited = true;
+#endif
+
+constexpr rlim_t mebibyte = rlim_t{1} << 20;
+
+void limit(__rlimit_resource resource, rlim_t most) {
+  const rlimit both = {most, most};
+  setrlimit(resource, &both);
+}
+
+rlim_t memory_limit(std::size_t input) { return 2048 * mebibyte + 64 * static_cast<rlim_t>(input); }
+
+/// What this process has mapped already, which its child inherits, in bytes; 0 where the system does not say.
+rlim_t address_space() {
+  rlim_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  return pages * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE));
+}
+
+/// What a child is allowed, and nothing that it says on its way out.
+void restrain(std::size_t input) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, SIG_DFL);
+  const int nowhere = ::open("/dev/null", O_RDWR | O_CLOEXEC);
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) ::dup2(nowhere, stream);
+  limit(RLIMIT_CORE, 0);
+  limit(RLIMIT_FSIZE, 0);
+  const rlim_t seconds = 10 + input / mebibyte;
+  limit(RLIMIT_CPU, seconds);
+  ::alarm(static_cast<unsigned>(6 * seconds));  // one that waits for ever
+  if (memory_is_limited) limit(RLIMIT_AS, address_space() + memory_limit(input));
+}
+
+/// What the child sends: the result, or the message of an error, and an exit code as the last byte.
+Bytes message_of(ExitCode code, Bytes content) {
+  content.push_back(static_cast<std::byte>(code));
+  return content;
+}
+
+Bytes message_of(ExitCode code, const std::string& text) {
+  const auto bytes = std::as_bytes(std::span(text));
+  return message_of(code, Bytes(bytes.begin(), bytes.end()));
+}
+
+Bytes outcome_of(const std::string& path, const std::function<Bytes()>& work) {
+  try {
+    return message_of(ExitCode::done, work());
+  } catch (const Error& error) {
+    return message_of(error.code(), error.what());
+  } catch (const std::bad_alloc&) {
+    return message_of(ExitCode::bad_data, path + ": asks for more memory than a file of its size can need");
+  }
+}
+
+void send(int pipe, std::span<const std::byte> bytes) {
+  while (!bytes.empty()) {
+    const ssize_t count = ::write(pipe, bytes.data(), bytes.size());
+    if (count < 0 && errno != EINTR) _exit(1);
+    if (count > 0) bytes = bytes.subspan(static_cast<std::size_t>(count));
+  }
+}
+
+struct Child {
+  pid_t process;
+  Descriptor pipe;  ///< of what it sends
+};
+
+/// A child that is restrained, does `speak` with its pipe, and ends.
+Child start(const std::string& path, std::size_t input, const std::function<void(int)>& speak) {
+  int ends[2] = {-1, -1};
+  if (::pipe2(ends, O_CLOEXEC) != 0) throw system_error(ExitCode::io_error, "make a pipe for", path, errno);
+  Child child{-1, Descriptor(ends[0])};
+  Descriptor to(ends[1]);
+  child.process = ::fork();
+  if (child.process < 0) throw system_error(ExitCode::io_error, "start a process for", path, errno);
+  if (child.process == 0) {
+    child.pipe.close();  // so that it ends where nobody listens any more
+    restrain(input);
+    speak(to.get());
+    _exit(0);
+  }
+  return child;
+}
+
+Bytes read_all(const Descriptor& pipe, const std::string& path) {
+  Bytes bytes;
+  while (true) {
+    const std::size_t before = bytes.size();
+    bytes.resize(before + mebibyte);
+    bytes.resize(before + read_at_most(pipe, std::span(bytes).subspan(before), path));
+    if (bytes.size() < before + mebibyte) return bytes;
+  }
+}
+
+int wait_for(pid_t child) {
+  int status = 0;
+  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
+  return status;
+}
+
+[[noreturn]] void refuse(const std::string& path, int status) {
+  const bool too_long = WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGALRM ||
+                                                WTERMSIG(status) == SIGKILL);
+  throw Error(ExitCode::bad_data, path + ": cannot be read: " +
+                                      (too_long ? "it takes HDF5 longer than a file of its size can need"
+                                                : "HDF5 fails on it (in a process of its own)") +
+                                      "; the file is malformed, write it again");
+}
+
+/// The next piece of a child; false where there is none.
+bool receive(const Descriptor& pipe, const std::string& path, std::size_t input, Bytes& message) {
+  std::uint64_t size = 0;
+  if (read_at_most(pipe, std::as_writable_bytes(std::span(&size, 1)), path) != sizeof size) return false;
+  if (size > memory_limit(input)) return false;
+  message.resize(size);
+  return read_at_most(pipe, message, path) == size;
+}
+
+}  // namespace
+
+Bytes in_child_process(const std::string& path, std::size_t input, const std::function<Bytes()>& work) {
+  const Child child = start(path, input, [&](int pipe) { send(pipe, outcome_of(path, work)); });
+  Bytes message = read_all(child.pipe, path);
+  const int status = wait_for(child.process);
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || message.empty()) refuse(path, status);
+  const auto code = static_cast<ExitCode>(message.back());
+  message.pop_back();
+  if (code == ExitCode::done) return message;
+  throw Error(code, std::string(reinterpret_cast<const char*>(message.data()), message.size()));
+}
+
+void in_child_processes(const std::string& path, std::size_t input, const ChildWork& work) {
+  std::size_t next = 0;
+  for (int children = 0; next < work.count && children < most_children; ++children) {
+    Child child = start(path, input, [&](int pipe) {
+      for (std::size_t k = next; k < work.count; ++k) {
+        const Bytes message = outcome_of(path, [&] { return work.work(k); });
+        const std::uint64_t size = message.size();
+        send(pipe, std::as_bytes(std::span(&size, 1)));
+        send(pipe, message);
+      }
+    });
+    for (Bytes message; next < work.count && receive(child.pipe, path, input, message); ++next) {
+      if (message.empty() || message.back() != std::byte{0}) continue;
+      message.pop_back();
+      work.take(next, std::move(message));
+    }
+    child.pipe.close();  // one that goes on speaking ends
+    wait_for(child.process);
+    ++next;  // it ended with this one
+  }
+}
+
+}  // namespace talus
