@@ -1,8 +1,8 @@
 #include "reproduction/measured_file.h"
 
 #include <cstdlib>
-#include <sstream>
 
+#include "core/text_stream.h"
 #include "session/scenario_text.h"
 
 namespace talus {
@@ -34,11 +34,11 @@ std::optional<std::vector<MeasuredValues>> parse_measured(const std::string& tex
                                                           const std::string& analysis_key) {
   const std::string begin = first_line(analysis_key) + head;
   if (!text.starts_with(begin)) return std::nullopt;
-  std::istringstream lines(text.substr(begin.size()));
+  std::istringstream lines = text_stream(text.substr(begin.size()));
   std::vector<MeasuredValues> thresholds;
   std::size_t count = 0;
   for (std::string line; std::getline(lines, line); ++count) {
-    std::istringstream fields(line);
+    std::istringstream fields = text_stream(line);
     std::string threshold, quantity, value, at_most;
     std::getline(fields, threshold, ',');
     std::getline(fields, quantity, ',');

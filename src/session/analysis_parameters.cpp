@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <sstream>
 
 #include "core/errors.h"
+#include "core/text_stream.h"
 #include "session/scenario_text.h"
 
 namespace talus {
@@ -23,7 +23,7 @@ std::optional<double> parse_number(const std::string& text, double above, double
 /// "1,2" as ascending numbers; nothing where it is something else.
 std::optional<std::vector<double>> parse_factors(const std::string& text) {
   std::vector<double> factors;
-  std::istringstream words(text + ",");
+  std::istringstream words = text_stream(text + ",");
   for (std::string word; std::getline(words, word, ',');) {
     const auto factor = parse_number(word, 0.0, 10.0);
     if (!factor || (!factors.empty() && *factor <= factors.back())) return std::nullopt;

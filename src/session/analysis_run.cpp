@@ -18,16 +18,10 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-double theta_c_of(const RunFile& run) {
-  for (const auto& [name, value] : run.checkpoint().results)
-    if (name == "theta_c") return value;
-  return none;
-}
-
 /// With its thresholds and all that does not depend on frames.
 Analysis begin_analysis(const RunFile& run, const AnalysisParameters& parameters) {
   const RunStatics& statics = run.header().statics;
-  const double theta_c = theta_c_of(run);
+  const double theta_c = find_value(run.checkpoint().results, "theta_c").value_or(none);
   const double gamma_c = parameters.gamma_c.value_or(std::isnan(theta_c) ? none : sine(theta_c));
   const std::size_t factors = std::isnan(gamma_c) ? 0 : parameters.threshold_factors.size();
   Analysis analysis = make_analysis({{'T', run.frame_count()},

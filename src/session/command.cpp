@@ -39,7 +39,7 @@ void check_push(const Command& command, const Scenario& scenario, const World& w
     refuse(command, "grain " + std::to_string(command.grain),
            "a free grain, 0 ... " + std::to_string(world.grains.free_count - 1));
   const double limit = fastest_push * std::sqrt(world.gravity * scenario.grains.mean_diameter);
-  const double speed = std::hypot(command.x, command.y);
+  const double speed = std::sqrt(command.x * command.x + command.y * command.y);
   if (!(speed < limit))
     refuse(command, "speed " + short_text(speed) + " m/s",
            "less than 100 sqrt(g D) = " + short_text(limit) + " m/s");

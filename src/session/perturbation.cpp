@@ -33,7 +33,8 @@ Index count_moved(const World& world, const Grains& before, double distance) {
   for (Index i = 0; i < grains.free_count; ++i) {
     const double turns = grains.image[i] - before.image[i];
     const double dx = grains.x[i] - before.x[i] + turns * world.boundary.length;
-    if (std::hypot(dx, grains.y[i] - before.y[i]) > distance) ++count;
+    const double dy = grains.y[i] - before.y[i];
+    if (dx * dx + dy * dy > distance * distance) ++count;
   }
   return count;
 }

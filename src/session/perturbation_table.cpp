@@ -2,9 +2,9 @@
 
 #include <array>
 #include <charconv>
-#include <sstream>
 
 #include "core/errors.h"
+#include "core/text_stream.h"
 #include "session/scenario_text.h"
 
 namespace talus {
@@ -36,7 +36,7 @@ bool read_end(std::string_view text, TrialEnd& end) {
 
 bool read_row(const std::string& line, double& tilt, Trial& trial) {
   std::array<std::string, column_count> cells;
-  std::istringstream text(line);
+  std::istringstream text = text_stream(line);
   for (std::string& cell : cells)
     if (!std::getline(text, cell, ',')) return false;
   return read_number(cells[0], tilt) && read_number(cells[1], trial.strength) &&
@@ -80,7 +80,7 @@ PerturbationTable parse_perturbation_csv(const std::string& text, const std::str
   PerturbationTable table{plan, false, {}};
   const std::string under_way = plan_line(table);
   table.complete = true;
-  std::istringstream lines(text);
+  std::istringstream lines = text_stream(text);
   std::string line;
   std::getline(lines, line);
   if (line != plan_line(table) && line != under_way)

@@ -130,8 +130,7 @@ void write_problem(const std::string& path, const StepProblem& step, const std::
   write_fclib(path, file, flat(guess.u));
 }
 
-StoredProblem read_problem(const std::string& path) {
-  const FclibProblem file = read_fclib(path);
+StoredProblem stored_problem(const std::string& path, const FclibProblem& file) {
   StoredProblem stored;
   stored.local = local_problem_of(file);
   stored.guess = pairs<Impulse>(file.guess_r);
@@ -139,6 +138,8 @@ StoredProblem read_problem(const std::string& path) {
   if (!file.reals.empty()) stored.step = step_problem_of(path, file, stored.guess);
   return stored;
 }
+
+StoredProblem read_problem(const std::string& path) { return stored_problem(path, read_fclib(path)); }
 
 void write_solution(const std::string& from, const std::string& to, const LocalSolution& solution) {
   write_fclib_solution(from, to, flat(solution.p), flat(solution.u));

@@ -9,6 +9,8 @@
 
 namespace talus {
 
+struct FclibProblem;
+
 /// What a problem file holds: W, q and mu, and where Talus wrote it, the step they belong to.
 struct StoredProblem {
   LocalProblem local;
@@ -19,7 +21,9 @@ struct StoredProblem {
 /// `title` says where the problem comes from.
 void write_problem(const std::string& path, const StepProblem& step, const std::string& title);
 
-/// Throws as read_fclib does.
+/// The problem in a file called `path`. Throws Error(bad_data) where its bodies cannot be.
+StoredProblem stored_problem(const std::string& path, const FclibProblem& file);
+/// Throws as read_fclib and stored_problem do.
 StoredProblem read_problem(const std::string& path);
 
 /// A copy of the problem file `from` with the solution in it.

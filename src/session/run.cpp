@@ -1,5 +1,6 @@
 #include "session/run.h"
 
+#include <algorithm>
 #include <chrono>
 
 #include "core/errors.h"
@@ -32,6 +33,22 @@ void tell(const Session& session, Clock::time_point start, const RunControl& con
 
 bool stops(const RunControl& control) { return control.stop != nullptr && *control.stop != 0; }
 
+bool takes_checkpoint(const RunControl& control) {
+  if (control.checkpoint == nullptr || *control.checkpoint == 0) return false;
+  *control.checkpoint = 0;
+  return true;
+}
+
+/// A command of a run. One that its session would not have taken cannot be the run's.
+void apply(Session& session, const Command& command) {
+  try {
+    session.apply(command);
+  } catch (const Error& error) {
+    throw Error(ExitCode::bad_data,
+                "data sets /commands at step " + std::to_string(command.step) + ": " + error.what());
+  }
+}
+
 /// A step of a replay. The run that is replayed may have ended with an error after its last step: so does
 /// this one then.
 void advance_to(Session& session, std::int64_t steps) {
@@ -44,21 +61,31 @@ void advance_to(Session& session, std::int64_t steps) {
 
 }  // namespace
 
+bool time_is_up(double allowed, double elapsed, double longest_step) {
+  return allowed - elapsed <= std::max(0.01 * allowed, 2.0 * longest_step);
+}
+
 RunEnd run_to_end(Session& session, RunStore& store, const RunControl& control) {
   const Clock::time_point start = Clock::now();
+  double longest_step = 0.0;
+  const auto must_stop = [&] {
+    return stops(control) ||
+           (control.max_wall && time_is_up(*control.max_wall, seconds_since(control.begun), longest_step));
+  };
   Recorder recorder(session, store);
   while (session.phase() != Phase::done) {
+    const Clock::time_point step_start = Clock::now();
     advance_or_keep(session, recorder);
     tell(session, start, control);
-    const bool stop = stops(control);
-    if (stop)
+    const bool stop = must_stop();
+    if (takes_checkpoint(control) || stop)
       recorder.commit();
     else
       recorder.commit_if_due();
     if (stop && session.phase() != Phase::done) return RunEnd::stopped;
+    longest_step = std::max(longest_step, seconds_since(step_start));
   }
-  store.pack();
-  return RunEnd::complete;
+  return store.pack([&] { return !must_stop(); }) ? RunEnd::complete : RunEnd::stopped;
 }
 
 RunEnd replay(Session& session, RunStore* store, std::span<const Command> commands, std::int64_t steps,
@@ -68,7 +95,7 @@ RunEnd replay(Session& session, RunStore* store, std::span<const Command> comman
   if (store != nullptr) recorder.emplace(session, *store);
   auto next = commands.begin();
   while (true) {
-    for (; next != commands.end() && next->step == session.world().step; ++next) session.apply(*next);
+    for (; next != commands.end() && next->step == session.world().step; ++next) apply(session, *next);
     const bool stop = stops(control);
     if (stop || session.world().step >= steps || session.phase() == Phase::done) break;
     advance_to(session, steps);

@@ -13,6 +13,7 @@ enum class BedBoundary { periodic, walls };
 enum class BedFloor { rough, smooth };
 enum class AfterFailure { stop, lower, hold };
 enum class SolverMethod { accelerated, gauss_seidel };
+enum class GuardAction { stop, warn };
 
 struct Scenario {
   std::uint64_t seed = 1;
@@ -82,6 +83,17 @@ struct Scenario {
 
     bool operator==(const Output&) const = default;
   } output;
+
+  /// What no sound run does.
+  struct Guards {
+    GuardAction action = GuardAction::stop;  ///< "stop": the run ends with an error; "warn": it is recorded
+    double velocity = 1000.0;                ///< of a grain, sqrt(g D)
+    double overlap = 0.5;                    ///< D
+    double energy = 100.0;                   ///< kinetic, of a grain in the mean, m g H
+    int unconverged = 10000;                 ///< steps in a row that did not reach their tolerance
+
+    bool operator==(const Guards&) const = default;
+  } guards;
 
   bool operator==(const Scenario&) const = default;
 };

@@ -202,11 +202,31 @@ void add_computing_keys(Keys& keys) {
       [](auto& s) -> auto& { return s.output.checkpoint_every; }));
 }
 
+void add_guard_keys(Keys& keys) {
+  keys.push_back(choice(
+      "guards", "action", {{"stop", "warn"}},
+      "what follows when a run does what none should: it stops, or goes on with a recorded warning",
+      [](auto& s) -> auto& { return s.guards.action; }));
+  keys.push_back(number(
+      "guards", "velocity", "sqrt(g D)", positive(), "largest velocity of a grain",
+      [](auto& s) -> auto& { return s.guards.velocity; }));
+  keys.push_back(number(
+      "guards", "overlap", "D", positive(), "largest overlap of two grains",
+      [](auto& s) -> auto& { return s.guards.overlap; }));
+  keys.push_back(number(
+      "guards", "energy", "m g H", positive(), "largest kinetic energy of a grain in the mean",
+      [](auto& s) -> auto& { return s.guards.energy; }));
+  keys.push_back(integer(
+      "guards", "unconverged", {1, 1'000'000'000}, "most steps in a row that miss their tolerance",
+      [](auto& s) -> auto& { return s.guards.unconverged; }));
+}
+
 Keys make_keys() {
   Keys keys;
   add_bed_keys(keys);
   add_loading_keys(keys);
   add_computing_keys(keys);
+  add_guard_keys(keys);
   return keys;
 }
 

@@ -10,8 +10,8 @@
 #include <map>
 #include <span>
 
+#include "core/descriptor.h"
 #include "core/errors.h"
-#include "io/descriptor.h"
 #include "session/scenario_keys.h"
 #include "session/scenario_rules.h"
 #include "session/scenario_suggestion.h"
@@ -22,6 +22,7 @@ namespace {
 
 constexpr std::size_t largest_file = std::size_t{1} << 20;  // bytes
 constexpr std::size_t most_complaints = 100;                // shown at once
+constexpr std::ptrdiff_t most_dots = 1000;                  // in a line
 
 /// Where a value stands: in the file, or in a setting of the command line.
 struct Place {
@@ -195,9 +196,21 @@ bool is_bare_word(std::string_view text) {
          std::isalpha(static_cast<unsigned char>(text.front()));
 }
 
+/// The first line, from 1, with so many dots that its name could be a table in a table in a table ... deeper
+/// than the stack of the parser; 0 where there is none.
+std::uint32_t line_too_deep(std::string_view text) {
+  for (std::uint32_t line = 1;; ++line) {
+    const auto end = text.find('\n');
+    if (std::ranges::count(text.substr(0, end), '.') > most_dots) return line;
+    if (end == std::string_view::npos) return 0;
+    text.remove_prefix(end + 1);
+  }
+}
+
 /// The value of a setting: TOML, or a bare word that stands for a string. One entry, named "value"; nothing
 /// where it is neither.
 std::optional<toml::table> parse_setting(const std::string& value) {
+  if (line_too_deep(value) != 0) return std::nullopt;
   try {
     toml::table table = toml::parse("value = " + value);
     if (table.size() == 1) return table;
@@ -262,6 +275,9 @@ void refuse_what_is_no_text(const std::string& text, const std::string& name) {
   if (text.size() > largest_file)
     refuse(place_in_file(name, {1, 1}), "the file is too large: expected a scenario of at most " +
                                             std::to_string(largest_file) + " bytes");
+  if (const std::uint32_t line = line_too_deep(text))
+    refuse(place_in_file(name, {line, 1}),
+           "this line has too many dots: expected at most " + std::to_string(most_dots));
 }
 
 }  // namespace

@@ -130,6 +130,7 @@ void Session::apply(Command command) {
 }
 
 const StepReport& Session::advance() {
+  if (!broken_guard_.empty() && phase_ != Phase::done) throw Error(ExitCode::internal, broken_guard_);
   if (phase_ == Phase::deposition)
     advance_deposition();
   else if (phase_ == Phase::tilt)
@@ -234,6 +235,21 @@ void Session::take_step() {
   for (std::size_t k = 0; k < stage_count; ++k) stage_seconds_[k] += report_.seconds[k];
   (phase_ == Phase::deposition ? deposition_seconds_ : tilt_seconds_) += seconds(report_);
   segment_.steps.push_back(step_row(world_, report_, static_cast<double>(phase_)));
+  watch();
+}
+
+void Session::watch() {
+  unconverged_in_a_row_ = report_.solver.converged ? 0 : unconverged_in_a_row_ + 1;
+  const GuardValues values = guard_values(world_, report_, unconverged_in_a_row_, scenario_);
+  const GuardValues limits = guard_limits(scenario_);
+  for (std::size_t k = 0; k < guard_count; ++k) {
+    if (values[k] <= limits[k]) continue;
+    if (scenario_.guards.action == GuardAction::warn) {
+      if (guard_warnings_.steps[k]++ == 0) guard_warnings_.first[k] = world_.step;
+    } else if (broken_guard_.empty()) {
+      broken_guard_ = guard_message(static_cast<Guard>(k), values[k], limits[k], world_.step);
+    }
+  }
 }
 
 void Session::record_row() {

@@ -10,6 +10,7 @@
 #include "dynamics/step.h"
 #include "io/run_store.h"
 #include "session/command.h"
+#include "session/guards.h"
 #include "session/measure.h"
 #include "session/scenario.h"
 
@@ -45,7 +46,9 @@ class Session {
   Session(const Scenario& scenario, Checkpoint checkpoint);
 
   /// Takes one step; what it records goes to segment(). Does nothing once done.
-  /// Throws Error(bad_data) when the bed does not come to rest within deposition.max_time.
+  /// Throws Error(bad_data) when the bed does not come to rest within deposition.max_time, and
+  /// Error(internal) where the step before has broken a guard of the scenario whose action is to stop: its
+  /// state is whole, to be looked at.
   const StepReport& advance();
 
   /// Does a command before the next step, and records it with the number of steps taken. Friction holds from
@@ -62,6 +65,7 @@ class Session {
   Phase phase() const { return phase_; }
   const StepReport& last_report() const { return report_; }
   const SolverRecord& solver_record() const { return record_; }
+  const GuardWarnings& guard_warnings() const { return guard_warnings_; }
   /// The contact law of the next step.
   ContactLawParameters law() const;
   /// deg/s, of the scenario or as a command has set it; 0: the tilt is held.
@@ -85,6 +89,7 @@ class Session {
   bool is_quiet() const;  ///< slower than deposition.rest_velocity
   bool is_at_rest() const { return quiet_steps_ >= rest_steps; }
   void take_step();
+  void watch();
   void advance_deposition();
   void begin_tilt();
   void advance_tilt();
@@ -97,6 +102,8 @@ class Session {
   double scheduled_tilt() const;  ///< rad, after tilt_steps_ steps
   void add_commanded(Checkpoint& checkpoint) const;
   void take_commanded(const Checkpoint& checkpoint);
+  void add_warnings(Checkpoint& checkpoint) const;
+  void take_warnings(const Checkpoint& checkpoint);
   void add_flow(Checkpoint& checkpoint) const;
   void take_flow(const Checkpoint& checkpoint);
 
@@ -115,6 +122,9 @@ class Session {
   double surface_displacement_ = 0.0;  ///< m
   double residual_since_row_ = 0.0;
   SolverRecord record_;
+  std::int64_t unconverged_in_a_row_ = 0;
+  GuardWarnings guard_warnings_;
+  std::string broken_guard_;  ///< why the next step is not taken
   std::array<double, stage_count> stage_seconds_{};
   double deposition_seconds_ = 0.0;
   double tilt_seconds_ = 0.0;

@@ -69,6 +69,9 @@ double next_tilt(double tilt, const Scenario& scenario, const InForce& now) {
 }  // namespace
 
 World world_at_frame(const RunFile& run, std::size_t k) {
+  if (!run.has_state())
+    throw Error(ExitCode::bad_data,
+                "the run was repaired and its last state is lost, without which no step can be formed");
   World world = run.checkpoint().world;
   Frame frame = run.frame(k);
   if (frame.step == world.step) return world;

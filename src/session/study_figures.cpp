@@ -16,9 +16,7 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr double same_angle = 1e-6;
 
 double figure(const Figures& figures, std::string_view name) {
-  for (const auto& [key, value] : figures)
-    if (key == name) return value;
-  return none;
+  return find_value(figures, name).value_or(none);
 }
 
 /// Mean displacement of the free grains along the bed between two frames, m.

@@ -74,6 +74,7 @@ void write_run(const std::string& path, const std::vector<Index>& soft, double t
   }
   Checkpoint checkpoint;
   checkpoint.world.tilt = radians(static_cast<double>(soft.size()));
+  checkpoint.world.boundary = {true, header.statics.length, {}};
   for (Index i = 0; i <= free_grains; ++i)
     add_disk(checkpoint.world.grains, {0.5, i * diameter}, 0.5 * diameter, 1.0, i == free_grains);
   checkpoint.results = {{"theta_c", radians(theta_c)}};

@@ -11,6 +11,7 @@
 #include "core/errors.h"
 #include "core/trigonometry.h"
 #include "session/session.h"
+#include "support/small_bed.h"
 
 namespace talus {
 namespace {
@@ -134,10 +135,7 @@ TEST(Drop, of_more_grains_than_the_surface_has_is_refused) {
 }
 
 Scenario small_bed() {
-  Scenario scenario;
-  scenario.bed.length = 10.0;
-  scenario.bed.depth = 3.0;
-  scenario.deposition.rest_velocity = 0.1;
+  Scenario scenario = test::small_bed();
   scenario.tilt.end_angle = 30.0;
   return scenario;
 }

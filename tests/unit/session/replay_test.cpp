@@ -11,16 +11,14 @@
 #include "session/run.h"
 #include "session/run_header.h"
 #include "session/step_problem.h"
+#include "support/small_bed.h"
 #include "support/temporary_folder.h"
 
 namespace talus {
 namespace {
 
 Scenario small_bed() {
-  Scenario scenario;
-  scenario.bed.length = 10.0;
-  scenario.bed.depth = 3.0;
-  scenario.deposition.rest_velocity = 0.1;
+  Scenario scenario = test::small_bed();
   scenario.tilt.rate = 20.0;
   scenario.tilt.step = 0.02;
   scenario.tilt.end_angle = 1.0;

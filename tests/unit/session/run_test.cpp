@@ -53,5 +53,37 @@ TEST(RunToEnd, a_frame_is_shown_before_it_is_committed) {
   EXPECT_EQ(shown, 4u);
 }
 
+TEST(RunToEnd, stops_in_time_for_what_it_is_allowed) {
+  EXPECT_FALSE(time_is_up(100.0, 98.9, 0.1));
+  EXPECT_TRUE(time_is_up(100.0, 99.1, 0.1)) << "less than a hundredth is left";
+  EXPECT_FALSE(time_is_up(100.0, 89.0, 5.0));
+  EXPECT_TRUE(time_is_up(100.0, 91.0, 5.0)) << "two long steps would be too much";
+}
+
+TEST(RunToEnd, told_to_stop_while_it_packs_it_stays_a_folder) {
+  const test::TemporaryFolder folder;
+  const std::string path = folder.path("run.h5");
+  const Scenario scenario = parse_scenario(tiny_bed, "tiny.toml");
+  Session session(scenario);
+  RunHeader header;
+  header.statics = run_statics(scenario, session.world());
+  header.scenario_resolved = resolved_toml(scenario);
+  {
+    RunStore store = RunStore::create(path, header, false);
+    volatile std::sig_atomic_t stop = 0;
+    RunControl control;
+    control.stop = &stop;
+    control.on_step = [&](const RunProgress& progress) { stop = progress.session.phase() == Phase::done; };
+    EXPECT_EQ(run_to_end(session, store, control), RunEnd::stopped);
+  }
+  EXPECT_EQ(run_presence(path), RunPresence::folder);
+  EXPECT_EQ(RunFile::open(path).all_frame_tilts().size(), 4u);
+  Checkpoint checkpoint;
+  RunStore store = RunStore::resume(path, header, checkpoint);
+  Session resumed(scenario, std::move(checkpoint));
+  EXPECT_EQ(run_to_end(resumed, store, {}), RunEnd::complete);
+  EXPECT_EQ(run_presence(path), RunPresence::packed);
+}
+
 }  // namespace
 }  // namespace talus

@@ -48,7 +48,7 @@ TEST(ScenarioKeys, each_sets_its_own_field_only) {
 /// compiling: give it a key, and a value here.
 Scenario all_fields_changed() {
   Scenario scenario;
-  auto& [seed, grains, contact, bed, deposition, tilt, solver, output] = scenario;
+  auto& [seed, grains, contact, bed, deposition, tilt, solver, output, guards] = scenario;
   seed = std::numeric_limits<std::int64_t>::max();
   auto& [mean_diameter, size_ratio, density] = grains;
   mean_diameter = 0.1 + 0.2;
@@ -87,6 +87,12 @@ Scenario all_fields_changed() {
   frame_every = 0.1;
   observable_every = 1e-3;
   checkpoint_every = 86400.0;
+  auto& [action, velocity, overlap, energy, unconverged] = guards;
+  action = GuardAction::warn;
+  velocity = 1e300;
+  overlap = DBL_MIN;
+  energy = 1.0 / 7.0;
+  unconverged = 999'999'999;
   return scenario;
 }
 

@@ -53,6 +53,7 @@ void write_run(const std::string& path, double theta_c) {
   header.statics.periodic = true;
   header.statics.length = 1.0;
   header.statics.depth = 0.5;
+  header.statics.mean_diameter = 0.2;
   header.provenance = {{"version", "0.0.0"}, {"git_hash", "abc"}};
   Segment segment;
   segment.frames = {frame_at(0, 0.875, 0, 0.0), frame_at(1, 0.125, 1, 0.0), frame_at(2, 0.625, 1, 0.9),
@@ -62,6 +63,7 @@ void write_run(const std::string& path, double theta_c) {
   segment.steps = {step_at(0, 1000), step_at(1, 100), step_at(1, 300)};
   Checkpoint checkpoint;
   checkpoint.world.tilt = radians(3.0);
+  checkpoint.world.boundary = {true, header.statics.length, {}};
   for (int i = 0; i < 3; ++i) add_disk(checkpoint.world.grains, {0.1 * i, 0.0}, 0.1, 1.0, i == 2);
   checkpoint.results = {{"theta_c", radians(theta_c)},
                         {"residual_max_rest", 1e-7},

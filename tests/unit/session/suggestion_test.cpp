@@ -42,8 +42,9 @@ TEST(Suggestion, says_what_there_is_where_nothing_is_near) {
 TEST(Suggestion, of_a_section) {
   EXPECT_EQ(suggest_section("solvers"), "; did you mean [solver]?");
   EXPECT_EQ(suggest_section("Grain"), "; did you mean [grains]?");
-  EXPECT_EQ(suggest_section("magic"),
-            "; expected one of [grains], [contact], [bed], [deposition], [tilt], [solver], [output]");
+  EXPECT_EQ(
+      suggest_section("magic"),
+      "; expected one of [grains], [contact], [bed], [deposition], [tilt], [solver], [output], [guards]");
 }
 
 }  // namespace

@@ -67,6 +67,7 @@ void write_run(const std::string& path, double theta_c, std::vector<Frame> frame
     segment.observables.push_back(row);
   }
   Checkpoint checkpoint;
+  checkpoint.world.boundary = {true, header.statics.length, {}};
   for (std::size_t i = 0; i < header.statics.radius.size(); ++i)
     add_disk(checkpoint.world.grains, {static_cast<double>(i), 0.0}, 0.5, 1.0,
              i >= static_cast<std::size_t>(header.statics.free_count));

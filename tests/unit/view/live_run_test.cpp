@@ -17,6 +17,7 @@
 #include "io/run_file.h"
 #include "session/measure.h"
 #include "session/run.h"
+#include "support/small_bed.h"
 #include "support/temporary_folder.h"
 
 namespace talus {
@@ -24,10 +25,7 @@ namespace {
 
 /// A bed of 30 grains that is tilted to 2 deg in some hundred steps.
 Scenario small_bed() {
-  Scenario scenario;
-  scenario.bed.length = 10.0;
-  scenario.bed.depth = 3.0;
-  scenario.deposition.rest_velocity = 0.1;
+  Scenario scenario = test::small_bed();
   scenario.tilt.rate = 20.0;
   scenario.tilt.step = 0.02;
   scenario.tilt.end_angle = 2.0;

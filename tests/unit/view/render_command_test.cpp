@@ -18,12 +18,9 @@ RenderRequest shown(const char* map) {
   return of;
 }
 
-TEST(RenderCommand, of_defaults_says_the_map_and_the_angle) {
-  EXPECT_EQ(render_command_line(shown("gamma")), "talus render runs/a.h5 --map gamma --at 12.25");
-}
-
-TEST(RenderCommand, has_each_setting_that_the_map_depends_on) {
-  RenderRequest of = shown("coarse+clusters");
+/// With every setting that some map depends on.
+RenderRequest shown_with_all(const char* map) {
+  RenderRequest of = shown(map);
   of.settings.theta_c_assumed = true;
   of.settings.threshold_factor = 2.0;
   of.settings.length = 7.5;
@@ -31,6 +28,15 @@ TEST(RenderCommand, has_each_setting_that_the_map_depends_on) {
   of.settings.colours = ColourMap::viridis;
   of.settings.range_low = 0.1;
   of.settings.range_high = 0.6;
+  return of;
+}
+
+TEST(RenderCommand, of_defaults_says_the_map_and_the_angle) {
+  EXPECT_EQ(render_command_line(shown("gamma")), "talus render runs/a.h5 --map gamma --at 12.25");
+}
+
+TEST(RenderCommand, has_each_setting_that_the_map_depends_on) {
+  RenderRequest of = shown_with_all("coarse+clusters");
   of.settings.turned = true;
   of.settings.transparent = true;
   EXPECT_EQ(render_command_line(of),
@@ -40,14 +46,7 @@ TEST(RenderCommand, has_each_setting_that_the_map_depends_on) {
 
 /// `talus render` refuses options that do nothing.
 TEST(RenderCommand, leaves_out_what_the_map_does_not_depend_on) {
-  RenderRequest of = shown("forces");
-  of.settings.theta_c_assumed = true;
-  of.settings.threshold_factor = 2.0;
-  of.settings.length = 7.5;
-  of.settings.joined_by_neighbours = true;
-  of.settings.colours = ColourMap::viridis;
-  of.settings.range_low = 0.1;
-  of.settings.range_high = 0.6;
+  RenderRequest of = shown_with_all("forces");
   of.since = radians(5.0);
   EXPECT_EQ(render_command_line(of), "talus render runs/a.h5 --map forces --at 12.25");
 }

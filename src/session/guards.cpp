@@ -1,0 +1,60 @@
+#include "session/guards.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "session/scenario_text.h"
+
+namespace talus {
+
+GuardValues guard_values(const World& world, const StepReport& report, std::int64_t unconverged,
+                         const Scenario& scenario) {
+  const Grains& grains = world.grains;
+  double fastest = 0.0, energy = 0.0, mass = 0.0;
+  for (Index i = 0; i < grains.free_count; ++i) {
+    const double speed_squared = grains.vx[i] * grains.vx[i] + grains.vy[i] * grains.vy[i];
+    fastest = std::max(fastest, speed_squared);
+    energy += 0.5 * (grains.mass[i] * speed_squared + grains.inertia[i] * grains.omega[i] * grains.omega[i]);
+    mass += grains.mass[i];
+  }
+  const double diameter = scenario.grains.mean_diameter;
+  GuardValues values{};
+  values[static_cast<std::size_t>(Guard::velocity)] = std::sqrt(fastest / (world.gravity * diameter));
+  values[static_cast<std::size_t>(Guard::overlap)] = report.largest_overlap / diameter;
+  values[static_cast<std::size_t>(Guard::energy)] =
+      energy / (mass * world.gravity * scenario.bed.depth * diameter);
+  values[static_cast<std::size_t>(Guard::unconverged)] = static_cast<double>(unconverged);
+  return values;
+}
+
+GuardValues guard_limits(const Scenario& scenario) {
+  const Scenario::Guards& guards = scenario.guards;
+  return {guards.velocity, guards.overlap, guards.energy, static_cast<double>(guards.unconverged)};
+}
+
+std::string guard_message(Guard guard, double value, double limit, std::int64_t step) {
+  const auto said = [guard](const std::string& number) -> std::string {
+    switch (guard) {
+      case Guard::velocity:
+        return "a grain moves at " + number + " sqrt(g D)";
+      case Guard::overlap:
+        return "two grains overlap by " + number + " D";
+      case Guard::energy:
+        return "the kinetic energy of a grain is " + number + " m g H in the mean";
+      case Guard::unconverged:
+      case Guard::count:
+        break;
+    }
+    return number + " steps in a row did not reach their tolerance";
+  };
+  return std::string("step ")
+      .append(std::to_string(step))
+      .append(": ")
+      .append(said(short_text(value)))
+      .append("; guards.")
+      .append(guard_names[static_cast<std::size_t>(guard)])
+      .append(" allows ")
+      .append(short_text(limit));
+}
+
+}  // namespace talus

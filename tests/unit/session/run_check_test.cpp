@@ -1,0 +1,111 @@
+/// A run that is whole passes; what cannot be is found and named.
+
+#include "session/run_check.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "session/run_header.h"
+#include "session/session.h"
+#include "support/temporary_folder.h"
+
+namespace talus {
+namespace {
+
+Scenario small_bed() {
+  Scenario scenario;
+  scenario.bed.length = 10.0;
+  scenario.bed.depth = 3.0;
+  scenario.tilt.rate = 20.0;
+  scenario.tilt.step = 0.02;
+  scenario.tilt.end_angle = 1.0;
+  scenario.output.frame_every = 0.5;
+  scenario.output.observable_every = 0.1;
+  return scenario;
+}
+
+/// What a run of the small bed records, made once.
+const Session& finished_run() {
+  static const Session session = [] {
+    Session run(small_bed());
+    while (run.phase() != Phase::done) run.advance();
+    return run;
+  }();
+  return session;
+}
+
+/// The check of a run file into which something was written that is not so.
+RunCheck check_with(const std::function<void(Segment&)>& change) {
+  const test::TemporaryFolder folder;
+  Segment segment = finished_run().segment();
+  change(segment);
+  RunStore store =
+      RunStore::create(folder.path("run.h5"), run_header(finished_run(), {"", {}, "", 1}), false);
+  store.commit(segment, finished_run().checkpoint(0.0));
+  store.pack();
+  std::size_t frames = 0;
+  const RunCheck check =
+      check_run(RunFile::open(folder.path("run.h5")), [&frames](std::size_t done) { frames = done; });
+  EXPECT_EQ(frames, segment.frames.size());
+  return check;
+}
+
+std::string faults_of(const RunCheck& check) {
+  std::string all;
+  for (const std::string& fault : check.faults) all += fault + "\n";
+  return all;
+}
+
+TEST(RunCheck, a_run_is_whole) {
+  const RunCheck check = check_with([](Segment&) {});
+  EXPECT_EQ(faults_of(check), "");
+  EXPECT_EQ(check.frames, 3u);
+  EXPECT_EQ(check.steps, finished_run().segment().steps.size());
+  EXPECT_GE(check.frames_at_rest, 1u);
+  EXPECT_LT(check.largest_imbalance, imbalance_limit);
+  EXPECT_GT(check.largest_mobilisation, 0.1);
+  EXPECT_LE(check.largest_mobilisation, mobilisation_limit);
+  EXPECT_LT(check.largest_moment_error, 1e-5);
+}
+
+TEST(RunCheck, finds_what_cannot_be) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const std::pair<std::function<void(Segment&)>, const char*> changes[] = {
+      {[](Segment& s) { s.frames[1].contacts.fn[3] *= -1.0; }, "frame 1: 1 contacts pull"},
+      {[](Segment& s) { s.frames[1].contacts.ft[3] = 2.0 * s.frames[1].contacts.fn[3]; },
+       "Coulomb's law allows 1"},
+      {[](Segment& s) { s.frames[0].contacts.fn[5] *= 1.5; },
+       "frame 0: internal_moment is not that of the contacts"},
+      {[](Segment& s) { s.frames[2].internal_moment[4].xy += 0.5; }, "frame 2: internal_moment"},
+      {[](Segment& s) { s.frames[0].tilt = 0.1; }, "forces and weight differ by"},
+      {[](Segment& s) {
+         s.frames[1].x[2] = s.frames[1].x[9];
+         s.frames[1].y[2] = s.frames[1].y[9];
+       },
+       "frame 1: "},
+      {[](Segment& s) { s.frames[1].x[2] = 2.0; }, "outside the period"},
+      {[](Segment& s) { s.frames[2].step = s.frames[1].step; }, "/frames/step: frame 2"},
+      {[](Segment& s) { at(s.steps[7], StepField::step) = 9.0; }, "/steps/step: row 7"},
+      {[](Segment& s) { s.steps.pop_back(); }, "/checkpoint/step"},
+      {[nan](Segment& s) { at(s.observables[2], Observable::kinetic_energy) = nan; },
+       "/observables/kinetic_energy: row 2"},
+      {[](Segment& s) { std::swap(s.observables[1], s.observables[2]); }, "/observables/step: row"}};
+  for (const auto& [change, fault] : changes) {
+    const std::string found = faults_of(check_with(change));
+    EXPECT_NE(found.find(fault), std::string::npos) << "expected: " << fault << "\nfound: " << found;
+  }
+}
+
+TEST(RunCheck, does_not_tell_more_than_can_be_read) {
+  const RunCheck check = check_with([](Segment& s) {
+    for (StepRow& row : s.steps) at(row, StepField::residual) = std::numeric_limits<double>::infinity();
+  });
+  EXPECT_EQ(check.faults.size(), most_faults + 1);
+  EXPECT_NE(check.faults.back().find("more"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace talus
