@@ -22,6 +22,11 @@ void BackgroundTasks::post(std::function<void()> task) {
   changed_.notify_all();
 }
 
+void BackgroundTasks::drop() {
+  const std::lock_guard lock(mutex_);
+  waiting_.clear();
+}
+
 void BackgroundTasks::finish() {
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [this] { return (waiting_.empty() && !working_) || failure_; });

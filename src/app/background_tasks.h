@@ -22,6 +22,9 @@ class BackgroundTasks {
   /// Waits while as many are waiting as may. Throws what an earlier task threw; none is done after that.
   void post(std::function<void()> task);
 
+  /// Forgets those that are waiting.
+  void drop();
+
   /// Waits until all are done. Throws as post does.
   void finish();
 

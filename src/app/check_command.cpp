@@ -1,12 +1,17 @@
-/// `talus check`: whether a scenario can be run, what it says in full, and what it will take.
+/// `talus check`: whether a scenario can be run, what it says in full, and what it will take; whether what a
+/// run file holds is whole.
 
 #include <cmath>
 #include <cstdio>
 #include <memory>
 
 #include "app/commands.h"
+#include "app/count_progress.h"
 #include "app/json.h"
+#include "core/errors.h"
+#include "io/run_repair.h"
 #include "session/estimate.h"
+#include "session/run_check.h"
 #include "session/scenario_keys.h"
 
 namespace talus {
@@ -112,13 +117,104 @@ void print_text(const CheckArguments& arguments, const Scenario& scenario, const
   print_line("disk", "about " + size_text(expected.disk) + ", twice that while the run is packed");
 }
 
+/// Throws `refusal` again, after it has said which pieces of the run are damaged.
+[[noreturn]] void tell_damage(const CheckArguments& arguments, const Error& refusal) {
+  std::string faults;
+  const std::vector<std::string> pieces = damaged_pieces(arguments.scenario);
+  if (arguments.json) {
+    for (const std::string& piece : pieces)
+      faults.append(faults.empty() ? "" : ", ").append(json::quoted(piece));
+    const json::Members members = {{"path", json::quoted(arguments.scenario)},
+                                   {"whole", json::truth(false)},
+                                   {"faults", "[" + faults + "]"}};
+    std::printf("%s\n", json::object(members).c_str());
+  } else {
+    std::printf("%s: damaged\n", arguments.scenario.c_str());
+    for (const std::string& piece : pieces) std::printf("  fault: %s\n", piece.c_str());
+    if (pieces.empty()) std::printf("  every piece of the run itself is whole\n");
+  }
+  throw Error(refusal);
+}
+
+/// The run, whose bytes are those that were written.
+RunFile open_or_tell(const CheckArguments& arguments) {
+  try {
+    return RunFile::open(arguments.scenario);
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::bad_data) throw;
+    tell_damage(arguments, error);
+  }
+}
+
+void print_run_json(const std::string& path, const RunFile& run, const RunCheck& check) {
+  std::string faults;
+  for (const std::string& fault : check.faults)
+    faults.append(faults.empty() ? "" : ", ").append(json::quoted(fault));
+  const json::Members members = {
+      {"path", json::quoted(path)},
+      {"whole", json::truth(check.faults.empty())},
+      {"complete", json::truth(run.complete())},
+      {"lost", json::quoted(run.lost())},
+      {"frames", json::number(check.frames)},
+      {"observable_rows", json::number(check.rows)},
+      {"steps", json::number(check.steps)},
+      {"commands", json::number(check.commands)},
+      {"largest_overlap_d", json::number(check.largest_overlap)},
+      {"largest_mobilisation", json::number(check.largest_mobilisation)},
+      {"frames_at_rest", json::number(check.frames_at_rest)},
+      {"largest_imbalance_mg", json::number(check.largest_imbalance)},
+      {"largest_moment_error", json::number(check.largest_moment_error)},
+      {"faults", "[" + faults + "]"},
+  };
+  std::printf("%s\n", json::object(members).c_str());
+}
+
+void print_run(const std::string& path, const RunFile& run, const RunCheck& check) {
+  std::printf("%s: %s, %s\n", path.c_str(), check.faults.empty() ? "whole" : "damaged",
+              run.complete() ? "complete" : "not complete");
+  if (!run.lost().empty()) std::printf("  lost        %s (before it was repaired)\n", run.lost().c_str());
+  std::printf("  hashes      as they were written\n");
+  std::printf("  series      %zu frames, %zu rows of observables, %zu steps, %zu commands\n", check.frames,
+              check.rows, check.steps, check.commands);
+  std::printf("  overlap     at most %.2g D\n", check.largest_overlap);
+  std::printf("  friction    at most %.6f of what Coulomb's law allows\n", check.largest_mobilisation);
+  std::printf("  balance     forces and weight differ by at most %.2g m g (rms) in %zu frames at rest\n",
+              check.largest_imbalance, check.frames_at_rest);
+  std::printf("  moments     differ from those of the contacts by at most %.2g of the largest\n",
+              check.largest_moment_error);
+  for (const std::string& fault : check.faults) std::printf("  fault: %s\n", fault.c_str());
+}
+
+/// Throws Error(bad_data) where the run is damaged, after it has said how.
+void check_run_file(const CheckArguments& arguments) {
+  if (!arguments.settings.empty())
+    throw Error(ExitCode::usage, arguments.scenario + " is a run: --set is for a scenario");
+  const RunFile run = open_or_tell(arguments);
+  RunCheck check = [&] {
+    CountProgress progress("checking", run.all_frame_tilts().size(), arguments.json);
+    return check_run(run, [&progress](std::size_t done) { progress.show(done); });
+  }();
+  // Of a folder every file has been compared with its hash, and its writer may be at work.
+  const auto pieces = run.complete() ? damaged_pieces(arguments.scenario) : std::vector<std::string>{};
+  check.faults.insert(check.faults.begin(), pieces.begin(), pieces.end());
+  if (arguments.json)
+    print_run_json(arguments.scenario, run, check);
+  else
+    print_run(arguments.scenario, run, check);
+  if (!check.faults.empty())
+    throw Error(ExitCode::bad_data, arguments.scenario + " is damaged: " + check.faults.front());
+}
+
 }  // namespace
 
 void add_check_command(CLI::App& app) {
   auto arguments = std::make_shared<CheckArguments>();
-  CLI::App* command = app.add_subcommand(
-      "check", "Check a scenario, print it with every key, and estimate time, memory and disk");
-  command->add_option("scenario", arguments->scenario, "Scenario file (TOML; see docs/scenario.md)")
+  CLI::App* command = app.add_subcommand("check",
+                                         "Check a scenario, print it with every key, and estimate time, "
+                                         "memory and disk; or check what a run file holds");
+  command
+      ->add_option("scenario", arguments->scenario,
+                   "Scenario file (TOML; see docs/scenario.md) or run file (RUN.h5)")
       ->required();
   command
       ->add_option("--set", arguments->settings,
@@ -126,6 +222,7 @@ void add_check_command(CLI::App& app) {
       ->allow_extra_args(false);
   command->add_flag("--json", arguments->json, "As JSON, with units in the names");
   command->callback([arguments] {
+    if (is_run(arguments->scenario)) return check_run_file(*arguments);
     const Scenario scenario = read_scenario(arguments->scenario, arguments->settings);
     const Estimate expected = estimate(scenario);
     if (arguments->json)

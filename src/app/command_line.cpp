@@ -17,6 +17,7 @@ std::string quoted_for_shell(const std::string& word) {
 
 std::string command_line() {
   std::ifstream words("/proc/self/cmdline");
+  words.exceptions(std::ios::badbit);  // where memory is missing
   std::string text = "talus";
   std::string word;
   std::getline(words, word, '\0');  // the program, wherever it lies

@@ -21,5 +21,6 @@ void add_figures_command(CLI::App& app);
 void add_reproduce_command(CLI::App& app);
 void add_view_command(CLI::App& app);
 void add_replay_command(CLI::App& app);
+void add_repair_command(CLI::App& app);
 
 }  // namespace talus

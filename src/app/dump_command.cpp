@@ -23,19 +23,13 @@ struct DumpArguments {
   bool overwrite = false;
 };
 
-double theta_c_of(const RunFile& run) {
-  for (const auto& [name, value] : run.checkpoint().results)
-    if (name == "theta_c") return value;
-  return std::numeric_limits<double>::quiet_NaN();
-}
-
 std::size_t choose_frame(const DumpArguments& arguments, const RunFile& run) {
   const std::size_t count = run.frame_count();
   if (count == 0)
     throw Error(ExitCode::bad_data,
                 arguments.run + " has no frames yet: the first is that of the bed at rest");
   if (!arguments.at.empty()) {
-    const double theta_c = theta_c_of(run);
+    const double theta_c = find_value(run.checkpoint().results, "theta_c").value_or(std::nan(""));
     if (arguments.at == "repose" && !std::isfinite(theta_c))
       throw Error(ExitCode::bad_data,
                   arguments.run +

@@ -39,25 +39,18 @@ struct RunInfo {
   double solver_tolerance = none;     ///< asked of a bed at rest
   double residual_max = none;         ///< worst natural-map residual of the steps of the tilt
   std::string state_hash;
+  std::string lost;  ///< before the run was repaired
   Facts provenance;
   Figures results;  ///< SI
   Figures timing;   ///< s
 };
 
 std::string fact(const Facts& facts, const std::string& name) {
-  for (const auto& [key, value] : facts)
-    if (key == name) return value;
-  return "unknown";
+  return find_value(facts, name).value_or("unknown");
 }
 
 double figure(const Figures& figures, const std::string& name) {
-  for (const auto& [key, value] : figures)
-    if (key == name) return value;
-  return none;
-}
-
-bool has(const Figures& figures, const std::string& name) {
-  return std::ranges::any_of(figures, [&](const auto& figure) { return figure.first == name; });
+  return find_value(figures, name).value_or(none);
 }
 
 /// The tolerance of the stored scenario; none where it is a scenario of another version.
@@ -110,7 +103,8 @@ RunInfo look_at(const std::string& path) {
   info.commands = run.commands();
   info.command_tilts = tilts_of(info.commands, run.all_observables());
   info.solver_tolerance = tolerance_of(run.header(), path);
-  info.state_hash = hash_text(state_hash(run.checkpoint().world));
+  info.state_hash = run.has_state() ? hash_text(state_hash(run.checkpoint().world)) : "none";
+  info.lost = run.lost();
   info.provenance = run.header().provenance;
   info.results = run.checkpoint().results;
   info.timing = run.checkpoint().timing;
@@ -192,6 +186,7 @@ void print_commands(const RunInfo& info) {
 void print_text(const RunInfo& info) {
   const double theta_c = figure(info.results, "theta_c");
   print_line("run", info.path + (info.complete ? "" : " (not complete, at " + in_degrees(info.tilt) + ")"));
+  if (!info.lost.empty()) print_line("lost", info.lost + " (the run was repaired)");
   print_line("version", fact(info.provenance, "version") + " (" + fact(info.provenance, "git_hash") + ")");
   print_line("seed", std::to_string(info.seed));
   print_line("grains",
@@ -203,7 +198,7 @@ void print_text(const RunInfo& info) {
                             : ", tilt " + in_degrees(info.tilt_first) + " to " + in_degrees(info.tilt_last)) +
           (info.flow_frames == 0 ? "" : ", " + std::to_string(info.flow_frames) + " after failure"));
   print_line("theta_c", std::isnan(theta_c) ? "none: the slope has not failed" : in_degrees(theta_c));
-  if (has(info.results, "theta_r")) print_line("theta_r", rest_text(info));
+  if (find_value(info.results, "theta_r")) print_line("theta_r", rest_text(info));
   print_line("solver tolerance", short_number(info.solver_tolerance));
   print_line("worst residual", short_number(info.residual_max) + " in the tilt, " +
                                    std::to_string(info.unconverged_steps) + " of its steps not converged");

@@ -53,6 +53,7 @@ LiveMaps::LiveMaps(MapPlan plan, std::string folder, bool resumed, bool overwrit
 }
 
 LiveMaps::~LiveMaps() {
+  tasks_.drop();  // of a run that ends early: it draws them when it is resumed
   tasks_.post([this] { renderer_.reset(); });
   tasks_.finish();
 }

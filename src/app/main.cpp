@@ -1,63 +1,72 @@
 /// The command line: parses, runs one subcommand, and turns errors into messages and exit codes.
 
+#include <cerrno>
+#include <csignal>
 #include <cstdio>
-#include <new>
 
 #include "app/commands.h"
+#include "app/program_end.h"
 #include "core/errors.h"
 #include "core/version.h"
 
 namespace {
 
-int report(talus::ExitCode code, const char* message) {
-  std::fprintf(stderr, "talus: error: %s\n", message);
-  return static_cast<int>(code);
+void run(int argc, char** argv, CLI::App& app) {
+  app.set_version_flag("--version", talus::version_text());
+  app.require_subcommand(1);
+  app.footer(
+      "Exit codes: 0 done, 64 usage, 65 bad scenario, run or problem, 66 missing input,\n"
+      "69 no context, display or tool, 70 internal, 71 out of memory, 73 cannot create output,\n"
+      "74 I/O error, 75 stopped and resumable.");
+  talus::add_run_command(app);
+  talus::add_check_command(app);
+  talus::add_info_command(app);
+  talus::add_analyze_command(app);
+  talus::add_render_command(app);
+  talus::add_animate_command(app);
+  talus::add_panel_command(app);
+  talus::add_dump_command(app);
+  talus::add_solve_command(app);
+  talus::add_study_command(app);
+  talus::add_perturb_command(app);
+  talus::add_figures_command(app);
+  talus::add_reproduce_command(app);
+  talus::add_view_command(app);
+  talus::add_replay_command(app);
+  talus::add_repair_command(app);
+  app.parse(argc, argv);
+}
+
+/// What a command has printed is part of its result: a full disk must not cut it off unseen.
+void require_printed() {
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+    throw talus::system_error(talus::ExitCode::io_error, "write", "standard output", errno);
+}
+
+/// Runs the command line; tells parse errors, and passes on the others.
+int run_and_tell(int argc, char** argv) {
+  CLI::App app{"Talus: granular slopes by Contact Dynamics, from a scenario file to maps of failure.",
+               "talus"};
+  int code = static_cast<int>(talus::ExitCode::done);
+  try {
+    run(argc, argv, app);
+  } catch (const CLI::ParseError& error) {  // --help and --version among them, which are no errors
+    if (app.exit(error) != 0) code = static_cast<int>(talus::ExitCode::usage);
+  }
+  require_printed();
+  errno = 0;  // whatever could not be had was not needed
+  return code;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  using talus::ExitCode;
-  CLI::App app{"Talus: granular slopes by Contact Dynamics, from a scenario file to maps of failure.",
-               "talus"};
-  app.set_version_flag("--version", talus::version_text());
-  app.require_subcommand(1);
-  app.footer(
-      "Exit codes: 0 done, 64 usage, 65 bad scenario, run or problem, 66 missing input,\n"
-      "69 no context, display or tool, 70 internal, 71 out of memory, 73 cannot create output, 74 I/O "
-      "error,\n"
-      "75 stopped and resumable.");
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of its write, not the end
   try {
-    talus::add_run_command(app);
-    talus::add_check_command(app);
-    talus::add_info_command(app);
-    talus::add_analyze_command(app);
-    talus::add_render_command(app);
-    talus::add_animate_command(app);
-    talus::add_panel_command(app);
-    talus::add_dump_command(app);
-    talus::add_solve_command(app);
-    talus::add_study_command(app);
-    talus::add_perturb_command(app);
-    talus::add_figures_command(app);
-    talus::add_reproduce_command(app);
-    talus::add_view_command(app);
-    talus::add_replay_command(app);
-    app.parse(argc, argv);
-    return static_cast<int>(ExitCode::done);
-  } catch (const CLI::Success& success) {  // --help, --version
-    return app.exit(success);
-  } catch (const CLI::ParseError& error) {
-    app.exit(error);
-    return static_cast<int>(ExitCode::usage);
-  } catch (const talus::LocatedError& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return static_cast<int>(error.code());
-  } catch (const talus::Error& error) {
-    return report(error.code(), error.what());
-  } catch (const std::bad_alloc&) {
-    return report(ExitCode::out_of_memory, "out of memory: use a smaller bed (bed.length, bed.depth)");
-  } catch (const std::exception& error) {
-    return report(ExitCode::internal, error.what());
+    return run_and_tell(argc, argv);
+  } catch (...) {
+    const int code = talus::report_exception();
+    errno = 0;  // it is told
+    return code;
   }
 }

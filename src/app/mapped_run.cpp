@@ -37,10 +37,9 @@ MappedRun::MappedRun(const std::string& path, const MapPlan& plan,
 }
 
 void MappedRun::take_theta_c() {
-  if (!std::isfinite(theta_c()))
-    for (const auto& [name, value] : file_.checkpoint().results)
-      if (name == "theta_c")
-        for (MapSettings& map : plan_.maps) map.theta_c = value;
+  const std::optional<double> measured = find_value(file_.checkpoint().results, "theta_c");
+  if (!std::isfinite(theta_c()) && measured)
+    for (MapSettings& map : plan_.maps) map.theta_c = *measured;
   if (std::isfinite(theta_c()) || !needs_theta_c(plan_)) return;
   throw Error(ExitCode::bad_data, path_ +
                                       ": the slope has not failed in this run, and what is asked for is "

@@ -25,15 +25,20 @@ struct OpenRun {
   Session session;
 };
 
-/// A new run. Throws as read_scenario and RunStore::create do.
+/// A new run, its first state committed: from now on it can be resumed. Throws as read_scenario,
+/// RunStore::create and RunStore::commit do.
 OpenRun start_run(const RunRequest& request);
 
 /// The run whose folder is there. The scenario is the one stored with it: Error(bad_data) where the file and
-/// the settings say something else.
+/// the settings say something else, and for a replay that was stopped before its end. No scenario file:
+/// whatever is stored.
 OpenRun resume_run(const RunRequest& request);
 
 /// Catches SIGINT and SIGTERM from now on and returns the flag that they set. The first asks the run to stop
 /// after its step; the second leaves at once with ExitCode::stopped (the store is whole at any time).
 const volatile std::sig_atomic_t* catch_stop_signals();
+
+/// Catches SIGUSR1 from now on and returns the flag that it sets: a wish for a checkpoint.
+volatile std::sig_atomic_t* catch_checkpoint_signal();
 
 }  // namespace talus

@@ -89,8 +89,9 @@ PerturbationTable read_perturbation_table(const std::string& run, const Perturba
 bool is_perturbed(const RunRequest& request, const PerturbationPlan& plan) {
   const RunPresence presence = run_presence(request.output);
   if (presence == RunPresence::none) return false;
-  if (RunFile::open(request.output).header().scenario_resolved !=
-      resolved_toml(read_scenario(request.scenario, request.settings)))
+  const std::string stored = RunFile::open(request.output).header().scenario_resolved;
+  if (parse_scenario(stored, request.output + ":/parameters") !=
+      read_scenario(request.scenario, request.settings))
     throw Error(ExitCode::bad_data, request.output + " is a run of another scenario; give another folder");
   if (!std::filesystem::exists(perturbation_table_path(request.output)))
     throw Error(ExitCode::bad_data, request.output + " has no table beside it, expected " +

@@ -28,9 +28,7 @@ struct ReplayArguments {
 };
 
 std::string fact(const Facts& facts, const std::string& name) {
-  for (const auto& [key, value] : facts)
-    if (key == name) return value;
-  return "unknown";
+  return find_value(facts, name).value_or("unknown");
 }
 
 std::string end_text(const World& world) {
@@ -48,13 +46,16 @@ void refuse_same(const ReplayArguments& arguments) {
                 arguments.output + " is the run that is replayed; choose another output with -o");
 }
 
+/// The output says what it replays, and how far: until then it lacks commands (resume_run).
 std::optional<RunStore> begin_output(const ReplayArguments& arguments, const Session& session,
-                                     const RunHeader& replayed) {
+                                     const RunFile& run) {
   if (arguments.output.empty()) return std::nullopt;
   refuse_same(arguments);
-  const RunHeader header =
-      run_header(session, {replayed.scenario_given, fact(replayed.provenance, "scenario_file"),
+  RunHeader header =
+      run_header(session, {run.header().scenario_given, fact(run.header().provenance, "scenario_file"),
                            command_line(), arguments.threads});
+  header.provenance.emplace_back("replay_of", arguments.run);
+  header.provenance.emplace_back("replay_steps", std::to_string(run.checkpoint().world.step));
   return RunStore::create(arguments.output, header, arguments.overwrite);
 }
 
@@ -72,10 +73,15 @@ void compare(const ReplayArguments& arguments, const RunFile& run, const World& 
 
 void replay_run(const ReplayArguments& arguments) {
   const RunFile run = RunFile::open(arguments.run);
+  if (!run.has_state())
+    throw Error(ExitCode::bad_data,
+                arguments.run +
+                    " was repaired, and its last state is lost: there is nothing to compare with; "
+                    "compute it again from its scenario (talus info)");
   const std::vector<Command> commands = run.commands();
   Session session(parse_scenario(run.header().scenario_resolved, arguments.run + ":/parameters"));
   session.use_threads(arguments.threads);
-  std::optional<RunStore> store = begin_output(arguments, session, run.header());
+  std::optional<RunStore> store = begin_output(arguments, session, run);
   ProgressLine line(arguments.quiet);
   RunControl control;
   control.stop = catch_stop_signals();

@@ -11,6 +11,7 @@
 #include "app/live_maps.h"
 #include "app/open_run.h"
 #include "app/progress.h"
+#include "app/wall_time.h"
 #include "core/errors.h"
 #include "core/hash.h"
 #include "core/trigonometry.h"
@@ -19,12 +20,13 @@ namespace talus {
 namespace {
 
 struct RunArguments {
-  std::string scenario;
+  std::string scenario;  ///< empty: that of the run
   std::string output;
   std::vector<std::string> settings;
   std::uint64_t seed = 0;
   bool has_seed = false;
   int threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  std::string max_wall;  ///< HH:MM; empty: no limit
   bool resume = false;
   bool overwrite = false;
   bool quiet = false;
@@ -36,6 +38,29 @@ std::string command_line(const RunArguments& arguments) {
   std::string line = "talus run " + arguments.scenario + " -o " + arguments.output;
   for (const std::string& setting : arguments.settings) line += " --set " + setting;
   return line;
+}
+
+/// What the first argument names: a scenario, or with --resume alone a run, by its file or its folder.
+void settle_names(RunArguments& arguments) {
+  const bool names_run =
+      arguments.resume && arguments.output.empty() && !arguments.scenario.ends_with(".toml");
+  if (!names_run) {
+    if (arguments.output.empty())
+      arguments.output = std::filesystem::path(arguments.scenario).stem().string() + ".h5";
+    return;
+  }
+  if (!arguments.settings.empty() || arguments.has_seed)
+    throw Error(ExitCode::usage,
+                "a run is resumed with the scenario that it began with: leave out --set and --seed");
+  std::string& run = arguments.output;
+  run = std::move(arguments.scenario);
+  arguments.scenario.clear();
+  while (run.ends_with('/')) run.pop_back();
+  if (run.ends_with(run_folder(""))) run.resize(run.size() - run_folder("").size());
+  if (run_presence(run) == RunPresence::none)
+    throw Error(ExitCode::missing_input,
+                run + ": no run to go on with; expected a run file, or its folder " + run_folder(run) +
+                    " with a first commit; begin it with: talus run SCENARIO -o " + run);
 }
 
 /// The settings of the scenario, the seed among them.
@@ -73,6 +98,11 @@ void print_end(const RunArguments& arguments, const Session& session) {
                  static_cast<long long>(record.unconverged_tilt),
                  static_cast<long long>(record.unconverged_flow), record.residual_max_rest,
                  record.residual_max_moving);
+  for (std::size_t k = 0; k < guard_count; ++k)
+    if (const std::int64_t steps = session.guard_warnings().steps[k]; steps > 0)
+      std::fprintf(stderr, "talus: warning: guards.%s was broken in %lld steps, first in step %lld\n",
+                   std::string(guard_names[k]).c_str(), static_cast<long long>(steps),
+                   static_cast<long long>(session.guard_warnings().first[k]));
   if (arguments.quiet) return;
   const std::optional<double> theta_c = session.angle_of_repose();
   if (theta_c)
@@ -88,7 +118,8 @@ void print_end(const RunArguments& arguments, const Session& session) {
 std::optional<LiveMaps> prepare_maps(const RunArguments& arguments, const RunRequest& request, bool resumed) {
   if (arguments.frames.empty()) return std::nullopt;
   const MapPlan plan = plan_live_maps(arguments.maps);
-  read_scenario(request.scenario, request.settings);  // no folder is made for one that is refused
+  if (!request.scenario.empty())
+    read_scenario(request.scenario, request.settings);  // no folder is made for one that is refused
   if (plan.maps[0].theta_c_assumed && !arguments.quiet)
     std::fprintf(stderr,
                  "talus: note: the angle of repose is not known before the slope fails: maps are scaled by "
@@ -123,35 +154,49 @@ void draw_what_is_missing(const RunArguments& arguments) {
   maps->meet(file);
 }
 
-void run(const RunArguments& arguments) {
-  const RunPresence presence = run_presence(arguments.output);
-  if (arguments.resume && presence == RunPresence::packed) {
-    if (!arguments.quiet) std::printf("%s is complete already.\n", arguments.output.c_str());
-    draw_what_is_missing(arguments);
-    return;
-  }
-  const volatile std::sig_atomic_t* stop = catch_stop_signals();
-  const RunRequest request = request_of(arguments);
-  const bool resumed = arguments.resume && presence == RunPresence::folder;
-  std::optional<LiveMaps> maps = prepare_maps(arguments, request, resumed);
+/// A run that is complete has nothing to resume but what a kill at its end may have left: its folder, and
+/// maps.
+void resume_complete(const RunArguments& arguments) {
+  RunFile::open(arguments.output);
+  discard_folder(arguments.output);
+  if (!arguments.quiet) std::printf("%s is complete already.\n", arguments.output.c_str());
+  draw_what_is_missing(arguments);
+}
+
+OpenRun open_run(const RunArguments& arguments, const RunRequest& request, bool resumed) {
   OpenRun open = resumed ? resume_run(request) : start_run(request);
   open.session.use_threads(arguments.threads);
   if (open.session.tilt_rate() == 0.0)
     std::fprintf(stderr,
                  "talus: note: a command holds the tilt: unless the slope fails, the run goes on until it is "
                  "stopped\n");
+  return open;
+}
+
+[[noreturn]] void tell_stopped(const RunArguments& arguments, const World& world, bool by_signal) {
+  throw Error(ExitCode::stopped, "stopped at " + std::to_string(degrees(world.tilt)) + " deg" +
+                                     (by_signal ? "" : " for --max-wall") +
+                                     "; continue with: talus run --resume " + arguments.output);
+}
+
+void run(const RunArguments& arguments) {
+  RunControl control;
+  control.stop = catch_stop_signals();
+  control.checkpoint = catch_checkpoint_signal();
+  if (!arguments.max_wall.empty()) control.max_wall = parse_wall_time("--max-wall", arguments.max_wall);
+  const RunPresence presence = run_presence(arguments.output);
+  if (arguments.resume && presence == RunPresence::packed) return resume_complete(arguments);
+  const RunRequest request = request_of(arguments);
+  const bool resumed = arguments.resume && presence == RunPresence::folder;
+  std::optional<LiveMaps> maps = prepare_maps(arguments, request, resumed);
+  OpenRun open = open_run(arguments, request, resumed);
   if (maps) begin_maps(*maps, open, arguments);
   ProgressLine line(arguments.quiet);
-  RunControl control;
-  control.stop = stop;
   control.on_step = [&line](const RunProgress& progress) { line.show(progress); };
   if (maps) control.on_frame = [&maps](const Frame& frame) { maps->add(frame); };
   const RunEnd end = run_to_end(open.session, open.store, control);
   line.finish();
-  if (end == RunEnd::stopped)
-    throw Error(ExitCode::stopped, "stopped at " + std::to_string(degrees(open.session.world().tilt)) +
-                                       " deg; continue with: talus run " + arguments.scenario + " -o " +
-                                       arguments.output + " --resume");
+  if (end == RunEnd::stopped) tell_stopped(arguments, open.session.world(), *control.stop != 0);
   print_end(arguments, open.session);
   if (maps) finish_maps(*maps, arguments);
 }
@@ -161,7 +206,9 @@ void run(const RunArguments& arguments) {
 void add_run_command(CLI::App& app) {
   auto arguments = std::make_shared<RunArguments>();
   CLI::App* command = app.add_subcommand("run", "Compute a run: deposition, rest, tilt to failure");
-  command->add_option("scenario", arguments->scenario, "Scenario file (TOML; see docs/scenario.md)")
+  command
+      ->add_option("scenario", arguments->scenario,
+                   "Scenario file (TOML; see docs/scenario.md); with --resume and without -o, a run")
       ->required();
   command->add_option("-o,--output", arguments->output,
                       "Run file to write (HDF5) [name of the scenario + .h5]");
@@ -174,8 +221,12 @@ void add_run_command(CLI::App& app) {
       ->add_option("--threads", arguments->threads, "Threads of the solver; the result does not depend on it")
       ->capture_default_str()
       ->check(CLI::Range(1, 256));
-  CLI::Option* resume = command->add_flag("--resume", arguments->resume,
-                                          "Continue from the last checkpoint, or start where there is none");
+  CLI::Option* resume =
+      command->add_flag("--resume", arguments->resume,
+                        "Continue from the last checkpoint: --resume RUN, with the scenario it "
+                        "began with; SCENARIO -o RUN --resume starts where there is none");
+  command->add_option("--max-wall", arguments->max_wall,
+                      "Stop with a checkpoint in time for this wall time to suffice, HH:MM or HH:MM:SS");
   command->add_flag("--overwrite", arguments->overwrite, "Replace a run of this name")->excludes(resume);
   command->add_flag("-q,--quiet", arguments->quiet, "Print errors and warnings only");
   CLI::Option* frames =
@@ -184,8 +235,7 @@ void add_run_command(CLI::App& app) {
   add_map_options(*command, arguments->maps, MapOptionSet::drawn_live, frames);
   command->callback([arguments, seed] {
     arguments->has_seed = seed->count() > 0;
-    if (arguments->output.empty())
-      arguments->output = std::filesystem::path(arguments->scenario).stem().string() + ".h5";
+    settle_names(*arguments);
     run(*arguments);
   });
 }

@@ -160,8 +160,9 @@ void add_view_command(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("view", "Look into a run in a window: a scenario as it is computed, or a run file");
   command->add_option("FILE", arguments->file, "Scenario (SCENARIO.toml) or run (RUN.h5)")->required();
-  CLI::Option* output = command->add_option("-o,--output", arguments->output,
-                                            "Record a run that is computed in this run file [nowhere]");
+  CLI::Option* output =
+      command->add_option("-o,--output", arguments->output,
+                          "Record a run that is computed in this run file [in memory, until it is saved]");
   command
       ->add_option("--set", arguments->settings,
                    "Change a key of the scenario, e.g. --set contact.friction=0.3")

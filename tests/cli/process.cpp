@@ -19,11 +19,12 @@ std::string content(const std::filesystem::path& path) {
 }
 
 pid_t start(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
-            const std::string& out, const std::string& err) {
+            const std::vector<std::string>& environment, const std::string& out, const std::string& err) {
   const pid_t child = fork();
   if (child != 0) return child;
   if (chdir(folder.c_str()) != 0) _exit(126);
   setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);
+  for (const std::string& variable : environment) putenv(const_cast<char*>(variable.c_str()));
   dup2(open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDOUT_FILENO);
   dup2(open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDERR_FILENO);
   std::vector<char*> argv;
@@ -38,18 +39,19 @@ pid_t start(const std::vector<std::string>& arguments, const std::filesystem::pa
 
 }  // namespace
 
-Outcome run_talus(const std::vector<std::string>& arguments, const std::filesystem::path& folder) {
+Outcome run_talus(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
+                  const std::vector<std::string>& environment) {
   const std::string out = (folder / ".stdout").string();
   const std::string err = (folder / ".stderr").string();
   Outcome outcome;
-  outcome.exit_code = wait_for(start(arguments, folder, out, err));
+  outcome.exit_code = wait_for(start(arguments, folder, environment, out, err));
   outcome.out = content(out);
   outcome.err = content(err);
   return outcome;
 }
 
 pid_t start_talus(const std::vector<std::string>& arguments, const std::filesystem::path& folder) {
-  return start(arguments, folder, "/dev/null", "/dev/null");
+  return start(arguments, folder, {}, "/dev/null", "/dev/null");
 }
 
 int wait_for(pid_t process) {

@@ -17,8 +17,10 @@ struct Outcome {
   std::string err;
 };
 
-/// Runs `talus` with arguments in a folder and waits for it.
-Outcome run_talus(const std::vector<std::string>& arguments, const std::filesystem::path& folder);
+/// Runs `talus` with arguments in a folder, with more variables ("NAME=value") in its environment, and waits
+/// for it.
+Outcome run_talus(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
+                  const std::vector<std::string>& environment = {});
 
 /// Starts it with its output thrown away; the caller sends signals and collects it with wait_for.
 pid_t start_talus(const std::vector<std::string>& arguments, const std::filesystem::path& folder);

@@ -128,5 +128,24 @@ TEST_F(Replay, stops_when_asked) {
   EXPECT_EQ(wait_for(process), 75);
 }
 
+/// It would go on without the commands that it had not come to.
+TEST_F(Replay, that_was_stopped_is_not_resumed_as_a_run) {
+  write_left_run();
+  {
+    const RunFile run = RunFile::open(folder_.path("bed.h5"));
+    Session session(parse_scenario(small_bed, "bed.toml"));
+    RunHeader header = run_header(session, {small_bed, "bed.toml", {}, 1});
+    header.provenance.emplace_back("replay_of", "bed.h5");
+    header.provenance.emplace_back("replay_steps", std::to_string(run.checkpoint().world.step));
+    RunStore store = RunStore::create(folder_.path("part.h5"), header, false);
+    replay(session, &store, run.commands(), 30, {});
+  }
+  const Outcome resumed = talus({"run", "bed.toml", "-o", "part.h5", "--resume"});
+  EXPECT_EQ(resumed.exit_code, 65);
+  EXPECT_NE(resumed.err.find("talus replay bed.h5 -o part.h5 --overwrite"), std::string::npos) << resumed.err;
+  ASSERT_EQ(talus({"replay", "bed.h5", "-o", "part.h5", "--overwrite"}).exit_code, 0);
+  EXPECT_EQ(talus({"run", "bed.toml", "-o", "part.h5", "--resume"}).exit_code, 0) << "now it has all of them";
+}
+
 }  // namespace
 }  // namespace talus::test

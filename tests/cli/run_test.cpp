@@ -151,6 +151,53 @@ TEST(Run, a_second_writer_is_refused) {
   wait_for(first);
 }
 
+TEST(Run, is_resumed_by_its_name_or_its_folder_alone) {
+  const TemporaryFolder folder;
+  write_file(folder, "bed.toml", small_bed);
+  for (const char* name : {"bed.h5", "./bed.h5.run/"}) {
+    SCOPED_TRACE(name);
+    const Outcome begun = run_talus({"run", "bed.toml", "--max-wall", "00:00:01", "--set", "seed=3", "--set",
+                                     "output.checkpoint_every=0", "--set", "tilt.end_angle=60"},
+                                    folder.path());
+    ASSERT_EQ(begun.exit_code, 75) << begun.err;
+    EXPECT_NE(begun.err.find("continue with: talus run --resume bed.h5\n"), std::string::npos) << begun.err;
+    const Outcome again = run_talus({"run", "--resume", name, "--max-wall", "00:00:01"}, folder.path());
+    EXPECT_EQ(again.exit_code, 75) << again.err;
+    EXPECT_FALSE(std::filesystem::exists(folder.path("bed.h5")));
+    std::filesystem::remove_all(folder.path("bed.h5.run"));
+  }
+}
+
+TEST(Run, that_cannot_be_resumed_says_why) {
+  const TemporaryFolder folder;
+  write_file(folder, "bed.toml", small_bed);
+  const auto resume = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), {"run", "--resume"});
+    return run_talus(words, folder.path());
+  };
+  const Outcome nothing = resume({"bed.h5"});
+  EXPECT_EQ(nothing.exit_code, 66);
+  EXPECT_NE(nothing.err.find("begin it with: talus run SCENARIO -o bed.h5"), std::string::npos)
+      << nothing.err;
+  write_file(folder, "text.h5", "precious");
+  EXPECT_EQ(resume({"text.h5"}).exit_code, 65);
+  EXPECT_EQ(resume({"bed.h5", "--seed", "4"}).exit_code, 64);
+  EXPECT_EQ(run_talus({"run", "bed.toml", "--max-wall", "90"}, folder.path()).exit_code, 64);
+  EXPECT_FALSE(std::filesystem::exists(folder.path("bed.h5.run")));
+}
+
+TEST(Run, that_is_complete_has_nothing_to_resume_but_a_folder_left_behind) {
+  const TemporaryFolder folder;
+  write_file(folder, "bed.toml", small_bed);
+  ASSERT_EQ(run_talus({"run", "bed.toml", "--set", "tilt.end_angle=0.5"}, folder.path()).exit_code, 0);
+  std::filesystem::create_directory(folder.path("bed.h5.run"));
+  write_file(folder, "bed.h5.run/segment_000001.h5", "left by a kill");
+  const Outcome outcome = run_talus({"run", "--resume", "bed.h5"}, folder.path());
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(outcome.out, "bed.h5 is complete already.\n");
+  EXPECT_FALSE(std::filesystem::exists(folder.path("bed.h5.run")));
+}
+
 TEST(Run, another_scenario_cannot_resume_it) {
   const TemporaryFolder folder;
   const pid_t process = start_long_run(folder);

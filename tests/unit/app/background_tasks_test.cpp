@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <future>
 #include <vector>
 
 #include "core/errors.h"
@@ -59,6 +60,20 @@ TEST(BackgroundTasks, those_that_wait_at_the_end_are_done) {
     for (int k = 0; k < 4; ++k) tasks.post([&done] { ++done; });
   }
   EXPECT_EQ(done, 4);
+}
+
+TEST(BackgroundTasks, those_that_wait_can_be_dropped) {
+  std::promise<void> go_on;
+  int done = 0;
+  {
+    BackgroundTasks tasks(3);
+    tasks.post([&go_on] { go_on.get_future().wait(); });
+    for (int k = 0; k < 2; ++k) tasks.post([&done] { ++done; });
+    tasks.drop();
+    tasks.post([&done] { done += 10; });
+    go_on.set_value();
+  }
+  EXPECT_EQ(done, 10);
 }
 
 }  // namespace

@@ -36,7 +36,7 @@ const std::map<std::string, std::vector<std::string>> rooms = {
      {"view/", "session/", "maps/", "analysis/", "stress/", "io/", "core/", "render/frame_view.h",
       "render/colour.h", "render/colour_map.h"}},
     {"gui", {"gui/", "view/", "maps/", "core/", "render/"}},
-    {"render", {"render/", "core/errors.h"}},
+    {"render", {"render/", "core/descriptor.h", "core/errors.h", "core/locked_file.h"}},
     {"app", {""}},
 };
 

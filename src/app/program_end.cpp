@@ -1,0 +1,102 @@
+#include "app/program_end.h"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <new>
+#include <string_view>
+#include <system_error>
+
+#include "core/errors.h"
+
+namespace talus {
+namespace {
+
+constexpr std::string_view out_of_memory =
+    "talus: error: out of memory: use a smaller bed (bed.length, bed.depth)\n";
+
+int report(ExitCode code, const char* message) {
+  std::fprintf(stderr, "talus: error: %s\n", message);
+  return static_cast<int>(code);
+}
+
+/// Takes no memory, and may be called in a signal handler.
+int report_out_of_memory() {
+  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, out_of_memory.data(), out_of_memory.size());
+  return static_cast<int>(ExitCode::out_of_memory);
+}
+
+/// For exceptions that main does not see: of a thread, or before main begins. There is none where even the
+/// memory for one is missing.
+[[noreturn]] void end_without_main() noexcept {
+  if (std::current_exception()) _exit(report_exception());
+  if (errno == ENOMEM) _exit(report_out_of_memory());
+  _exit(report(ExitCode::internal, "ended without a reason"));
+}
+
+/// HDF5 leaves with exit(-1) where some of its allocations fail.
+void tell_exit_out_of_memory() {
+  if (errno == ENOMEM) _exit(report_out_of_memory());
+}
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool crashes_are_reported = true;  // by the sanitizers
+#else
+constexpr bool crashes_are_reported = false;
+#endif
+
+/// Signals by which HDF5 ends the program where others of its allocations fail.
+constexpr int crash_signals[] = {SIGSEGV, SIGBUS, SIGABRT};
+
+/// A crash is that of a missing allocation where the last error of the system was one: errno stays until the
+/// next. Any other crash takes its usual course, and leaves a core.
+void tell_crash(int signal) {
+  if (errno == ENOMEM) _exit(report_out_of_memory());
+  std::signal(signal, SIG_DFL);
+  std::raise(signal);
+}
+
+/// On a stack of its own: among the crashes is a recursion without end.
+void catch_crashes() {
+  alignas(16) static char stack[16384];
+  const stack_t other = {.ss_sp = stack, .ss_flags = 0, .ss_size = sizeof stack};
+  sigaltstack(&other, nullptr);
+  struct sigaction action = {};
+  action.sa_handler = tell_crash;
+  action.sa_flags = SA_ONSTACK;
+  for (const int signal : crash_signals) sigaction(signal, &action, nullptr);
+}
+
+/// Comes before whatever else is done before main.
+[[gnu::constructor(101)]] void catch_what_main_does_not_see() {
+  std::set_terminate(end_without_main);
+  std::atexit(tell_exit_out_of_memory);
+  if (!crashes_are_reported) catch_crashes();
+}
+
+}  // namespace
+
+int report_exception() {
+  try {
+    throw;
+  } catch (const LocatedError& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return static_cast<int>(error.code());
+  } catch (const Error& error) {
+    return report(error.code(), error.what());
+  } catch (const std::bad_alloc&) {
+    return report_out_of_memory();
+  } catch (const std::system_error& error) {
+    const bool no_thread = error.code() == std::errc::resource_unavailable_try_again;
+    return report(no_thread ? ExitCode::out_of_memory : ExitCode::internal,
+                  no_thread ? "the system gives no more threads: give --threads 1" : error.what());
+  } catch (const std::exception& error) {
+    return report(ExitCode::internal, error.what());
+  }
+}
+
+}  // namespace talus

@@ -1,0 +1,56 @@
+/// `talus repair`: a new run with all that is whole of a damaged one.
+
+#include <cstdio>
+#include <memory>
+
+#include "app/commands.h"
+#include "io/run_repair.h"
+#include "session/run_check.h"
+
+namespace talus {
+namespace {
+
+struct RepairArguments {
+  std::string run;
+  std::string output;
+  bool overwrite = false;
+};
+
+void print_lines(const char* name, const std::vector<std::string>& lines) {
+  for (const std::string& line : lines) std::printf("  %-5s %s\n", name, line.c_str());
+}
+
+void repair(const RepairArguments& arguments) {
+  const RepairReport report =
+      repair_run({arguments.run, arguments.output, arguments.overwrite,
+                  [](const RunFile& run) { return check_run(run, {}).faulty_frames; }});
+  if (report.was_whole) {
+    std::printf("%s is whole: there is nothing to repair, and nothing was written\n", arguments.run.c_str());
+    return;
+  }
+  std::printf("%s: what is whole of %s\n", arguments.output.c_str(), arguments.run.c_str());
+  print_lines("kept", report.kept);
+  print_lines("lost", report.lost);
+  if (!report.verified)
+    std::printf(
+        "  its version has no hashes of its pieces: what can be read and can be was kept, unverified\n");
+  if (report.goes_on)
+    std::printf("continue it with: talus run --resume %s\n", arguments.output.c_str());
+  else if (report.of_folder)
+    std::printf("it cannot be continued; to compute it again, its scenario is in it: talus info\n");
+}
+
+}  // namespace
+
+void add_repair_command(CLI::App& app) {
+  auto arguments = std::make_shared<RepairArguments>();
+  CLI::App* command = app.add_subcommand(
+      "repair", "Make a new run of all that is whole of a damaged one, which is left as it is");
+  command->add_option("run", arguments->run, "Run file, or the name of a run that is not complete")
+      ->required();
+  command->add_option("-o,--output", arguments->output, "The new run (HDF5)")->required();
+  command->add_flag("--overwrite", arguments->overwrite, "Replace a run of this name");
+  command->callback([arguments] { repair(*arguments); });
+}
+
+}  // namespace talus

@@ -1,0 +1,151 @@
+/// `talus repair`, and what `talus check` says of a damaged run.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+
+#include "io/run_file.h"
+#include "process.h"
+#include "session/run.h"
+#include "session/run_header.h"
+#include "support/small_bed.h"
+#include "unit/io/damaged_run.h"
+
+namespace talus::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Repair : public testing::Test {
+ protected:
+  Outcome talus(const std::vector<std::string>& arguments) { return run_talus(arguments, folder_.path()); }
+
+  static Scenario bed() {
+    Scenario scenario = small_bed();
+    scenario.tilt.rate = 20.0;
+    scenario.tilt.step = 0.02;
+    scenario.tilt.end_angle = 2.0;
+    scenario.output.frame_every = 0.5;
+    scenario.output.observable_every = 0.2;
+    return scenario;
+  }
+
+  /// A run of 5 frames, to its end or left after the third.
+  void compute(const std::string& name, bool to_its_end) {
+    Session session(bed());
+    RunStore store =
+        RunStore::create(folder_.path(name), run_header(session, {resolved_toml(bed()), "", "", 1}), false);
+    std::size_t frames = 0;
+    volatile std::sig_atomic_t stop = 0;
+    RunControl control;
+    control.stop = &stop;
+    control.on_frame = [&](const Frame&) { stop = ++frames == 3 && !to_its_end ? 1 : 0; };
+    run_to_end(session, store, control);
+  }
+
+  void cut_in_half(const std::string& path) { fs::resize_file(path, fs::file_size(path) / 2); }
+  std::string last_file(const std::string& folder, const std::string& kind) {
+    std::string last;
+    for (const auto& entry : fs::directory_iterator(folder_.path() / folder))
+      if (const std::string name = entry.path().filename(); name.starts_with(kind))
+        last = std::max(last, entry.path().string());
+    return last;
+  }
+
+  TemporaryFolder folder_;
+};
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+TEST_F(Repair, says_that_a_whole_run_is_whole) {
+  compute("bed.h5", true);
+  const Outcome repair = talus({"repair", "bed.h5", "-o", "new.h5"});
+  EXPECT_EQ(repair.exit_code, 0) << repair.err;
+  EXPECT_EQ(repair.out, "bed.h5 is whole: there is nothing to repair, and nothing was written\n");
+  EXPECT_FALSE(fs::exists(folder_.path("new.h5")));
+}
+
+TEST_F(Repair, of_a_file_keeps_its_whole_frames_and_every_command_reads_them) {
+  compute("bed.h5", true);
+  example::spoil_data_set(folder_.path("bed.h5"), "/particles/grains/position/value", 2);
+  const Outcome check = talus({"check", "bed.h5"});
+  EXPECT_EQ(check.exit_code, 65);
+  EXPECT_EQ(check.out, "bed.h5: damaged\n  fault: frame 2, at 1.000 deg\n");
+  EXPECT_TRUE(has(check.err, "keep what is whole of it: talus repair bed.h5 -o NEW.h5")) << check.err;
+  EXPECT_TRUE(has(talus({"check", "bed.h5", "--json"}).out, "\"faults\": [\"frame 2, at 1.000 deg\"]"));
+
+  const Outcome repair = talus({"repair", "bed.h5", "-o", "new.h5"});
+  EXPECT_EQ(repair.exit_code, 0) << repair.err;
+  EXPECT_TRUE(has(repair.out, "  kept  4 of 5 frames\n")) << repair.out;
+  EXPECT_TRUE(has(repair.out, "  lost  frame 2, at 1.000 deg\n")) << repair.out;
+  EXPECT_EQ(talus({"check", "new.h5"}).exit_code, 0) << talus({"check", "new.h5"}).out;
+  EXPECT_TRUE(has(talus({"info", "new.h5"}).out, "frame 2, at 1.000 deg (the run was repaired)"));
+  EXPECT_EQ(talus({"analyze", "new.h5"}).exit_code, 0) << talus({"analyze", "new.h5"}).err;
+  EXPECT_EQ(talus({"check", "new.h5"}).exit_code, 0) << "with its analysis";
+  EXPECT_EQ(talus({"replay", "new.h5"}).exit_code, 0);
+  EXPECT_EQ(talus({"repair", "bed.h5", "-o", "new.h5"}).exit_code, 73);
+  EXPECT_EQ(talus({"repair", "bed.h5", "-o", "new.h5", "--overwrite"}).exit_code, 0);
+}
+
+TEST_F(Repair, without_its_last_state_a_run_is_still_read) {
+  compute("bed.h5", true);
+  example::spoil_data_set(folder_.path("bed.h5"), "/checkpoint/x");
+  example::spoil_data_set(folder_.path("bed.h5"), "/steps/step");
+  example::spoil_data_set(folder_.path("bed.h5"), "/observables/at_rest");
+  EXPECT_EQ(talus({"repair", "bed.h5", "-o", "new.h5"}).exit_code, 0);
+  EXPECT_EQ(talus({"check", "new.h5"}).exit_code, 0) << talus({"check", "new.h5"}).out;
+  EXPECT_EQ(json_value(talus({"info", "new.h5", "--json"}).out, "state_hash"), "none");
+  const Outcome analyze = talus({"analyze", "new.h5"});
+  EXPECT_EQ(analyze.exit_code, 0) << analyze.err;
+  for (const std::vector<std::string>& needs_it : {std::vector<std::string>{"replay", "new.h5"},
+                                                   {"dump", "new.h5", "--frame", "1", "-o", "problem.h5"}}) {
+    const Outcome refused = talus(needs_it);
+    EXPECT_EQ(refused.exit_code, 65);
+    EXPECT_TRUE(has(refused.err, "its last state is lost")) << refused.err;
+  }
+}
+
+TEST_F(Repair, of_a_file_without_its_statics_is_refused) {
+  compute("bed.h5", true);
+  example::spoil_data_set(folder_.path("bed.h5"), "/particles/grains/mass");
+  const Outcome repair = talus({"repair", "bed.h5", "-o", "new.h5"});
+  EXPECT_EQ(repair.exit_code, 65);
+  EXPECT_TRUE(has(repair.err, "nothing can be kept: data set /particles/grains/mass is lost")) << repair.err;
+  EXPECT_FALSE(fs::exists(folder_.path("new.h5")));
+}
+
+TEST_F(Repair, of_a_folder_goes_on_to_the_same_end) {
+  compute("whole.h5", true);
+  for (const char* kind : {"checkpoint_", "segment_", "manifest"}) {
+    const std::string name = std::string(kind) + ".h5", fixed = "fixed-" + name;
+    compute(name, false);
+    cut_in_half(last_file(name + ".run", kind));
+    EXPECT_EQ(talus({"check", name}).exit_code, 65);
+    const Outcome repair = talus({"repair", name, "-o", fixed});
+    EXPECT_EQ(repair.exit_code, 0) << repair.err;
+    EXPECT_TRUE(has(repair.out, "continue it with: talus run --resume " + fixed)) << repair.out;
+    EXPECT_EQ(talus({"check", fixed}).exit_code, 0) << talus({"check", fixed}).out;
+    const Outcome resumed = talus({"run", "--resume", fixed, "--quiet"});
+    EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
+    const RunFile whole = RunFile::open(folder_.path("whole.h5")), run = RunFile::open(folder_.path(fixed));
+    EXPECT_EQ(state_hash(run.checkpoint().world), state_hash(whole.checkpoint().world)) << kind;
+    EXPECT_EQ(run.steps(), whole.steps());
+    ASSERT_EQ(run.all_frame_tilts(), whole.all_frame_tilts());
+    for (std::size_t k = 0; k < run.all_frame_tilts().size(); ++k)
+      EXPECT_EQ(run.frame(k).x, whole.frame(k).x);
+  }
+}
+
+TEST_F(Repair, of_a_folder_with_a_gap_packs_the_frames) {
+  compute("bed.h5", false);
+  fs::remove(folder_.path() / "bed.h5.run" / "segment_000002.h5");
+  const Outcome repair = talus({"repair", "bed.h5", "-o", "new.h5"});
+  EXPECT_EQ(repair.exit_code, 0) << repair.err;
+  EXPECT_TRUE(has(repair.out, "  lost  segment_000002.h5: is missing\n")) << repair.out;
+  EXPECT_TRUE(has(repair.out, "it cannot be continued")) << repair.out;
+  EXPECT_EQ(talus({"check", "new.h5"}).exit_code, 0) << talus({"check", "new.h5"}).out;
+}
+
+}  // namespace
+}  // namespace talus::test
