@@ -8,7 +8,6 @@
 #include "core/errors.h"
 #include "core/trigonometry.h"
 #include "io/run_file.h"
-#include "session/session.h"
 #include "tiling.h"
 
 namespace talus::bench {
@@ -116,6 +115,11 @@ World bed(Index grains, Slope slope, double h) {
   World world = bed_at_rest(grains, slope, h);
   if (slope == Slope::ten_degrees) world.tilt += radians(Scenario{}.tilt.step);
   return world;
+}
+
+Session session_at_tilt(Index grains) {
+  const Scenario scenario = scenario_of(grains).value();
+  return Session(scenario, flat_bed(grains, scenario));
 }
 
 }  // namespace talus::bench

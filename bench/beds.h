@@ -1,7 +1,7 @@
 #pragma once
 /// The beds that are measured: the paper's, narrower ones made as it was, and wider ones tiled from them.
 
-#include "core/world.h"
+#include "session/session.h"
 
 namespace talus::bench {
 
@@ -19,5 +19,8 @@ enum class Slope { flat, ten_degrees };
 /// `h` is the time step (s) of the rest at ten degrees: gaps and forces are those that it leaves.
 /// Throws Error(usage) for other sizes.
 World bed(Index grains, Slope slope, double h);
+
+/// The flat bed of 500, 2000, 4000 or 8000 grains, about to take the first step of its tilt.
+Session session_at_tilt(Index grains);
 
 }  // namespace talus::bench

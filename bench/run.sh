@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Builds the benchmarks and writes every result to bench/results/: bench/run.sh [PART...]
-# Parts: solver, scale, siconos, siconos_si, siconos_dense, paper, render, view; all of them with no argument.
+# Parts: solver, scale, siconos, siconos_si, siconos_dense, paper, store, render, view; all of them with no argument.
 set -euo pipefail
 
 cd -- "$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")/.."
@@ -121,6 +121,17 @@ render() {
   keep render.md
 }
 
+store() {
+  local command="$build/store_bench"
+  {
+    heading "Commits of the paper's bed, and its run file" "$command"
+    echo '```'
+    $command 2>/dev/null
+    echo '```'
+  } >"$results/store.md.part"
+  keep store.md
+}
+
 view() {
   {
     heading "Pictures of the window a second, without a display" "$build/view_bench assets/scenarios/paper-pbc.toml"
@@ -130,12 +141,12 @@ view() {
 }
 
 parts=("$@")
-((${#parts[@]} > 0)) || parts=(solver scale siconos siconos_si siconos_dense paper render view)
+((${#parts[@]} > 0)) || parts=(solver scale siconos siconos_si siconos_dense paper store render view)
 build
 mkdir -p "$results"
 for part in "${parts[@]}"; do
   case $part in
-    solver | scale | siconos | siconos_si | siconos_dense | paper | render | view) "$part" ;;
+    solver | scale | siconos | siconos_si | siconos_dense | paper | store | render | view) "$part" ;;
     *) printf 'bench/run.sh: error: no part "%s"; they are listed at the top of this file\n' "$part" >&2 && exit 64 ;;
   esac
   printf '%s: done after %d s\n' "$part" "$SECONDS"

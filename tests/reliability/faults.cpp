@@ -12,11 +12,14 @@ namespace {
 
 Fault armed;
 int counted = 0;
-bool counting = false;
+pid_t counting = 0;  ///< the process whose calls are counted: not its children
 
-/// Counts a call; true where it must fail, with errno set.
+}  // namespace
+
+bool counts_here() { return counting == getpid(); }
+
 bool strikes() {
-  if (!counting) return false;
+  if (!counts_here()) return false;
   ++counted;
   if (armed.kind == Kind::none || counted < armed.call || (counted > armed.call && !armed.lasting))
     return false;
@@ -25,9 +28,13 @@ bool strikes() {
   return true;
 }
 
+bool strikes_reading() { return strikes() && armed.errno_value != ENOSPC; }
+
+namespace {
+
 /// A kill can split a write.
 void split_write(int file, const void* data, size_t size) {
-  if (counting && armed.kind == Kind::kill && counted + 1 == armed.call)
+  if (counts_here() && armed.kind == Kind::kill && counted + 1 == armed.call)
     syscall(SYS_write, file, data, size / 2);
 }
 
@@ -36,7 +43,7 @@ void split_write(int file, const void* data, size_t size) {
 void arm(const Fault& fault) {
   armed = fault;
   counted = 0;
-  counting = true;
+  counting = getpid();
 }
 
 int calls() { return counted; }
@@ -59,11 +66,18 @@ int open(const char* path, int flags, ...) {
   return strikes() ? -1 : static_cast<int>(syscall(SYS_openat, AT_FDCWD, path, flags, mode));
 }
 ssize_t read(int file, void* data, size_t size) {
-  return strikes() ? -1 : syscall(SYS_read, file, data, size);
+  return talus::faults::strikes_reading() ? -1 : syscall(SYS_read, file, data, size);
 }
 ssize_t write(int file, const void* data, size_t size) {
   talus::faults::split_write(file, data, size);
   return strikes() ? -1 : syscall(SYS_write, file, data, size);
+}
+ssize_t pwrite(int file, const void* data, size_t size, off_t at) {
+  return strikes() ? -1 : syscall(SYS_pwrite64, file, data, size, at);
+}
+int lock_file(int file, int operation) noexcept __asm__("flock");  // a struct has that name too
+int lock_file(int file, int operation) noexcept {
+  return strikes() ? -1 : static_cast<int>(syscall(SYS_flock, file, operation));
 }
 int fsync(int file) { return strikes() ? -1 : static_cast<int>(syscall(SYS_fsync, file)); }
 int rename(const char* from, const char* to) noexcept {

@@ -9,8 +9,7 @@ enum class Kind { none, kill, error };
 
 struct Fault {
   Kind kind = Kind::none;
-  int call =
-      0;  ///< strikes call number `call`, from 1, of open, read, write, fsync, rename, unlink, mkdir, rmdir
+  int call = 0;          ///< strikes call number `call`, from 1, of those that faults.cpp defines
   int errno_value = 0;   ///< of an error
   bool lasting = false;  ///< an error strikes all later calls too
 };
@@ -18,9 +17,16 @@ struct Fault {
 /// The exit code of a process that was struck by Kind::kill.
 inline constexpr int killed = 99;
 
-/// Counts from here on.
+/// Counts from here on, in this process: where a fault strikes would else depend on its children.
 void arm(const Fault& fault);
+/// Whether this process is the one that armed.
+bool counts_here();
 /// Calls counted since arm.
 int calls();
+
+/// Counts a call; true where it must fail, with errno set.
+bool strikes();
+/// The same for a call that reads: a full disk can be read.
+bool strikes_reading();
 
 }  // namespace talus::faults

@@ -1,0 +1,26 @@
+/// Any text as a scenario: refused with places, or accepted and then the same when it is written out and read
+/// again.
+
+#include "session/scenario.h"
+
+#include <cstdint>
+#include <cstdlib>
+
+#include "core/errors.h"
+#include "session/estimate.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string text(reinterpret_cast<const char*>(data), size);
+  talus::Scenario scenario;
+  try {
+    // The first byte in two halves: the text is a file, or a setting of the command line.
+    scenario = size > 0 && data[0] % 2 == 1 ? talus::parse_scenario("", "f.toml", {text.substr(1)})
+                                            : talus::parse_scenario(text, "f.toml");
+  } catch (const talus::LocatedError& error) {
+    if (error.code() != talus::ExitCode::bad_data) std::abort();
+    return 0;
+  }
+  if (talus::parse_scenario(talus::resolved_toml(scenario), "again.toml") != scenario) std::abort();
+  talus::estimate(scenario);
+  return 0;
+}

@@ -1,0 +1,189 @@
+/// Problem files of other programs, which no hash covers: HDF5 may fail on them, this process may not.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <optional>
+#include <span>
+
+#include "core/errors.h"
+#include "core/random.h"
+#include "io/child_process.h"
+#include "io/fclib_file.h"
+#include "io/foreign_file.h"
+#include "reliability/hostile_file.h"
+#include "reliability/hostile_run.h"
+#include "support/temporary_folder.h"
+
+namespace talus::hostile {
+namespace {
+
+/// How often a test of chance tries: TALUS_TRIES, where that is set, as in the long version.
+int tries(int usual) {
+  const char* asked = std::getenv("TALUS_TRIES");
+  return asked != nullptr ? std::atoi(asked) : usual;
+}
+
+std::optional<std::string> refusal(const std::string& path) {
+  try {
+    use_problem(path);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::bad_data) << error.what();
+    EXPECT_EQ(std::string(error.what()).find(path), 0u) << error.what();
+    return error.what();
+  }
+  return std::nullopt;
+}
+
+class HostileProblem : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder = new test::TemporaryFolder;
+    make_run(folder->path("run.h5"));
+    make_problem(folder->path("run.h5"), folder->path("good.h5"));
+    good = read_bytes(folder->path("good.h5"));
+  }
+  static void TearDownTestSuite() {
+    delete folder;
+    folder = nullptr;
+  }
+  static std::string bad(const Bytes& bytes) {
+    const std::string path = folder->path("bad.h5");
+    write_bytes(path, bytes);
+    return path;
+  }
+
+  static inline test::TemporaryFolder* folder = nullptr;
+  static inline Bytes good;
+};
+
+TEST_F(HostileProblem, is_the_good_one_to_begin_with) {
+  EXPECT_EQ(refusal(bad(good)), std::nullopt);
+  EXPECT_EQ(refusal(bad(spoilt(good, {}))), std::nullopt);
+}
+
+TEST_F(HostileProblem, a_byte_flipped_anywhere_is_refused_or_harmless) {
+  Random random(40);
+  const int count = tries(200);
+  int refused = 0, failed = 0;
+  for (int k = 0; k < count; ++k) {
+    Bytes bytes = good;
+    const auto at = random.below(static_cast<std::uint32_t>(bytes.size()));
+    bytes[at] ^= static_cast<std::byte>(1 + random.below(255));
+    SCOPED_TRACE("byte " + std::to_string(at));
+    const auto message = refusal(bad(bytes));
+    refused += message ? 1 : 0;
+    failed += message && message->find("HDF5") != std::string::npos ? 1 : 0;
+  }
+  RecordProperty("refused", refused);
+  RecordProperty("failed_in_the_child", failed);
+  std::printf("%d flips: %d refused, of these %d where HDF5 itself failed\n", count, refused, failed);
+  EXPECT_GT(refused, 0);
+}
+
+TEST_F(HostileProblem, cut_at_any_length_is_refused) {
+  const std::size_t step = std::max<std::size_t>(1, good.size() / static_cast<std::size_t>(tries(200)));
+  for (std::size_t size = 0; size < good.size(); size += step)
+    EXPECT_TRUE(refusal(bad(Bytes(good.begin(), good.begin() + static_cast<std::ptrdiff_t>(size)))))
+        << size << " bytes";
+}
+
+TEST_F(HostileProblem, each_data_set_of_another_make_is_refused_by_name) {
+  for (const std::string& path : data_sets(good)) {
+    if (path.starts_with("/fclib_local/info/")) continue;
+    for (const Harm harm : {Harm::missing, Harm::group_instead, Harm::as_text, Harm::as_compound, Harm::huge,
+                            Harm::values_in_another_file, Harm::external_link}) {
+      const bool unread = path == "/guesses/1/u" || path.ends_with("/nzmax") || path.ends_with("_guesses");
+      const bool needless = path.starts_with("/guesses/");
+      if (harm == Harm::missing && (unread || needless)) continue;
+      const auto message =
+          refusal(bad(spoilt(good, std::vector<Spoil>{{path, harm, 0, 0, folder->path("good.h5")}})));
+      ASSERT_TRUE(message) << path << " " << name_of(harm) << " was accepted";
+      EXPECT_NE(message->find(path), std::string::npos) << name_of(harm) << ": " << *message;
+    }
+  }
+}
+
+TEST_F(HostileProblem, values_of_chance_are_refused_or_harmless) {
+  const std::vector<std::string> paths = data_sets(good);
+  Random random(50);
+  for (int k = 0; k < tries(200); ++k) {
+    std::vector<Spoil> spoils(1 + random.below(2));
+    for (Spoil& spoil : spoils)
+      spoil = {paths[random.below(static_cast<std::uint32_t>(paths.size()))],
+               static_cast<Harm>(random.below(harm_count)), random.next(), random.below(40),
+               folder->path("good.h5")};
+    SCOPED_TRACE(spoils.front().path + " " + name_of(spoils.front().harm));
+    refusal(bad(spoilt(good, spoils)));
+  }
+}
+
+TEST_F(HostileProblem, a_solution_is_added_to_a_flipped_file_or_not) {
+  Random random(60);
+  for (int k = 0; k < tries(300) / 3; ++k) {
+    Bytes bytes = good;
+    bytes[random.below(static_cast<std::uint32_t>(bytes.size()))] ^= std::byte{0x41};
+    const std::string path = bad(bytes), to = folder->path("solved.h5");
+    try {
+      write_fclib_solution(path, to, {1.0, 2.0}, {3.0, 4.0});
+      EXPECT_TRUE(std::filesystem::exists(to));
+    } catch (const Error&) {
+      EXPECT_FALSE(std::filesystem::exists(to));
+    }
+    std::filesystem::remove(to);
+  }
+}
+
+TEST(ForeignFile, cut_short_on_its_way_is_refused) {
+  ForeignFile file;
+  file.groups = {"/g"};
+  file.reals["/g/x"] = {1.0, 2.0};
+  file.integers["/g/k"] = {3};
+  const std::vector<std::byte> bytes = encode(file);
+  EXPECT_EQ(decode(bytes, "p.h5").reals, file.reals);
+  EXPECT_EQ(decode(bytes, "p.h5").integers, file.integers);
+  EXPECT_EQ(decode(bytes, "p.h5").groups, file.groups);
+  int whole = 0;
+  for (std::size_t size = 0; size <= bytes.size(); ++size) {
+    try {
+      decode(std::span(bytes).first(size), "p.h5");
+      ++whole;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::bad_data);
+    }
+  }
+  EXPECT_EQ(whole, 4) << "at the ends of records only";
+}
+
+/// What a child does, and how that ends.
+std::string end_of(const std::function<std::vector<std::byte>()>& work) {
+  try {
+    const auto bytes = in_child_process("p.h5", 0, work);
+    return "returned " + std::to_string(bytes.size());
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::bad_data);
+    return error.what();
+  }
+}
+
+TEST(ChildProcess, gives_back_bytes_errors_and_its_death) {
+  EXPECT_EQ(end_of([] { return std::vector<std::byte>(3 << 20); }), "returned " + std::to_string(3 << 20));
+  EXPECT_EQ(end_of([] { return std::vector<std::byte>(); }), "returned 0");
+  EXPECT_EQ(end_of([]() -> std::vector<std::byte> { throw Error(ExitCode::bad_data, "said so"); }),
+            "said so");
+  const std::string died = "p.h5: cannot be read: HDF5 fails on it";
+  EXPECT_EQ(end_of([]() -> std::vector<std::byte> { std::abort(); }).find(died), 0u);
+  EXPECT_EQ(end_of([]() -> std::vector<std::byte> { std::exit(0); }).find(died), 0u);
+  EXPECT_EQ(end_of([]() -> std::vector<std::byte> { throw 1; }).find(died), 0u);
+}
+
+#if !defined(__SANITIZE_ADDRESS__)
+TEST(ChildProcess, has_only_so_much_memory) {
+  EXPECT_NE(end_of([] { return std::vector<std::byte>(std::size_t{4} << 30); }).find("more memory"),
+            std::string::npos);
+}
+#endif
+
+}  // namespace
+}  // namespace talus::hostile

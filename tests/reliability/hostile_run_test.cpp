@@ -1,0 +1,264 @@
+/// Run files that are damaged, or that are whole and say what cannot be: refused with the place, or harmless.
+
+#include "reliability/hostile_run.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <optional>
+
+#include "core/errors.h"
+#include "core/random.h"
+#include "io/run_file.h"
+#include "reliability/hostile_file.h"
+#include "support/temporary_folder.h"
+
+namespace talus::hostile {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// How often a test of chance tries: TALUS_TRIES, where that is set, as in the long version.
+int tries(int usual) {
+  const char* asked = std::getenv("TALUS_TRIES");
+  return asked != nullptr ? std::atoi(asked) : usual;
+}
+
+/// The error of using a run, if there is one; it must be one of bad data.
+std::optional<std::string> refusal(const std::string& path, void (*use)(const std::string&) = use_run) {
+  try {
+    use(path);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::bad_data) << error.what();
+    return error.what();
+  }
+  return std::nullopt;
+}
+
+void open_run(const std::string& path) { RunFile::open(path); }
+
+class HostileRun : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder = new test::TemporaryFolder;
+    make_run(folder->path("good.h5"));
+    good = read_bytes(folder->path("good.h5"));
+  }
+  static void TearDownTestSuite() {
+    delete folder;
+    folder = nullptr;
+  }
+  static std::string bad(const Bytes& bytes) {
+    const std::string path = folder->path("bad.h5");
+    write_bytes(path, bytes);
+    return path;
+  }
+
+  static inline test::TemporaryFolder* folder = nullptr;
+  static inline Bytes good;
+};
+
+TEST_F(HostileRun, is_the_good_one_to_begin_with) {
+  EXPECT_EQ(refusal(bad(good)), std::nullopt);
+  EXPECT_EQ(refusal(bad(spoilt(good, {}))), std::nullopt);
+}
+
+/// What nobody reads, and so may be as it will.
+bool is_read(const std::string& path) {
+  for (const char* unread : {"/help/", "/h5md/", "/particles/grains/id", "/contents", "/frames/hash"})
+    if (path.starts_with(unread)) return false;
+  return !((path.starts_with("/particles/") && (path.ends_with("/step") || path.ends_with("/time"))));
+}
+
+/// Names that are the run's own: one of them less is another run, as good.
+bool may_be_missing(const std::string& path) {
+  for (const char* family :
+       {"/provenance/", "/results/", "/analysis/parameters/", "/checkpoint/reals/friction"})
+    if (path.starts_with(family)) return true;
+  return false;
+}
+
+TEST_F(HostileRun, each_data_set_of_another_make_is_refused_by_name) {
+  const std::vector<Harm> harms = {
+      Harm::missing,       Harm::as_text_of_variable_length, Harm::group_instead, Harm::as_compound,
+      Harm::one_rank_more, Harm::values_in_another_file,     Harm::external_link};
+  const std::size_t of_each = tries(2) > 2 ? harms.size() : 2;
+  std::size_t next = 0, refused = 0;
+  for (const std::string& path : data_sets(good)) {
+    if (!is_read(path)) continue;
+    for (std::size_t k = 0; k < of_each; ++k) {
+      const Harm harm = harms[next++ % harms.size()];
+      if ((harm == Harm::missing || harm == Harm::group_instead) && may_be_missing(path)) continue;
+      const auto message =
+          refusal(bad(spoilt(good, std::vector<Spoil>{{path, harm, 0, 0, folder->path("good.h5")}})));
+      ASSERT_TRUE(message) << path << " " << name_of(harm) << " was accepted";
+      const auto leaf = path.rfind('/');
+      EXPECT_TRUE(message->find(path.substr(0, leaf)) != std::string::npos ||
+                  message->find(path.substr(leaf + 1)) != std::string::npos)
+          << path << ": " << *message;
+      ++refused;
+    }
+  }
+  EXPECT_GT(refused, 200U);
+}
+
+/// Values by their numbers in hostile_file.cpp.
+constexpr std::uint64_t nan = 0, infinite = 1, zero = 3, minus_one = 4, far_away = 5,
+                        far_away_still_float = 7;                // of floats
+constexpr std::uint64_t negative = 0, largest = 1, of_int8 = 6;  // of integers
+
+TEST_F(HostileRun, values_that_cannot_be_are_refused_by_name) {
+  const std::vector<std::pair<const char*, std::uint64_t>> cases = {
+      {"/parameters/schema_version", negative},
+      {"/parameters/mean_diameter", zero},
+      {"/parameters/mean_diameter", nan},
+      {"/parameters/gravity", infinite},
+      {"/parameters/friction", minus_one},
+      {"/particles/grains/box/edges", zero},
+      {"/particles/grains/radius", minus_one},
+      {"/particles/grains/radius", nan},
+      {"/particles/grains/mass", infinite},
+      {"/particles/grains/species", of_int8},
+      {"/frames/tilt", nan},
+      {"/frames/time", infinite},
+      {"/particles/grains/position/value", nan},
+      {"/particles/grains/position/value", far_away_still_float},
+      {"/particles/grains/velocity/value", infinite},
+      {"/particles/grains/angle/value", nan},
+      {"/particles/grains/angular_velocity/value", nan},
+      {"/particles/grains/internal_moment/value", nan},
+      {"/contacts/offset", negative},
+      {"/contacts/offset", largest},
+      {"/contacts/pair", negative},
+      {"/contacts/pair", 3},
+      {"/contacts/shift", of_int8},
+      {"/contacts/status", of_int8},
+      {"/contacts/normal", nan},
+      {"/contacts/point", nan},
+      {"/contacts/point", far_away_still_float},
+      {"/contacts/force", infinite},
+      {"/observables/tilt", nan},
+      {"/observables/step", nan},
+      {"/steps/phase", infinite},
+      {"/commands/kind", of_int8},
+      {"/commands/step", negative},
+      {"/commands/x", nan},
+      {"/checkpoint/step", negative},
+      {"/checkpoint/tilt", nan},
+      {"/checkpoint/gravity", minus_one},
+      {"/checkpoint/free_count", largest},
+      {"/checkpoint/x", nan},
+      {"/checkpoint/y", far_away},
+      {"/checkpoint/radius", minus_one},
+      {"/checkpoint/length", zero},
+      {"/checkpoint/plane_normal", far_away},
+      {"/checkpoint/plane_offset", nan},
+      {"/checkpoint/contact_pair", negative},
+      {"/checkpoint/contact_normal", nan},
+      {"/checkpoint/contact_gap", infinite},
+      {"/checkpoint/contact_force", nan},
+  };
+  for (const auto& [path, bits] : cases) {
+    const auto message = refusal(bad(spoilt(good, std::vector<Spoil>{{path, Harm::one_value, 1, bits, {}}})));
+    ASSERT_TRUE(message) << path << " with value " << bits << " was accepted";
+    EXPECT_NE(message->find(std::string("data set ") + path), std::string::npos) << *message;
+  }
+  const auto changed =
+      refusal(bad(spoilt(good, std::vector<Spoil>{{"/checkpoint/x", Harm::one_value, 1, 10, {}}})));
+  EXPECT_NE(changed.value_or("").find("data set /checkpoint/state_hash is "), std::string::npos);
+  for (const char* count : {"/checkpoint/integers/tilt_steps", "/checkpoint/integers/phase"}) {
+    const auto message =
+        refusal(bad(spoilt(good, std::vector<Spoil>{{count, Harm::one_value, 0, negative, {}}})));
+    EXPECT_NE(message.value_or("").find("the checkpoint has "), std::string::npos) << count;
+  }
+}
+
+TEST_F(HostileRun, sizes_and_values_of_chance_are_refused_or_harmless) {
+  const std::vector<std::string> paths = data_sets(good);
+  Random random(20);
+  int refused = 0;
+  const int count = tries(200);
+  for (int k = 0; k < count; ++k) {
+    std::vector<Spoil> spoils(1 + random.below(2));
+    for (Spoil& spoil : spoils)
+      spoil = {paths[random.below(static_cast<std::uint32_t>(paths.size()))],
+               static_cast<Harm>(random.below(harm_count)), random.next(), random.below(40),
+               folder->path("good.h5")};
+    SCOPED_TRACE(spoils.front().path + " " + name_of(spoils.front().harm) + " " +
+                 std::to_string(spoils.front().bits));
+    refused += refusal(bad(spoilt(good, spoils))) ? 1 : 0;
+  }
+  EXPECT_GT(refused, count / 4);
+}
+
+TEST_F(HostileRun, a_byte_flipped_anywhere_is_refused) {
+  Random random(10);
+  const int count = tries(400);
+  for (int k = 0; k < count; ++k) {
+    Bytes bytes = good;
+    const auto at = random.below(static_cast<std::uint32_t>(bytes.size()));
+    bytes[at] ^= static_cast<std::byte>(1 + random.below(255));
+    EXPECT_TRUE(refusal(bad(bytes), open_run)) << "byte " << at;
+  }
+}
+
+/// Addresses of lists of links that lie outside the file: HDF5 reads there, and crashes.
+TEST_F(HostileRun, that_HDF5_crashes_on_is_refused_by_its_child_process) {
+  const Bytes kept = read_bytes(TALUS_SOURCE_DIR "/tests/runs/schema_2.h5");
+  for (const auto& [at, value] : {std::pair<std::size_t, int>{140377, 0x0e}, {22232, 0xd4}}) {
+    Bytes bytes = kept;
+    ASSERT_EQ(bytes.at(at), std::byte{0xff}) << "no address";
+    bytes[at] = static_cast<std::byte>(value);
+    const std::optional<std::string> message = refusal(bad(sealed(bytes)), open_run);
+    ASSERT_TRUE(message);
+    EXPECT_NE(message->find("HDF5 fails on it (in a process of its own)"), std::string::npos) << *message;
+  }
+}
+
+TEST_F(HostileRun, a_byte_flipped_and_sealed_again_is_refused_or_harmless) {
+  Random random(11);
+  int refused = 0;
+  const int count = tries(40);
+  for (int k = 0; k < count; ++k) {
+    Bytes bytes = good;
+    const auto at = random.below(static_cast<std::uint32_t>(bytes.size()));
+    bytes[at] ^= static_cast<std::byte>(1 + random.below(255));
+    SCOPED_TRACE(at);
+    refused += refusal(bad(sealed(bytes))) ? 1 : 0;
+  }
+  EXPECT_GT(refused, count / 20);
+}
+
+TEST_F(HostileRun, cut_at_any_length_is_refused) {
+  const std::size_t step = std::max<std::size_t>(1, good.size() / static_cast<std::size_t>(tries(400)));
+  for (std::size_t size = 0; size < good.size(); size += size < 600 ? 7 : step) {
+    const Bytes cut(good.begin(), good.begin() + static_cast<std::ptrdiff_t>(size));
+    EXPECT_TRUE(refusal(bad(cut), open_run)) << size << " bytes";
+  }
+}
+
+TEST_F(HostileRun, a_byte_flipped_or_a_cut_in_a_folder_is_refused) {
+  const std::string run = folder->path("stopped.h5");
+  make_folder_of_run(run);
+  Random random(30);
+  for (const auto& entry : fs::directory_iterator(run_folder(run))) {
+    if (entry.path().filename() == "lock") continue;
+    const Bytes whole = read_bytes(entry.path());
+    for (int k = 0; k < tries(400) / 4; ++k) {
+      Bytes bytes = whole;
+      const auto at = random.below(static_cast<std::uint32_t>(bytes.size()));
+      if (k % 2 == 0)
+        bytes.resize(at);
+      else
+        bytes[at] ^= static_cast<std::byte>(1 + random.below(255));
+      write_bytes(entry.path(), bytes);
+      EXPECT_TRUE(refusal(run, open_run)) << entry.path() << " at " << at;
+    }
+    write_bytes(entry.path(), whole);
+  }
+  EXPECT_EQ(refusal(run, open_run), std::nullopt);
+}
+
+}  // namespace
+}  // namespace talus::hostile

@@ -1,0 +1,48 @@
+/// Every file of tests/scenarios/bad as a user meets it: exit code, message, and nothing left behind.
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+
+#include "cli/process.h"
+
+namespace talus::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path bad = fs::path(TALUS_SOURCE_DIR) / "tests/scenarios/bad";
+
+std::string text_of(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::size_t file_count(const TemporaryFolder& folder) {
+  return static_cast<std::size_t>(
+      std::distance(fs::recursive_directory_iterator(folder.path()), fs::recursive_directory_iterator()));
+}
+
+TEST(HostileScenarios, are_refused_by_talus_run_with_nothing_left_behind) {
+  const TemporaryFolder folder;
+  std::size_t count = 0;
+  run_talus({"--version"}, folder.path());  // which leaves what the tests themselves write
+  for (const auto& entry : fs::directory_iterator(bad)) {
+    if (entry.path().extension() != ".toml") continue;
+    const std::string name = entry.path().filename().string();
+    fs::copy_file(entry.path(), folder.path(name));
+    const std::size_t before = file_count(folder);
+    const Outcome outcome = run_talus({"run", name, "-o", "run.h5"}, folder.path());
+    EXPECT_EQ(outcome.exit_code, 65) << name;
+    EXPECT_EQ(outcome.err, text_of(fs::path(entry.path()).replace_extension(".expected"))) << name;
+    EXPECT_EQ(outcome.out, "") << name;
+    EXPECT_EQ(file_count(folder), before) << name << ": something was left behind";
+    fs::remove(folder.path(name));
+    ++count;
+  }
+  EXPECT_GE(count, 300u);
+}
+
+}  // namespace
+}  // namespace talus::test

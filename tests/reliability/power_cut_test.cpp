@@ -1,0 +1,123 @@
+/// A machine that loses its power while it computes: an ext4 file system on a loop device, shut down without
+/// writing what it still holds in memory.
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/ioctl.h>
+#include <sys/mount.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+#include "io/run_file.h"
+#include "reliability/whole_run.h"
+
+namespace talus::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr unsigned long shut_down = 0x8004587d;  // EXT4_IOC_SHUTDOWN of the kernel
+constexpr unsigned without_log = 2;              // what is not on the disk is lost
+
+bool does(const std::string& command) { return std::system((command + " > /dev/null 2>&1").c_str()) == 0; }
+
+/// A fresh file system that can lose its power.
+class Disk {
+ public:
+  explicit Disk(const TemporaryFolder& folder)
+      : image_(folder.path("disk.img")), place_(folder.path("disk")) {
+    fs::create_directory(place_);
+    ready_ =
+        geteuid() == 0 && does("truncate -s 64M " + image_) && does("mkfs.ext4 -q " + image_) && attach();
+  }
+  ~Disk() { detach(); }
+  Disk(const Disk&) = delete;
+  Disk& operator=(const Disk&) = delete;
+
+  bool is_ready() const { return ready_; }
+  const std::string& place() const { return place_; }
+  bool attach() const { return does("mount -o loop " + image_ + " " + place_); }
+  void detach() const { does("umount " + place_); }
+  bool cut_power() const {
+    const int root = open(place_.c_str(), O_RDONLY | O_CLOEXEC);
+    const int result = ioctl(root, shut_down, &without_log);
+    close(root);
+    return result == 0;
+  }
+
+ private:
+  std::string image_, place_;
+  bool ready_ = false;
+};
+
+/// Frames of commits that the run has been told are durable: only then it removes the checkpoint before. -1
+/// where that cannot be said at this moment.
+int durable_frames(const std::string& folder) {
+  std::ifstream manifest(folder + "/manifest");
+  int frames = 0;
+  std::string checkpoint;
+  for (std::string line; std::getline(manifest, line);) {
+    std::istringstream words(line);
+    std::string kind, name, size, hash;
+    words >> kind >> name >> size >> hash;
+    int count = 0;
+    if (kind == "checkpoint") checkpoint = name;
+    if (kind == "segment" && words >> count) frames += count;
+  }
+  std::error_code gone;
+  for (const auto& entry : fs::directory_iterator(folder, gone))
+    if (const std::string name = entry.path().filename().string();
+        name.starts_with("checkpoint_") && name != checkpoint)
+      return -1;
+  return checkpoint.empty() ? -1 : frames;
+}
+
+TEST(PowerCut, loses_no_committed_frame) {
+  if (std::getenv("TALUS_RELIABILITY") == nullptr) GTEST_SKIP() << "only with TALUS_RELIABILITY set";
+  const TemporaryFolder folder;
+  write_file(folder, "bed.toml", small_bed);
+  ASSERT_EQ(run_talus({"run", "bed.toml", "-o", "whole.h5"}, folder.path()).exit_code, 0);
+  const std::string whole = digest(folder.path("whole.h5"));
+  const Disk disk(folder);
+  if (!disk.is_ready()) GTEST_SKIP() << "needs root, loop devices and mkfs.ext4";
+  const std::string run = disk.place() + "/run.h5";
+  const std::vector<std::string> resume = {"run", "bed.toml", "-o", "disk/run.h5", "--resume"};
+  Dice dice(11);
+  const int cuts = tries(1, 100);
+  int durable_seen = 0, whole_runs = 0;
+  for (int k = 0; k < cuts; ++k) {
+    SCOPED_TRACE("cut " + std::to_string(k));
+    const pid_t process = start_talus(resume, folder.path());
+    int durable = 0;
+    for (int wait = dice.below(600); wait > 0; --wait) {
+      durable = std::max(durable, durable_frames(run + ".run"));
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    ASSERT_TRUE(disk.cut_power());
+    kill(process, SIGKILL);
+    wait_for(process);
+    disk.detach();
+    ASSERT_TRUE(disk.attach());
+    EXPECT_GE(committed_frames(run), durable);
+    durable_seen += durable;
+    if (run_presence(run) != RunPresence::packed) continue;
+    EXPECT_EQ(run_talus(resume, folder.path()).exit_code, 0);
+    EXPECT_EQ(digest(run), whole);
+    fs::remove(run);
+    ++whole_runs;
+  }
+  EXPECT_EQ(run_talus(resume, folder.path()).exit_code, 0);
+  EXPECT_EQ(digest(run), whole);
+  EXPECT_GT(durable_seen, 0);
+  std::printf("%d power cuts: no durable frame lost, %d runs ended as they should\n", cuts, whole_runs + 1);
+}
+
+}  // namespace
+}  // namespace talus::test

@@ -1,0 +1,157 @@
+/// Runs with damage of chance: what repair keeps of them is what was written, and passes every check.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+
+#include "core/errors.h"
+#include "core/random.h"
+#include "io/run_repair.h"
+#include "reliability/hostile_file.h"
+#include "reliability/hostile_run.h"
+#include "reliability/whole_run.h"
+#include "session/run.h"
+#include "session/run_check.h"
+#include "session/run_header.h"
+#include "support/temporary_folder.h"
+
+namespace talus::hostile {
+namespace {
+
+namespace fs = std::filesystem;
+
+int tries(int usual) {
+  const char* asked = std::getenv("TALUS_TRIES");
+  return asked != nullptr ? std::atoi(asked) : usual;
+}
+
+enum class Kind : std::uint8_t { flip, zeros, cut };
+constexpr std::array kinds = {Kind::flip, Kind::zeros, Kind::cut};
+constexpr std::array kind_names = {"a byte flipped", "up to 4 KiB of zeros", "cut"};
+
+void damage(Bytes& bytes, Kind kind, Random& random) {
+  const auto at = random.below(static_cast<std::uint32_t>(bytes.size()));
+  if (kind == Kind::cut) return bytes.resize(at);
+  if (kind == Kind::flip) {
+    bytes[at] ^= static_cast<std::byte>(1 + random.below(255));
+    return;
+  }
+  const std::size_t count = std::min<std::size_t>(bytes.size() - at, std::size_t{1} << random.below(13));
+  std::fill_n(bytes.begin() + at, count, std::byte{0});
+}
+
+/// What was kept, over many repairs.
+struct Count {
+  int repaired = 0, refused = 0, harmless = 0, continued = 0;
+  std::size_t frames = 0, kept = 0;
+
+  void print(const std::string& name) const {
+    std::printf("%s: %d repaired (%d can go on), %d refused, %d harmless; %zu of %zu frames kept\n",
+                name.c_str(), repaired, continued, refused, harmless, kept, frames);
+  }
+};
+
+class RepairOfChance : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder = new test::TemporaryFolder;
+    make_run(folder->path("good.h5"));
+    make_folder_of_run(folder->path("left.h5"), 0.7);
+    const RunFile run = RunFile::open(folder->path("good.h5"));
+    for (std::size_t k = 0; k < run.all_frame_tilts().size(); ++k)
+      frame_of.emplace(run.frame(k).step, test::frame_digest(run.frame(k)));
+  }
+  static void TearDownTestSuite() {
+    delete folder;
+    folder = nullptr;
+  }
+
+  /// Repairs a run and holds what comes out against the whole one.
+  static void try_to_repair(const std::string& path, std::size_t frames, Count& count) {
+    const std::string out = folder->path("out.h5");
+    count.frames += frames;
+    RepairReport report;
+    try {
+      report =
+          repair_run({path, out, true, [](const RunFile& run) { return check_run(run, {}).faulty_frames; }});
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::bad_data) << error.what();
+      ++count.refused;
+      return;
+    }
+    count.harmless += report.was_whole ? 1 : 0;
+    count.repaired += report.was_whole ? 0 : 1;
+    count.continued += report.goes_on ? 1 : 0;
+    const RunFile run = RunFile::open(report.was_whole ? path : out);
+    for (std::size_t k = 0; k < run.all_frame_tilts().size(); ++k) {
+      const Frame frame = run.frame(k);
+      EXPECT_EQ(frame_of.at(frame.step), test::frame_digest(frame)) << "frame " << k;
+      ++count.kept;
+    }
+    const RunCheck check = check_run(run, {});
+    EXPECT_TRUE(check.faults.empty()) << check.faults.front();
+    EXPECT_TRUE(damaged_pieces(report.was_whole ? path : out).empty());
+    if (report.goes_on) expect_the_same_end(out);
+  }
+
+  /// A sample of them: the rest of the run is computed again.
+  static void expect_the_same_end(const std::string& path) {
+    static int number = 0;
+    if (++number % 10 != 1) return;
+    RunHeader header;
+    Checkpoint checkpoint;
+    RunStore store = RunStore::resume(path, header, checkpoint);
+    Session session(parse_scenario(header.scenario_resolved, path), std::move(checkpoint));
+    run_to_end(session, store, {});
+    EXPECT_EQ(test::digest(path), test::digest(folder->path("good.h5")));
+  }
+
+  static inline test::TemporaryFolder* folder = nullptr;
+  static inline std::map<std::int64_t, std::string> frame_of;  ///< digest, by step
+};
+
+TEST_F(RepairOfChance, of_a_packed_file) {
+  const Bytes good = read_bytes(folder->path("good.h5"));
+  const std::string bad = folder->path("bad.h5");
+  Random random(40);
+  for (const Kind kind : kinds) {
+    Count count;
+    for (int k = 0; k < tries(8) && !HasFailure(); ++k) {
+      Bytes bytes = good;
+      damage(bytes, kind, random);
+      write_bytes(bad, bytes);
+      SCOPED_TRACE("try " + std::to_string(k));
+      try_to_repair(bad, frame_of.size(), count);
+    }
+    count.print(std::string("packed file of ").append(std::to_string(good.size() / 1024)).append(" KiB, ") +
+                kind_names[static_cast<std::size_t>(kind)]);
+    EXPECT_GT(count.kept, count.frames / 4);
+  }
+}
+
+TEST_F(RepairOfChance, of_each_file_of_a_folder) {
+  const std::string run = folder->path("left.h5");
+  const std::size_t frames = RunFile::open(run).all_frame_tilts().size();
+  Random random(50);
+  for (const auto& entry : fs::directory_iterator(run_folder(run))) {
+    if (entry.path().filename() == "lock") continue;
+    const Bytes whole = read_bytes(entry.path());
+    Count count;
+    for (int k = 0; k < std::max(3, tries(0) / 10) && !HasFailure(); ++k) {
+      Bytes bytes = whole;
+      damage(bytes, kinds[static_cast<std::size_t>(k) % kinds.size()], random);
+      write_bytes(entry.path(), bytes);
+      SCOPED_TRACE(entry.path().filename().string() + ", try " + std::to_string(k));
+      try_to_repair(run, frames, count);
+    }
+    write_bytes(entry.path(), whole);
+    count.print(entry.path().filename());
+  }
+}
+
+}  // namespace
+}  // namespace talus::hostile

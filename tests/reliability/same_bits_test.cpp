@@ -1,0 +1,36 @@
+/// The first thousands of steps of the rocked beds, against hashes that hold for every build and any number
+/// of threads. tests/reliability/same_bits takes all steps, with other compilers and flags. A change that
+/// gives other bits is named in CHANGELOG.md, and puts the hashes here that it gives.
+
+#include <gtest/gtest.h>
+
+#include "core/hash.h"
+#include "reliability/rocked_bed.h"
+
+namespace talus::test {
+namespace {
+
+/// Compares a bed of rocked_beds() after some steps on each number of threads; at least `changes` of the
+/// steps must have brought other contacts, and `team` is the most threads that can work together.
+void expect_bits(std::size_t which, std::int64_t steps, const std::string& golden, std::int64_t changes,
+                 int team) {
+  const RockedBed bed = rocked_beds().at(which);
+  for (const int threads : {1, 2, 4}) {
+    SCOPED_TRACE(bed.name + ", threads: " + std::to_string(threads));
+    Hasher hash;
+    const RockedRun run = rock(bed, steps, threads, [&hash](const World& world) {
+      if (world.step % 10 == 0) hash.add(hash_of(world));
+    });
+    EXPECT_EQ(hash_text(hash.value()), golden);
+    EXPECT_GT(run.changes, changes);
+    EXPECT_EQ(run.team, std::min(threads, team));
+  }
+}
+
+TEST(SameBits, periodic_bed) { expect_bits(0, 5000, "7bfe15c56dcd8814", 1000, 1); }
+TEST(SameBits, walls_and_restitution) { expect_bits(1, 5000, "938e94c151d397df", 200, 1); }
+TEST(SameBits, gauss_seidel) { expect_bits(2, 2000, "a2c5c55a5afc433f", 300, 1); }
+TEST(SameBits, threads_that_work_together) { expect_bits(3, 130, "237b29fa1921b8fd", 100, 4); }
+
+}  // namespace
+}  // namespace talus::test
