@@ -25,8 +25,9 @@ bool covers(const NeighbourList& list, const Grains& grains, double reach) {
   return true;
 }
 
+/// A position that is no number has a cell too: the step goes on to find that it is none, and says so.
 Index clamped(double cell, Index count) {
-  return static_cast<Index>(std::clamp(cell, 0.0, static_cast<double>(count - 1)));
+  return cell > 0.0 ? static_cast<Index>(std::min(cell, static_cast<double>(count - 1))) : 0;
 }
 
 Index column_of(const Grid& grid, double x) { return clamped((x - grid.x0) / grid.cell_x, grid.columns); }

@@ -168,5 +168,21 @@ TEST(NeighbourList, of_no_grains_is_empty) {
   EXPECT_EQ(contacts.count(), 0);
 }
 
+TEST(NeighbourList, a_position_that_is_no_number_has_a_cell_as_all_have) {
+  for (const double value : {std::nan(""), HUGE_VAL, -HUGE_VAL})
+    for (const bool periodic : {true, false}) {
+      World world = test::random_cloud(5, 40, periodic, 1.0);
+      world.grains.x[3] = value;
+      world.grains.y[7] = value;
+      NeighbourList list;
+      update_neighbour_list(list, world.grains, world.boundary, 0.1 * radius);
+      const auto cells = static_cast<Index>(list.cell_start.size()) - 1;
+      for (const Index cell : list.cell_of_grain) EXPECT_TRUE(0 <= cell && cell < cells) << cell;
+      std::vector<Index> grains = list.cell_grain;
+      std::sort(grains.begin(), grains.end());
+      for (Index i = 0; i < world.grains.count(); ++i) EXPECT_EQ(grains[i], i);
+    }
+}
+
 }  // namespace
 }  // namespace talus
