@@ -12,6 +12,7 @@
 #include <system_error>
 
 #include "core/errors.h"
+#include "core/sanitizers.h"
 
 namespace talus {
 namespace {
@@ -43,11 +44,8 @@ void tell_exit_out_of_memory() {
   if (errno == ENOMEM) _exit(report_out_of_memory());
 }
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool crashes_are_reported = true;  // by the sanitizers
-#else
-constexpr bool crashes_are_reported = false;
-#endif
+/// By the sanitizers.
+constexpr bool crashes_are_reported = sanitizes_addresses || sanitizes_threads;
 
 /// Signals by which HDF5 ends the program where others of its allocations fail.
 constexpr int crash_signals[] = {SIGSEGV, SIGBUS, SIGABRT};

@@ -14,24 +14,12 @@
 
 #include "core/descriptor.h"
 #include "core/errors.h"
+#include "core/sanitizers.h"
 
 namespace talus {
 namespace {
 
 using Bytes = std::vector<std::byte>;
-
-// A shadow memory of the sanitizers is larger than any limit.
-#if defined(__SANITIZE_ADDRESS__)
-constexpr bool memory_is_limited = false;
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer)
-constexpr bool memory_is_limited = false;
-#else
-constexpr bool memory_is_limited = true;
-#endif
-#else
-constexpr bool memory_is_limited = true;
-#endif
 
 constexpr rlim_t mebibyte = rlim_t{1} << 20;
 
@@ -49,9 +37,19 @@ rlim_t address_space() {
   return pages * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE));
 }
 
-/// What a child is allowed, and nothing that it says on its way out.
-void restrain(std::size_t input) {
+/// Closes all that the child inherits but its pipe, which gets the number that is returned: a lock lasts as
+/// long as any process has its file open, and a pipe as long as anyone may listen.
+int keep_only(int pipe) {
+  constexpr int kept = STDERR_FILENO + 1;
+  if (pipe != kept) ::dup2(pipe, kept);
+  ::close_range(kept + 1, ~0U, 0);
+  return kept;
+}
+
+/// What a child of `parent` is allowed, and nothing that it says on its way out.
+void restrain(pid_t parent, std::size_t input) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (::getppid() != parent) _exit(1);  // it has ended already
   for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, SIG_DFL);
   const int nowhere = ::open("/dev/null", O_RDWR | O_CLOEXEC);
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) ::dup2(nowhere, stream);
@@ -60,7 +58,8 @@ void restrain(std::size_t input) {
   const rlim_t seconds = 10 + input / mebibyte;
   limit(RLIMIT_CPU, seconds);
   ::alarm(static_cast<unsigned>(6 * seconds));  // one that waits for ever
-  if (memory_is_limited) limit(RLIMIT_AS, address_space() + memory_limit(input));
+  // A shadow memory is larger than any limit.
+  if (!sanitizes_addresses) limit(RLIMIT_AS, address_space() + memory_limit(input));
 }
 
 /// What the child sends: the result, or the message of an error, and an exit code as the last byte.
@@ -103,12 +102,13 @@ Child start(const std::string& path, std::size_t input, const std::function<void
   if (::pipe2(ends, O_CLOEXEC) != 0) throw system_error(ExitCode::io_error, "make a pipe for", path, errno);
   Child child{-1, Descriptor(ends[0])};
   Descriptor to(ends[1]);
+  const pid_t parent = ::getpid();
   child.process = ::fork();
   if (child.process < 0) throw system_error(ExitCode::io_error, "start a process for", path, errno);
   if (child.process == 0) {
-    child.pipe.close();  // so that it ends where nobody listens any more
-    restrain(input);
-    speak(to.get());
+    const int pipe = keep_only(to.get());
+    restrain(parent, input);
+    speak(pipe);
     _exit(0);
   }
   return child;
