@@ -67,7 +67,7 @@ OpenRun resume_run(const RunRequest& request) {
                 request.output + " was started with another scenario than " + request.scenario +
                     "; compare `talus info` of the run with `talus check` of the scenario");
   refuse_unfinished_replay(request, header, checkpoint.world);
-  return {std::move(header), std::move(store), Session(scenario, std::move(checkpoint))};
+  return {std::move(header), std::move(store), Session(scenario, std::move(checkpoint), request.output)};
 }
 
 const volatile std::sig_atomic_t* catch_stop_signals() {

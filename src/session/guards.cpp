@@ -10,11 +10,9 @@ namespace talus {
 GuardValues guard_values(const World& world, const StepReport& report, std::int64_t unconverged,
                          const Scenario& scenario) {
   const Grains& grains = world.grains;
-  double fastest = 0.0, energy = 0.0, mass = 0.0;
+  double fastest = 0.0, mass = 0.0;
   for (Index i = 0; i < grains.free_count; ++i) {
-    const double speed_squared = grains.vx[i] * grains.vx[i] + grains.vy[i] * grains.vy[i];
-    fastest = std::max(fastest, speed_squared);
-    energy += 0.5 * (grains.mass[i] * speed_squared + grains.inertia[i] * grains.omega[i] * grains.omega[i]);
+    fastest = std::max(fastest, grains.vx[i] * grains.vx[i] + grains.vy[i] * grains.vy[i]);
     mass += grains.mass[i];
   }
   const double diameter = scenario.grains.mean_diameter;
@@ -22,7 +20,7 @@ GuardValues guard_values(const World& world, const StepReport& report, std::int6
   values[static_cast<std::size_t>(Guard::velocity)] = std::sqrt(fastest / (world.gravity * diameter));
   values[static_cast<std::size_t>(Guard::overlap)] = report.largest_overlap / diameter;
   values[static_cast<std::size_t>(Guard::energy)] =
-      energy / (mass * world.gravity * scenario.bed.depth * diameter);
+      kinetic_energy(grains) / (mass * world.gravity * scenario.bed.depth * diameter);
   values[static_cast<std::size_t>(Guard::unconverged)] = static_cast<double>(unconverged);
   return values;
 }

@@ -35,6 +35,8 @@ struct TiltCourse {
   std::int64_t since = 0;  ///< steps of the tilt taken by then
 };
 
+class StoredValues;
+
 /// The tolerance asked of a step grows with the velocity of the bed, from solver.tolerance at rest to
 /// solver.moving_tolerance at an rms velocity of g h: an error of the solver is a velocity too, and stays
 /// well below the real one, so that a bed can always come to rest.
@@ -42,8 +44,9 @@ class Session {
  public:
   /// A new run: the loose bed of the scenario, about to fall.
   explicit Session(const Scenario& scenario);
-  /// A run as its last commit left it. Throws Error(bad_data) where the checkpoint lacks a value.
-  Session(const Scenario& scenario, Checkpoint checkpoint);
+  /// A run as its last commit left it. Throws Error(bad_data) where the checkpoint lacks a value; `origin` is
+  /// what messages call the file.
+  Session(const Scenario& scenario, Checkpoint checkpoint, const std::string& origin = "the checkpoint");
 
   /// Takes one step; what it records goes to segment(). Does nothing once done.
   /// Throws Error(bad_data) when the bed does not come to rest within deposition.max_time, and
@@ -101,11 +104,11 @@ class Session {
   void record_row();
   double scheduled_tilt() const;  ///< rad, after tilt_steps_ steps
   void add_commanded(Checkpoint& checkpoint) const;
-  void take_commanded(const Checkpoint& checkpoint);
+  void take_commanded(const StoredValues& stored);
   void add_warnings(Checkpoint& checkpoint) const;
   void take_warnings(const Checkpoint& checkpoint);
   void add_flow(Checkpoint& checkpoint) const;
-  void take_flow(const Checkpoint& checkpoint);
+  void take_flow(const StoredValues& stored);
 
   Scenario scenario_;
   World world_;

@@ -2,31 +2,54 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <string>
 
 #include "core/errors.h"
 #include "session/session.h"
 
 namespace talus {
-namespace {
 
-template <typename Pairs>
-auto value_of(const Pairs& pairs, const std::string& name) {
-  if (const auto value = find_value(pairs, name)) return *value;
-  throw Error(ExitCode::bad_data,
-              "the checkpoint has no value '" + name + "': it was written by another version");
-}
+/// The values of a checkpoint that a session needs, by name.
+class StoredValues {
+ public:
+  StoredValues(const Checkpoint& checkpoint, const std::string& origin)
+      : checkpoint_(checkpoint), origin_(origin) {}
 
-/// A number of steps.
-std::int64_t count_of(const Checkpoint& checkpoint, const std::string& name) {
-  constexpr std::int64_t most = std::int64_t{1} << 53;
-  const std::int64_t count = value_of(checkpoint.integers, name);
-  if (count < 0 || count > most)
-    throw Error(ExitCode::bad_data, "the checkpoint has " + std::to_string(count) + " as its '" + name +
-                                        "', expected a number of steps");
-  return count;
-}
+  std::int64_t integer(const std::string& name) const {
+    return value_of(checkpoint_.integers, "/checkpoint/integers/", name);
+  }
+  double real(const std::string& name) const {
+    return value_of(checkpoint_.reals, "/checkpoint/reals/", name);
+  }
+  double result(const std::string& name) const { return value_of(checkpoint_.results, "/results/", name); }
 
-}  // namespace
+  /// A number from 0 to `most`, of what the message says.
+  std::int64_t count(const std::string& name, std::int64_t most = std::int64_t{1} << 53,
+                     const std::string& expected = "a number of steps") const {
+    const std::int64_t count = integer(name);
+    if (count < 0 || count > most)
+      refuse("/checkpoint/integers/" + name, "is " + std::to_string(count) + ", expected " + expected);
+    return count;
+  }
+
+  const Checkpoint& all() const { return checkpoint_; }
+
+ private:
+  [[noreturn]] void refuse(const std::string& path, const std::string& fault) const {
+    throw Error(ExitCode::bad_data, origin_ + ": data set " + path + " " + fault);
+  }
+
+  template <typename Value>
+  Value value_of(const std::vector<std::pair<std::string, Value>>& named, const std::string& group,
+                 const std::string& name) const {
+    if (const std::optional<Value> value = find_value(named, name)) return *value;
+    refuse(group + name, "is missing, without which the run cannot go on");
+  }
+
+  const Checkpoint& checkpoint_;
+  const std::string& origin_;
+};
 
 Checkpoint Session::checkpoint(double seconds_writing) const {
   Checkpoint checkpoint;
@@ -70,10 +93,10 @@ void Session::add_commanded(Checkpoint& checkpoint) const {
   checkpoint.integers.emplace_back("tilt_since", course_->since);
 }
 
-void Session::take_commanded(const Checkpoint& checkpoint) {
-  friction_ = find_value(checkpoint.reals, "friction");
-  if (const std::optional<double> rate = find_value(checkpoint.reals, "tilt_rate"))
-    course_ = TiltCourse{*rate, value_of(checkpoint.reals, "tilt_from"), count_of(checkpoint, "tilt_since")};
+void Session::take_commanded(const StoredValues& stored) {
+  friction_ = find_value(stored.all().reals, "friction");
+  if (const std::optional<double> rate = find_value(stored.all().reals, "tilt_rate"))
+    course_ = TiltCourse{*rate, stored.real("tilt_from"), stored.count("tilt_since")};
 }
 
 /// What was never broken is not there, as in runs of before there were guards.
@@ -107,40 +130,35 @@ void Session::add_flow(Checkpoint& checkpoint) const {
   checkpoint.results.emplace_back("unconverged_steps_flow", static_cast<double>(record_.unconverged_flow));
 }
 
-void Session::take_flow(const Checkpoint& checkpoint) {
-  flow_steps_ = count_of(checkpoint, "flow_steps");
-  record_.unconverged_flow = count_of(checkpoint, "unconverged_flow");
-  const double angle = value_of(checkpoint.results, "theta_r");
+void Session::take_flow(const StoredValues& stored) {
+  flow_steps_ = stored.count("flow_steps");
+  record_.unconverged_flow = stored.count("unconverged_flow");
+  const double angle = stored.result("theta_r");
   if (!std::isnan(angle)) angle_at_rest_ = angle;
 }
 
-Session::Session(const Scenario& scenario, Checkpoint checkpoint)
+Session::Session(const Scenario& scenario, Checkpoint checkpoint, const std::string& origin)
     : scenario_(scenario), world_(std::move(checkpoint.world)) {
-  const auto& integers = checkpoint.integers;
-  const auto& reals = checkpoint.reals;
-  const std::int64_t phase = value_of(integers, "phase");
-  if (phase < 0 || phase > static_cast<std::int64_t>(Phase::flow))
-    throw Error(ExitCode::bad_data,
-                "the checkpoint has phase " + std::to_string(phase) + ", expected 0, 1, 2 or 3");
-  phase_ = static_cast<Phase>(phase);
-  tilt_steps_ = count_of(checkpoint, "tilt_steps");
-  quiet_steps_ = count_of(checkpoint, "quiet_steps");
-  flow_.flowing = value_of(integers, "flowing") != 0;
-  flow_.failed = value_of(integers, "failed") != 0;
-  flow_.onset_tilt = value_of(reals, "onset_tilt");
-  flow_.displacement = value_of(reals, "flow_displacement");
-  record_.unconverged_deposition = count_of(checkpoint, "unconverged_deposition");
-  record_.unconverged_tilt = count_of(checkpoint, "unconverged_tilt");
-  record_.residual_max_rest = value_of(checkpoint.results, "residual_max_rest");
-  record_.residual_max_moving = value_of(checkpoint.results, "residual_max_moving");
-  baseline_.volume = value_of(reals, "baseline_volume");
-  baseline_.centre_of_mass_height = value_of(reals, "baseline_centre_of_mass_height");
-  surface_height_ = value_of(reals, "surface_height");
-  surface_displacement_ = value_of(reals, "surface_displacement");
-  residual_since_row_ = value_of(reals, "residual_since_row");
-  take_commanded(checkpoint);
+  const StoredValues stored(checkpoint, origin);
+  phase_ = static_cast<Phase>(stored.count("phase", static_cast<std::int64_t>(Phase::flow), "0, 1, 2 or 3"));
+  tilt_steps_ = stored.count("tilt_steps");
+  quiet_steps_ = stored.count("quiet_steps");
+  flow_.flowing = stored.integer("flowing") != 0;
+  flow_.failed = stored.integer("failed") != 0;
+  flow_.onset_tilt = stored.real("onset_tilt");
+  flow_.displacement = stored.real("flow_displacement");
+  record_.unconverged_deposition = stored.count("unconverged_deposition");
+  record_.unconverged_tilt = stored.count("unconverged_tilt");
+  record_.residual_max_rest = stored.result("residual_max_rest");
+  record_.residual_max_moving = stored.result("residual_max_moving");
+  baseline_.volume = stored.real("baseline_volume");
+  baseline_.centre_of_mass_height = stored.real("baseline_centre_of_mass_height");
+  surface_height_ = stored.real("surface_height");
+  surface_displacement_ = stored.real("surface_displacement");
+  residual_since_row_ = stored.real("residual_since_row");
+  take_commanded(stored);
   take_warnings(checkpoint);
-  if (scenario_.tilt.after_failure != AfterFailure::stop) take_flow(checkpoint);
+  if (scenario_.tilt.after_failure != AfterFailure::stop) take_flow(stored);
   deposition_seconds_ = find_value(checkpoint.timing, "deposition").value_or(0.0);
   tilt_seconds_ = find_value(checkpoint.timing, "tilt").value_or(0.0);
   for (std::size_t k = 0; k < stage_count; ++k)

@@ -3,60 +3,28 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
+#include <cstdio>
 #include <optional>
 #include <span>
 
 #include "core/errors.h"
 #include "core/random.h"
-#include "io/child_process.h"
 #include "io/fclib_file.h"
 #include "io/foreign_file.h"
-#include "reliability/hostile_file.h"
 #include "reliability/hostile_run.h"
-#include "support/temporary_folder.h"
+#include "reliability/hostile_test.h"
 
 namespace talus::hostile {
 namespace {
 
-/// How often a test of chance tries: TALUS_TRIES, where that is set, as in the long version.
-int tries(int usual) {
-  const char* asked = std::getenv("TALUS_TRIES");
-  return asked != nullptr ? std::atoi(asked) : usual;
+void make_good(const test::TemporaryFolder& folder) {
+  make_run(folder.path("run.h5"));
+  make_problem(folder.path("run.h5"), folder.path("good.h5"));
 }
 
-std::optional<std::string> refusal(const std::string& path) {
-  try {
-    use_problem(path);
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ExitCode::bad_data) << error.what();
-    EXPECT_EQ(std::string(error.what()).find(path), 0u) << error.what();
-    return error.what();
-  }
-  return std::nullopt;
-}
+using HostileProblem = HostileFile<make_good>;
 
-class HostileProblem : public testing::Test {
- protected:
-  static void SetUpTestSuite() {
-    folder = new test::TemporaryFolder;
-    make_run(folder->path("run.h5"));
-    make_problem(folder->path("run.h5"), folder->path("good.h5"));
-    good = read_bytes(folder->path("good.h5"));
-  }
-  static void TearDownTestSuite() {
-    delete folder;
-    folder = nullptr;
-  }
-  static std::string bad(const Bytes& bytes) {
-    const std::string path = folder->path("bad.h5");
-    write_bytes(path, bytes);
-    return path;
-  }
-
-  static inline test::TemporaryFolder* folder = nullptr;
-  static inline Bytes good;
-};
+std::optional<std::string> refusal(const std::string& path) { return hostile::refusal(path, use_problem); }
 
 TEST_F(HostileProblem, is_the_good_one_to_begin_with) {
   EXPECT_EQ(refusal(bad(good)), std::nullopt);
@@ -155,35 +123,6 @@ TEST(ForeignFile, cut_short_on_its_way_is_refused) {
   }
   EXPECT_EQ(whole, 4) << "at the ends of records only";
 }
-
-/// What a child does, and how that ends.
-std::string end_of(const std::function<std::vector<std::byte>()>& work) {
-  try {
-    const auto bytes = in_child_process("p.h5", 0, work);
-    return "returned " + std::to_string(bytes.size());
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ExitCode::bad_data);
-    return error.what();
-  }
-}
-
-TEST(ChildProcess, gives_back_bytes_errors_and_its_death) {
-  EXPECT_EQ(end_of([] { return std::vector<std::byte>(3 << 20); }), "returned " + std::to_string(3 << 20));
-  EXPECT_EQ(end_of([] { return std::vector<std::byte>(); }), "returned 0");
-  EXPECT_EQ(end_of([]() -> std::vector<std::byte> { throw Error(ExitCode::bad_data, "said so"); }),
-            "said so");
-  const std::string died = "p.h5: cannot be read: HDF5 fails on it";
-  EXPECT_EQ(end_of([]() -> std::vector<std::byte> { std::abort(); }).find(died), 0u);
-  EXPECT_EQ(end_of([]() -> std::vector<std::byte> { std::exit(0); }).find(died), 0u);
-  EXPECT_EQ(end_of([]() -> std::vector<std::byte> { throw 1; }).find(died), 0u);
-}
-
-#if !defined(__SANITIZE_ADDRESS__)
-TEST(ChildProcess, has_only_so_much_memory) {
-  EXPECT_NE(end_of([] { return std::vector<std::byte>(std::size_t{4} << 30); }).find("more memory"),
-            std::string::npos);
-}
-#endif
 
 }  // namespace
 }  // namespace talus::hostile

@@ -3,9 +3,7 @@
 #include "core/hash.h"
 #include "core/trigonometry.h"
 #include "io/analysis_file.h"
-#include "io/run_file.h"
 #include "session/analysis_run.h"
-#include "session/problem_file.h"
 #include "session/run.h"
 #include "session/run_header.h"
 #include "session/step_problem.h"
@@ -67,15 +65,17 @@ void use_run(const RunFile& run, const std::string& path) {
   run.steps();
   run.commands();
   if (run.complete()) read_analysis(path);
-  Session session(parse_scenario(run.header().scenario_resolved, path + ":/parameters"), run.checkpoint());
+  Session session(parse_scenario(run.header().scenario_resolved, path + ":/parameters"), run.checkpoint(),
+                  path);
   session.advance();
   if (run.frame_count() == 0) return;
   analyse_run(run, {}, 1, {});
   problem_after_frame(run, 0);
 }
 
-void use_problem(const std::string& path) {
-  const StoredProblem stored = read_problem(path);
+void use_problem(const std::string& path) { use_problem(read_problem(path)); }
+
+void use_problem(const StoredProblem& stored) {
   SolverSettings settings;
   settings.max_iterations = 3;
   LocalSolution solution;

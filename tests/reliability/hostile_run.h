@@ -4,6 +4,7 @@
 #include <string>
 
 #include "io/run_file.h"
+#include "session/problem_file.h"
 
 namespace talus::hostile {
 
@@ -22,7 +23,9 @@ void use_run(const std::string& path);
 /// The same of one that is open, at the path where its analysis is.
 void use_run(const RunFile& run, const std::string& path);
 
-/// Reads a problem and solves it, in a few passes.
+/// Solves a problem, in a few passes.
+void use_problem(const StoredProblem& stored);
+/// The same of the one at `path`.
 void use_problem(const std::string& path);
 
 }  // namespace talus::hostile

@@ -5,59 +5,26 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <optional>
 
-#include "core/errors.h"
 #include "core/random.h"
 #include "io/run_file.h"
-#include "reliability/hostile_file.h"
-#include "support/temporary_folder.h"
+#include "reliability/hostile_test.h"
 
 namespace talus::hostile {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// How often a test of chance tries: TALUS_TRIES, where that is set, as in the long version.
-int tries(int usual) {
-  const char* asked = std::getenv("TALUS_TRIES");
-  return asked != nullptr ? std::atoi(asked) : usual;
-}
-
-/// The error of using a run, if there is one; it must be one of bad data.
-std::optional<std::string> refusal(const std::string& path, void (*use)(const std::string&) = use_run) {
-  try {
-    use(path);
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ExitCode::bad_data) << error.what();
-    return error.what();
-  }
-  return std::nullopt;
-}
-
 void open_run(const std::string& path) { RunFile::open(path); }
 
-class HostileRun : public testing::Test {
- protected:
-  static void SetUpTestSuite() {
-    folder = new test::TemporaryFolder;
-    make_run(folder->path("good.h5"));
-    good = read_bytes(folder->path("good.h5"));
-  }
-  static void TearDownTestSuite() {
-    delete folder;
-    folder = nullptr;
-  }
-  static std::string bad(const Bytes& bytes) {
-    const std::string path = folder->path("bad.h5");
-    write_bytes(path, bytes);
-    return path;
-  }
+std::optional<std::string> refusal(const std::string& path, void (*use)(const std::string&) = use_run) {
+  return hostile::refusal(path, use);
+}
 
-  static inline test::TemporaryFolder* folder = nullptr;
-  static inline Bytes good;
-};
+void make_good(const test::TemporaryFolder& folder) { make_run(folder.path("good.h5")); }
+
+using HostileRun = HostileFile<make_good>;
 
 TEST_F(HostileRun, is_the_good_one_to_begin_with) {
   EXPECT_EQ(refusal(bad(good)), std::nullopt);
@@ -170,7 +137,8 @@ TEST_F(HostileRun, values_that_cannot_be_are_refused_by_name) {
   for (const char* count : {"/checkpoint/integers/tilt_steps", "/checkpoint/integers/phase"}) {
     const auto message =
         refusal(bad(spoilt(good, std::vector<Spoil>{{count, Harm::one_value, 0, negative, {}}})));
-    EXPECT_NE(message.value_or("").find("the checkpoint has "), std::string::npos) << count;
+    EXPECT_NE(message.value_or("").find(std::string("data set ") + count + " is -1"), std::string::npos)
+        << count;
   }
 }
 

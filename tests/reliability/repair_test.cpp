@@ -5,14 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <cstdlib>
 #include <map>
 
 #include "core/errors.h"
 #include "core/random.h"
 #include "io/run_repair.h"
-#include "reliability/hostile_file.h"
 #include "reliability/hostile_run.h"
+#include "reliability/hostile_test.h"
 #include "reliability/whole_run.h"
 #include "session/run.h"
 #include "session/run_check.h"
@@ -23,11 +22,6 @@ namespace talus::hostile {
 namespace {
 
 namespace fs = std::filesystem;
-
-int tries(int usual) {
-  const char* asked = std::getenv("TALUS_TRIES");
-  return asked != nullptr ? std::atoi(asked) : usual;
-}
 
 enum class Kind : std::uint8_t { flip, zeros, cut };
 constexpr std::array kinds = {Kind::flip, Kind::zeros, Kind::cut};

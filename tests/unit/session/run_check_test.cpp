@@ -10,15 +10,14 @@
 
 #include "session/run_header.h"
 #include "session/session.h"
+#include "support/small_bed.h"
 #include "support/temporary_folder.h"
 
 namespace talus {
 namespace {
 
 Scenario small_bed() {
-  Scenario scenario;
-  scenario.bed.length = 10.0;
-  scenario.bed.depth = 3.0;
+  Scenario scenario = test::small_bed();
   scenario.tilt.rate = 20.0;
   scenario.tilt.step = 0.02;
   scenario.tilt.end_angle = 1.0;
