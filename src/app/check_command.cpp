@@ -119,14 +119,11 @@ void print_text(const CheckArguments& arguments, const Scenario& scenario, const
 
 /// Throws `refusal` again, after it has said which pieces of the run are damaged.
 [[noreturn]] void tell_damage(const CheckArguments& arguments, const Error& refusal) {
-  std::string faults;
   const std::vector<std::string> pieces = damaged_pieces(arguments.scenario);
   if (arguments.json) {
-    for (const std::string& piece : pieces)
-      faults.append(faults.empty() ? "" : ", ").append(json::quoted(piece));
     const json::Members members = {{"path", json::quoted(arguments.scenario)},
                                    {"whole", json::truth(false)},
-                                   {"faults", "[" + faults + "]"}};
+                                   {"faults", json::array(pieces)}};
     std::printf("%s\n", json::object(members).c_str());
   } else {
     std::printf("%s: damaged\n", arguments.scenario.c_str());
@@ -147,9 +144,6 @@ RunFile open_or_tell(const CheckArguments& arguments) {
 }
 
 void print_run_json(const std::string& path, const RunFile& run, const RunCheck& check) {
-  std::string faults;
-  for (const std::string& fault : check.faults)
-    faults.append(faults.empty() ? "" : ", ").append(json::quoted(fault));
   const json::Members members = {
       {"path", json::quoted(path)},
       {"whole", json::truth(check.faults.empty())},
@@ -164,7 +158,7 @@ void print_run_json(const std::string& path, const RunFile& run, const RunCheck&
       {"frames_at_rest", json::number(check.frames_at_rest)},
       {"largest_imbalance_mg", json::number(check.largest_imbalance)},
       {"largest_moment_error", json::number(check.largest_moment_error)},
-      {"faults", "[" + faults + "]"},
+      {"faults", json::array(check.faults)},
   };
   std::printf("%s\n", json::object(members).c_str());
 }

@@ -42,4 +42,11 @@ inline std::string object(const Members& members, int depth = 0) {
   return text + "\n" + margin + "}";
 }
 
+/// [ "text", ... ]
+inline std::string array(const std::vector<std::string>& texts) {
+  std::string list;
+  for (const std::string& text : texts) list.append(list.empty() ? "" : ", ").append(quoted(text));
+  return "[" + list + "]";
+}
+
 }  // namespace talus::json

@@ -26,6 +26,7 @@ struct StoredSegment {
 
 struct Manifest {
   static constexpr const char* file_name = "manifest";
+  static constexpr const char* header_name = "header.h5";
 
   StoredFile header;
   StoredFile checkpoint;

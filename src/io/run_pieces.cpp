@@ -5,9 +5,9 @@
 #include <cstring>
 #include <limits>
 #include <optional>
-#include <sstream>
 
 #include "core/errors.h"
+#include "core/text_stream.h"
 #include "io/child_process.h"
 #include "io/piece_code.h"
 
@@ -31,7 +31,7 @@ bool is_known(const std::string& path) {
 
 std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> lines;
-  std::istringstream from(text);
+  std::istringstream from = text_stream(text);
   for (std::string line; std::getline(from, line);) lines.push_back(line);
   return lines;
 }
@@ -87,9 +87,11 @@ class PieceReader {
 
   /// The paths that there should be.
   std::vector<std::string> list() {
-    const auto contents = in_children(1, [](hdf5::Reader& reader, std::size_t) {
+    const auto contents = in_children(2, [](hdf5::Reader& reader, std::size_t k) {
+      if (k == 1) return Bytes(reader.has("/analysis") ? 1 : 0);
       return encode(reader.has("/contents") ? std::optional(reader.read_stored("/contents")) : std::nullopt);
     });
+    pieces_.has_analyses = contents[1] && !contents[1]->empty();
     const auto stored = contents[0] ? decode_array(*contents[0]) : std::nullopt;
     if (stored && is_right("/contents", *stored)) {
       set_array(pieces_, "/contents", {{}, stored->values});

@@ -39,6 +39,7 @@ struct RunPieces {
   /// Whether each piece is known to be as it was written. Files of before schema version 3 have no hashes:
   /// what can be read of them is taken for whole.
   bool verified = false;
+  bool has_analyses = false;  ///< which are no part of the run: `talus analyze` added them
 
   bool is_whole() const { return lost.empty() && lost_frames.empty(); }
 };

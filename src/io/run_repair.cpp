@@ -7,6 +7,7 @@
 
 #include "core/errors.h"
 #include "io/durable_file.h"
+#include "io/manifest.h"
 #include "io/repaired_file.h"
 #include "io/run_records.h"
 #include "io/run_salvage.h"
@@ -21,8 +22,8 @@ std::optional<std::string> folder_of(const std::string& path) {
   std::error_code unknown;
   if (fs::is_regular_file(path, unknown)) return std::nullopt;
   for (const std::string& folder : {path, run_folder(path)})
-    if (fs::exists(fs::path(folder) / "header.h5", unknown) ||
-        fs::exists(fs::path(folder) / "manifest", unknown))
+    if (fs::exists(fs::path(folder) / Manifest::header_name, unknown) ||
+        fs::exists(fs::path(folder) / Manifest::file_name, unknown))
       return folder;
   throw Error(ExitCode::missing_input,
               path + ": no such run; expected a run file, or a folder " + run_folder(path));

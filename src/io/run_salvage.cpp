@@ -100,7 +100,7 @@ FoundFolder look_into(const std::string& folder, bool keep_frames) {
     return std::nullopt;
   };
   StoredFile header;
-  header.name = "header.h5";
+  header.name = Manifest::header_name;
   if (auto file = read(manifest ? manifest->header : header, manifest.has_value()))
     found.header = std::move(file->pieces);
   std::vector<StoredFile> segments;
@@ -263,6 +263,8 @@ Salvage salvage_file(const std::string& path) {
   Salvage salvage;
   salvage.pieces = inspect_file(path, true);
   salvage.frames = salvage.pieces.frames.size() + salvage.pieces.lost_frames.size();
+  if (salvage.pieces.has_analyses)
+    salvage.not_needed.push_back({"/analysis", "is no part of the run; make it again with talus analyze"});
   mend(salvage.pieces, path);
   return salvage;
 }

@@ -19,7 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* header_name = "header.h5";
 constexpr const char* temporary_suffix = ".tmp";
 
 std::string in(const std::string& folder, const std::string& name) {
@@ -38,7 +37,7 @@ std::uint64_t serial_of(const StoredFile& checkpoint) {
 
 /// Whether a file of this name is the store's own: no other is ever removed.
 bool is_own(const std::string& name) {
-  return name == header_name || name == Manifest::file_name || name.ends_with(temporary_suffix) ||
+  return name == Manifest::header_name || name == Manifest::file_name || name.ends_with(temporary_suffix) ||
          (name.ends_with(".h5") && (name.starts_with("segment_") || name.starts_with("checkpoint_")));
 }
 
@@ -179,7 +178,7 @@ RunStore RunStore::create(const std::string& path, const RunHeader& header, bool
   refuse_existing(path, overwrite);  // again, now that nobody else can change it
   if (overwrite) remove_run(path, folder);
   remove_leftovers(folder, {}, {});
-  state->manifest.header = store(folder, header_name, header_bytes(header));
+  state->manifest.header = store(folder, Manifest::header_name, header_bytes(header));
   state->grains = header.statics.radius.size();
   return RunStore(std::move(state));
 }
