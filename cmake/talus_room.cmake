@@ -6,7 +6,8 @@ function(talus_room name)
   target_link_libraries(talus_${name} PUBLIC talus_options ${ROOM_LINK})
 endfunction()
 
-# talus_test(NAME LABEL sources... [LINK libraries...]): one GoogleTest program, its cases known to ctest.
+# talus_test(NAME LABEL sources... [LINK libraries...]): one GoogleTest program, its cases known to ctest; the
+# target LABEL_tests builds those of a label.
 function(talus_test name label)
   cmake_parse_arguments(TEST "" "TIMEOUT" "LINK" ${ARGN})
   if(NOT TEST_TIMEOUT)
@@ -14,5 +15,9 @@ function(talus_test name label)
   endif()
   add_executable(${name} ${TEST_UNPARSED_ARGUMENTS})
   target_link_libraries(${name} PRIVATE ${TEST_LINK} talus_test_support GTest::gtest_main)
+  if(NOT TARGET ${label}_tests)
+    add_custom_target(${label}_tests)
+  endif()
+  add_dependencies(${label}_tests ${name})
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES LABELS ${label} TIMEOUT ${TEST_TIMEOUT})
 endfunction()

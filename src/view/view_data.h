@@ -101,18 +101,18 @@ struct ViewModel::Data {
   // view_shown.cpp: what is made of it.
   double shown_theta_c() const;
   /// The settings of the map, with what the run has to say.
-  MapSettings map_settings(const ViewState& state) const;
+  MapSettings map_settings(const ViewState& asked) const;
   const Clusters& shown_clusters(const MapSettings& settings);
   const std::vector<ClusterColour>& shown_colours(const MapSettings& settings);
-  const Inspection* inspect_selected(const ViewState& state);
-  MapExtent part(const ViewState& state, double aspect) const;
+  const Inspection* inspect_selected(const ViewState& asked);
+  MapExtent part(const ViewState& asked, double aspect) const;
   /// The frame that displacements are measured from; null where there is none.
   std::shared_ptr<const Frame> reference(const MapSettings& settings, std::optional<double> since);
   /// Width over height of a picture in which the bed just has room.
-  double bed_aspect(const ViewState& state) const;
-  const FrameView& whole_map(const ViewState& state, const MapExtent& part);
-  FrameView picture(const ViewState& state, const MapExtent& part);
-  std::string render_command(const ViewState& state) const;
+  double bed_aspect(const ViewState& asked) const;
+  const FrameView& whole_map(const ViewState& asked, const MapExtent& part);
+  FrameView picture(const ViewState& asked, const MapExtent& part);
+  std::string render_command(const ViewState& asked) const;
 };
 
 }  // namespace talus

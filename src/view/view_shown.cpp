@@ -32,8 +32,8 @@ std::vector<double> tilts_of(const RecordedFrames& recorded) {
 
 double ViewModel::Data::shown_theta_c() const { return theta_c.value_or(radians(assumed_theta_c)); }
 
-MapSettings ViewModel::Data::map_settings(const ViewState& state) const {
-  MapSettings settings = state.map;
+MapSettings ViewModel::Data::map_settings(const ViewState& asked) const {
+  MapSettings settings = asked.map;
   if (settings.layers.empty()) settings.layers = {MapKind::gamma};
   settings.theta_c = shown_theta_c();
   settings.theta_c_assumed = !theta_c;
@@ -67,30 +67,30 @@ const std::vector<ClusterColour>& ViewModel::Data::shown_colours(const MapSettin
   return colours.colours = tracker.next(shown_clusters(settings));
 }
 
-const Inspection* ViewModel::Data::inspect_selected(const ViewState& state) {
-  if (!state.selected || *state.selected < 0 || *state.selected >= frame->grain_count()) return nullptr;
-  const MapSettings by = map_settings(state);
+const Inspection* ViewModel::Data::inspect_selected(const ViewState& asked) {
+  if (!asked.selected || *asked.selected < 0 || *asked.selected >= frame->grain_count()) return nullptr;
+  const MapSettings by = map_settings(asked);
   const OverloadRule rule = overload_rule(by);
   if (inspection.frame != frame || !(inspection.rule == rule) ||
-      inspection.neighbourhood != state.neighbourhood || inspection.of.grain != *state.selected) {
+      inspection.neighbourhood != asked.neighbourhood || inspection.of.grain != *asked.selected) {
     const double widest = statics.periodic ? statics.length : 2.0 * std::max(statics.length, statics.depth);
-    const double neighbourhood = std::clamp(state.neighbourhood * statics.mean_diameter, 0.0, widest);
-    inspection = {frame, rule, state.neighbourhood,
+    const double neighbourhood = std::clamp(asked.neighbourhood * statics.mean_diameter, 0.0, widest);
+    inspection = {frame, rule, asked.neighbourhood,
                   inspect(*frame, statics, shown_clusters(by),
-                          {threshold_of(rule), length_cut(statics), neighbourhood}, *state.selected)};
+                          {threshold_of(rule), length_cut(statics), neighbourhood}, *asked.selected)};
   }
   return &inspection.of;
 }
 
-double ViewModel::Data::bed_aspect(const ViewState& state) const {
+double ViewModel::Data::bed_aspect(const ViewState& asked) const {
   return picture_aspect((bed.y_max - bed.y_min) / (bed.x_max - bed.x_min),
-                        std::max(0.0, map_settings(state).tilt_max));
+                        std::max(0.0, map_settings(asked).tilt_max));
 }
 
-MapExtent ViewModel::Data::part(const ViewState& state, double shown_aspect) const {
-  const double turn_max = std::max(0.0, map_settings(state).tilt_max);
-  return shown_part(state.camera, bed, statics.mean_diameter,
-                    shown_aspect > 0.0 ? shown_aspect : bed_aspect(state), turn_max);
+MapExtent ViewModel::Data::part(const ViewState& asked, double shown_aspect) const {
+  const double turn_max = std::max(0.0, map_settings(asked).tilt_max);
+  return shown_part(asked.camera, bed, statics.mean_diameter,
+                    shown_aspect > 0.0 ? shown_aspect : bed_aspect(asked), turn_max);
 }
 
 std::shared_ptr<const Frame> ViewModel::Data::reference(const MapSettings& settings,
@@ -105,12 +105,12 @@ std::shared_ptr<const Frame> ViewModel::Data::reference(const MapSettings& setti
   return candidate->step < frame->step ? candidate : nullptr;
 }
 
-const FrameView& ViewModel::Data::whole_map(const ViewState& state, const MapExtent& shown) {
+const FrameView& ViewModel::Data::whole_map(const ViewState& asked, const MapExtent& shown) {
   MapSource source;
-  source.settings = map_settings(state);
+  source.settings = map_settings(asked);
   source.frame = frame;
-  source.reference = reference(source.settings, state.since);
-  source.per_degree = !state.since;
+  source.reference = reference(source.settings, asked.since);
+  source.per_degree = !asked.since;
   if (draws_clusters(source.settings.layers)) source.colours = shown_colours(source.settings);
   source.extent = depends_on_extent(source.settings.layers) ? common_part(shown, bed) : bed;
   if (!is_same(map.source, source)) {
@@ -120,27 +120,27 @@ const FrameView& ViewModel::Data::whole_map(const ViewState& state, const MapExt
   return map.view;
 }
 
-FrameView ViewModel::Data::picture(const ViewState& state, const MapExtent& shown) {
+FrameView ViewModel::Data::picture(const ViewState& asked, const MapExtent& shown) {
   Overlay overlay;
-  if (const Inspection* of = inspect_selected(state)) {
+  if (const Inspection* of = inspect_selected(asked)) {
     overlay.selected = of->grain;
-    if (state.highlight_cluster) overlay.cluster = of->cluster;
-    if (state.show_neighbourhoods && of->free) {
-      for (const double diameter : growing_diameters(state.neighbourhood))
+    if (asked.highlight_cluster) overlay.cluster = of->cluster;
+    if (asked.show_neighbourhoods && of->free) {
+      for (const double diameter : growing_diameters(asked.neighbourhood))
         overlay.diameters.push_back(diameter * statics.mean_diameter);
       overlay.critical_length = of->coarse_graining_length;
     }
   }
-  return shown_map(whole_map(state, shown), shown, *frame, overlay, shown_clusters(map_settings(state)),
+  return shown_map(whole_map(asked, shown), shown, *frame, overlay, shown_clusters(map_settings(asked)),
                    statics);
 }
 
-std::string ViewModel::Data::render_command(const ViewState& state) const {
+std::string ViewModel::Data::render_command(const ViewState& asked) const {
   RenderRequest shown;
   shown.run = path;
-  shown.settings = map_settings(state);
+  shown.settings = map_settings(asked);
   shown.tilt = frame->tilt;
-  shown.since = state.since;
+  shown.since = asked.since;
   shown.mean_diameter = statics.mean_diameter;
   if (replay && replay->index() >= frames->file().frame_count()) {
     shown.in_flow = true;
@@ -153,7 +153,7 @@ std::string ViewModel::Data::render_command(const ViewState& state) const {
     shown.run = output;
     shown.tilt = recorded->all()[*nearest]->tilt;
   }
-  const MapExtent seen = common_part(part(state, aspect), bed);
+  const MapExtent seen = common_part(part(asked, aspect), bed);
   const bool all = seen.x_min == bed.x_min && seen.x_max == bed.x_max && seen.y_min == bed.y_min &&
                    seen.y_max == bed.y_max;
   if (!all) shown.part = seen;
