@@ -3,7 +3,9 @@
 
 #include <hdf5.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <iterator>
 #include <new>
 #include <span>
 #include <string>
@@ -55,8 +57,11 @@ inline void set_library_policy() {
 /// thrown (std::bad_alloc, Error(io_error)). HDF5 does not tell it reliably, least of all when it has no
 /// memory to note it; errno does, since set_library_policy.
 inline void throw_cause(const std::string& name) {
-  if (errno == ENOMEM) throw std::bad_alloc();
-  if (errno == EIO) throw system_error(ExitCode::io_error, "read", name, EIO);
+  constexpr int of_the_system[] = {EIO, ENOSPC, EDQUOT, EMFILE, ENFILE, ESTALE};
+  const int cause = errno;
+  if (cause == ENOMEM) throw std::bad_alloc();
+  if (std::ranges::find(of_the_system, cause) != std::end(of_the_system))
+    throw system_error(ExitCode::io_error, "read", name, cause);
 }
 
 /// A name for a file in memory. HDF5 takes files of equal names for the same one, and looks for a file of

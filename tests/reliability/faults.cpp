@@ -6,29 +6,50 @@
 
 #include <cerrno>
 #include <cstdarg>
+#include <cstdio>
+#include <cstring>
+#include <string_view>
 
 namespace talus::faults {
 namespace {
 
 Fault armed;
 int counted = 0;
+char first_struck[256] = "";
 pid_t counting = 0;  ///< the process whose calls are counted: not its children
 
 }  // namespace
 
 bool counts_here() { return counting == getpid(); }
 
-bool strikes() {
+namespace {
+
+/// Counts a call; whether it is one that the fault is for.
+bool is_next() {
   if (!counts_here()) return false;
   ++counted;
-  if (armed.kind == Kind::none || counted < armed.call || (counted > armed.call && !armed.lasting))
-    return false;
+  return armed.kind != Kind::none && (counted == armed.call || (counted > armed.call && armed.lasting));
+}
+
+bool strike(const char* call, const char* path) {
   if (armed.kind == Kind::kill) _exit(killed);
+  if (first_struck[0] == '\0') std::snprintf(first_struck, sizeof first_struck, "%s %s", call, path);
   errno = armed.errno_value;
   return true;
 }
 
-bool strikes_reading() { return strikes() && armed.errno_value != ENOSPC; }
+}  // namespace
+
+bool strikes(const char* call, const char* path) { return is_next() && strike(call, path); }
+
+bool strikes_opening(const char* path) {
+  constexpr std::string_view nowhere = "/dev/null/";
+  return std::strncmp(path, nowhere.data(), nowhere.size()) != 0 && strikes("open", path);
+}
+
+bool strikes_reading(const char* call) {
+  return is_next() && (armed.kind == Kind::kill || armed.errno_value != ENOSPC) && strike(call, "");
+}
 
 namespace {
 
@@ -43,10 +64,12 @@ void split_write(int file, const void* data, size_t size) {
 void arm(const Fault& fault) {
   armed = fault;
   counted = 0;
+  first_struck[0] = '\0';
   counting = getpid();
 }
 
 int calls() { return counted; }
+const char* struck() { return first_struck; }
 
 }  // namespace talus::faults
 
@@ -63,29 +86,35 @@ int open(const char* path, int flags, ...) {
         va_arg(arguments, mode_t);  // NOLINT(clang-analyzer-valist.Uninitialized): it does not see va_start
     va_end(arguments);
   }
-  return strikes() ? -1 : static_cast<int>(syscall(SYS_openat, AT_FDCWD, path, flags, mode));
+  return talus::faults::strikes_opening(path)
+             ? -1
+             : static_cast<int>(syscall(SYS_openat, AT_FDCWD, path, flags, mode));
 }
 ssize_t read(int file, void* data, size_t size) {
-  return talus::faults::strikes_reading() ? -1 : syscall(SYS_read, file, data, size);
+  return talus::faults::strikes_reading("read") ? -1 : syscall(SYS_read, file, data, size);
 }
 ssize_t write(int file, const void* data, size_t size) {
   talus::faults::split_write(file, data, size);
-  return strikes() ? -1 : syscall(SYS_write, file, data, size);
+  return strikes("write") ? -1 : syscall(SYS_write, file, data, size);
 }
 ssize_t pwrite(int file, const void* data, size_t size, off_t at) {
-  return strikes() ? -1 : syscall(SYS_pwrite64, file, data, size, at);
+  return strikes("pwrite") ? -1 : syscall(SYS_pwrite64, file, data, size, at);
 }
 int lock_file(int file, int operation) noexcept __asm__("flock");  // a struct has that name too
 int lock_file(int file, int operation) noexcept {
-  return strikes() ? -1 : static_cast<int>(syscall(SYS_flock, file, operation));
+  return strikes("flock") ? -1 : static_cast<int>(syscall(SYS_flock, file, operation));
 }
-int fsync(int file) { return strikes() ? -1 : static_cast<int>(syscall(SYS_fsync, file)); }
+int fsync(int file) { return strikes("fsync") ? -1 : static_cast<int>(syscall(SYS_fsync, file)); }
 int rename(const char* from, const char* to) noexcept {
-  return strikes() ? -1 : static_cast<int>(syscall(SYS_rename, from, to));
+  return strikes("rename", to) ? -1 : static_cast<int>(syscall(SYS_rename, from, to));
 }
-int unlink(const char* path) noexcept { return strikes() ? -1 : static_cast<int>(syscall(SYS_unlink, path)); }
+int unlink(const char* path) noexcept {
+  return strikes("unlink", path) ? -1 : static_cast<int>(syscall(SYS_unlink, path));
+}
 int mkdir(const char* path, mode_t mode) noexcept {
-  return strikes() ? -1 : static_cast<int>(syscall(SYS_mkdir, path, mode));
+  return strikes("mkdir", path) ? -1 : static_cast<int>(syscall(SYS_mkdir, path, mode));
 }
-int rmdir(const char* path) noexcept { return strikes() ? -1 : static_cast<int>(syscall(SYS_rmdir, path)); }
+int rmdir(const char* path) noexcept {
+  return strikes("rmdir", path) ? -1 : static_cast<int>(syscall(SYS_rmdir, path));
+}
 }

@@ -24,9 +24,14 @@ bool counts_here();
 /// Calls counted since arm.
 int calls();
 
+/// The first call that was made to fail, with its path where it has one; empty where none was.
+const char* struck();
+
 /// Counts a call; true where it must fail, with errno set.
-bool strikes();
+bool strikes(const char* call, const char* path = "");
+/// The same for a call that opens. What HDF5 opens of a file in memory lies nowhere, and always fails.
+bool strikes_opening(const char* path);
 /// The same for a call that reads: a full disk can be read.
-bool strikes_reading();
+bool strikes_reading(const char* call);
 
 }  // namespace talus::faults

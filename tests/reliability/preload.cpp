@@ -8,7 +8,8 @@
 ///     TALUS_FAULT="clock"          the clock of the day jumps by days at each look, the steady one by an
 ///     hour
 ///                                  at each hundredth
-///     TALUS_FAULT_COUNT=FILE       the numbers of calls and of allocations are written there at the end
+///     TALUS_FAULT_COUNT=FILE       the numbers of calls and of allocations are written there at the end, and
+///                                  the call that failed
 
 #include <fcntl.h>
 #include <sys/syscall.h>
@@ -67,8 +68,9 @@ __attribute__((constructor)) void arm_by_environment() {
 __attribute__((destructor)) void tell_counts() {
   const char* path = getenv("TALUS_FAULT_COUNT");
   if (path == nullptr) return;
-  char text[64];
-  const int size = std::snprintf(text, sizeof text, "%d %ld\n", talus::faults::calls(), allocations.load());
+  char text[320];
+  const int size = std::snprintf(text, sizeof text, "%d %ld %s\n", talus::faults::calls(), allocations.load(),
+                                 talus::faults::struck());
   const long file = syscall(SYS_openat, AT_FDCWD, path, O_WRONLY | O_CREAT | O_TRUNC, 0600);
   syscall(SYS_write, file, text, size);
   syscall(SYS_close, file);
@@ -80,10 +82,12 @@ extern "C" {
 
 // How HDF5 reads a packed file: in many small calls, which the store itself does not make.
 int open64(const char* path, int flags, ...) {
-  return talus::faults::strikes() ? -1 : static_cast<int>(syscall(SYS_openat, AT_FDCWD, path, flags, 0666));
+  return talus::faults::strikes_opening(path)
+             ? -1
+             : static_cast<int>(syscall(SYS_openat, AT_FDCWD, path, flags, 0666));
 }
 ssize_t pread64(int file, void* data, size_t size, off_t at) {
-  return talus::faults::strikes_reading() ? -1 : syscall(SYS_pread64, file, data, size, at);
+  return talus::faults::strikes_reading("read") ? -1 : syscall(SYS_pread64, file, data, size, at);
 }
 
 void* malloc(size_t size) noexcept { return fails() ? nullptr : __libc_malloc(size); }

@@ -90,8 +90,15 @@ Counts count_calls(const std::vector<std::string>& arguments, const TemporaryFol
   const std::string path = folder.path("counts.txt");
   environment.push_back("TALUS_FAULT_COUNT=" + path);
   Counts counts;
-  if (run_talus(arguments, folder.path(), environment).exit_code == 0)
-    std::ifstream(path) >> counts.calls >> counts.allocations;
+  if (run_talus(arguments, folder.path(), environment).exit_code == 0) counts = read_counts(path);
+  return counts;
+}
+
+Counts read_counts(const std::string& path) {
+  Counts counts;
+  std::ifstream file(path);
+  file >> counts.calls >> counts.allocations >> std::ws;
+  std::getline(file, counts.struck);
   return counts;
 }
 

@@ -34,12 +34,16 @@ int committed_frames(const std::string& run);
 /// The environment in which a fault strikes (preload.cpp).
 std::vector<std::string> with_fault(const std::string& fault);
 
-/// Calls to the system, and allocations, of a command without a fault.
+/// Calls to the system, and allocations, of a command.
 struct Counts {
   int calls = 0;
   int allocations = 0;
+  std::string struck;  ///< the call that a fault made fail, and its path; empty without one
 };
+/// Of one without a fault.
 Counts count_calls(const std::vector<std::string>& arguments, const TemporaryFolder& folder);
+/// From the file that TALUS_FAULT_COUNT named.
+Counts read_counts(const std::string& path);
 
 /// A number in 0 ... bound - 1 from a sequence that is the same each time.
 class Dice {
