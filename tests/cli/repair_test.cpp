@@ -21,15 +21,7 @@ class Repair : public testing::Test {
  protected:
   Outcome talus(const std::vector<std::string>& arguments) { return run_talus(arguments, folder_.path()); }
 
-  static Scenario bed() {
-    Scenario scenario = small_bed();
-    scenario.tilt.rate = 20.0;
-    scenario.tilt.step = 0.02;
-    scenario.tilt.end_angle = 2.0;
-    scenario.output.frame_every = 0.5;
-    scenario.output.observable_every = 0.2;
-    return scenario;
-  }
+  static Scenario bed() { return small_tilted_bed(2.0); }
 
   /// A run of 5 frames, to its end or left after the third.
   void compute(const std::string& name, bool to_its_end) {

@@ -9,21 +9,15 @@
 #include "session/step_problem.h"
 #include "solver/local_solvers.h"
 #include "solver/solve.h"
+#include "support/small_bed.h"
 
 namespace talus::hostile {
 namespace {
 
 Scenario small_bed() {
-  Scenario scenario;
+  Scenario scenario = test::small_tilted_bed(1.0);
   scenario.bed.boundary = BedBoundary::walls;
-  scenario.bed.length = 10.0;
   scenario.bed.depth = 2.0;
-  scenario.deposition.rest_velocity = 0.1;
-  scenario.tilt.rate = 20.0;
-  scenario.tilt.step = 0.02;
-  scenario.tilt.end_angle = 1.0;
-  scenario.output.frame_every = 0.5;
-  scenario.output.observable_every = 0.2;
   return scenario;
 }
 

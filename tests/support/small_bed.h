@@ -14,4 +14,15 @@ inline Scenario small_bed() {
   return scenario;
 }
 
+/// The same, tilted to `end_angle` (deg) by 0.4 deg a step.
+inline Scenario small_tilted_bed(double end_angle) {
+  Scenario scenario = small_bed();
+  scenario.tilt.rate = 20.0;
+  scenario.tilt.step = 0.02;
+  scenario.tilt.end_angle = end_angle;
+  scenario.output.frame_every = 0.5;
+  scenario.output.observable_every = 0.2;
+  return scenario;
+}
+
 }  // namespace talus::test

@@ -12,13 +12,7 @@
 namespace talus {
 namespace {
 
-Scenario small_bed() {
-  Scenario scenario = test::small_bed();
-  scenario.tilt.rate = 20.0;
-  scenario.tilt.step = 0.02;
-  scenario.tilt.end_angle = 0.2;
-  return scenario;
-}
+Scenario small_bed() { return test::small_tilted_bed(0.2); }
 
 Session run_to_end(const Scenario& scenario) {
   Session session(scenario);

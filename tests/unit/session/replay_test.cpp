@@ -17,15 +17,7 @@
 namespace talus {
 namespace {
 
-Scenario small_bed() {
-  Scenario scenario = test::small_bed();
-  scenario.tilt.rate = 20.0;
-  scenario.tilt.step = 0.02;
-  scenario.tilt.end_angle = 1.0;
-  scenario.output.frame_every = 0.5;
-  scenario.output.observable_every = 0.2;
-  return scenario;
-}
+Scenario small_bed() { return test::small_tilted_bed(1.0); }
 
 /// Does what a user might, at these steps: in the deposition, twice at one step, and in the tilt.
 void meddle(Session& session, std::int64_t step, std::int64_t tilt_began) {

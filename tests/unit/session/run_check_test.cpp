@@ -17,11 +17,7 @@ namespace talus {
 namespace {
 
 Scenario small_bed() {
-  Scenario scenario = test::small_bed();
-  scenario.tilt.rate = 20.0;
-  scenario.tilt.step = 0.02;
-  scenario.tilt.end_angle = 1.0;
-  scenario.output.frame_every = 0.5;
+  Scenario scenario = test::small_tilted_bed(1.0);
   scenario.output.observable_every = 0.1;
   return scenario;
 }

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "io/run_file.h"
+#include "session/run_header.h"
 #include "support/temporary_folder.h"
 
 namespace talus {
@@ -18,9 +19,7 @@ const char* const tiny_bed =
 std::uint64_t carried_through(const std::string& path, const RunControl& control) {
   const Scenario scenario = parse_scenario(tiny_bed, "tiny.toml");
   Session session(scenario);
-  RunHeader header;
-  header.statics = run_statics(scenario, session.world());
-  header.scenario_resolved = resolved_toml(scenario);
+  const RunHeader header = run_header(session, {});
   RunStore store = RunStore::create(path, header, false);
   EXPECT_EQ(run_to_end(session, store, control), RunEnd::complete);
   return state_hash(session.world());
@@ -65,9 +64,7 @@ TEST(RunToEnd, told_to_stop_while_it_packs_it_stays_a_folder) {
   const std::string path = folder.path("run.h5");
   const Scenario scenario = parse_scenario(tiny_bed, "tiny.toml");
   Session session(scenario);
-  RunHeader header;
-  header.statics = run_statics(scenario, session.world());
-  header.scenario_resolved = resolved_toml(scenario);
+  RunHeader header = run_header(session, {});
   {
     RunStore store = RunStore::create(path, header, false);
     volatile std::sig_atomic_t stop = 0;

@@ -25,12 +25,8 @@ namespace {
 
 /// A bed of 30 grains that is tilted to 2 deg in some hundred steps.
 Scenario small_bed() {
-  Scenario scenario = test::small_bed();
-  scenario.tilt.rate = 20.0;
-  scenario.tilt.step = 0.02;
-  scenario.tilt.end_angle = 2.0;
+  Scenario scenario = test::small_tilted_bed(2.0);
   scenario.output.frame_every = 1.0;
-  scenario.output.observable_every = 0.2;
   return scenario;
 }
 
