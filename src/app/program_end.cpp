@@ -89,6 +89,7 @@ int report_exception() {
   } catch (const std::bad_alloc&) {
     return report_out_of_memory();
   } catch (const std::system_error& error) {
+    if (error.code() == std::errc::not_enough_memory) return report_out_of_memory();
     const bool no_thread = error.code() == std::errc::resource_unavailable_try_again;
     return report(no_thread ? ExitCode::out_of_memory : ExitCode::internal,
                   no_thread ? "the system gives no more threads: give --threads 1" : error.what());

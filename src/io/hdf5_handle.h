@@ -49,6 +49,7 @@ class Handle {
 inline void set_library_policy() {
   errno = 0;
   H5dont_atexit();
+  if (H5open() < 0 || errno == ENOMEM) throw std::bad_alloc();  // it can begin, and lack a part
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   H5PLset_loading_state(0);
 }

@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <limits>
 #include <map>
+#include <new>
 #include <span>
 
 #include "core/descriptor.h"
@@ -182,9 +183,21 @@ std::string syntax_message(const toml::parse_error& error) {
          (bare_word ? "; expected a number, true, false, or a string in quotes" : "");
 }
 
+/// The TOML library takes a number for none where the memory to read it is missing; errno tells.
+template <typename... Arguments>
+toml::table parse_toml(const Arguments&... text) {
+  errno = 0;
+  try {
+    return toml::parse(text...);
+  } catch (const toml::parse_error&) {
+    if (errno == ENOMEM) throw std::bad_alloc();
+    throw;
+  }
+}
+
 toml::table parse_text(const std::string& text, const std::string& name) {
   try {
-    return toml::parse(std::string_view(text), std::string_view(name));
+    return parse_toml(std::string_view(text), std::string_view(name));
   } catch (const toml::parse_error& error) {
     refuse(place_in_file(name, error.source().begin), syntax_message(error));
   }
@@ -212,7 +225,7 @@ std::uint32_t line_too_deep(std::string_view text) {
 std::optional<toml::table> parse_setting(const std::string& value) {
   if (line_too_deep(value) != 0) return std::nullopt;
   try {
-    toml::table table = toml::parse("value = " + value);
+    toml::table table = parse_toml("value = " + value);
     if (table.size() == 1) return table;
   } catch (const toml::parse_error&) {
     if (is_bare_word(value)) return toml::table{{"value", value}};

@@ -8,6 +8,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <exception>
+#include <filesystem>
 #include <new>
 #include <stdexcept>
 #include <system_error>
@@ -36,6 +37,8 @@ TEST(ProgramEnd, of_an_exception_is_its_exit_code) {
   EXPECT_EQ(code_of(Error(ExitCode::missing_input, "no such file")), 66);
   EXPECT_EQ(code_of(std::bad_alloc()), 71);
   EXPECT_EQ(code_of(std::system_error(std::make_error_code(std::errc::resource_unavailable_try_again))), 71);
+  EXPECT_EQ(
+      code_of(std::filesystem::filesystem_error("", std::make_error_code(std::errc::not_enough_memory))), 71);
   EXPECT_EQ(code_of(std::runtime_error("a defect")), 70);
 }
 
