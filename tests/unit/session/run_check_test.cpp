@@ -66,33 +66,52 @@ TEST(RunCheck, a_run_is_whole) {
   EXPECT_LT(check.largest_moment_error, 1e-5);
 }
 
-TEST(RunCheck, finds_what_cannot_be) {
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  const std::pair<std::function<void(Segment&)>, const char*> changes[] = {
-      {[](Segment& s) { s.frames[1].contacts.fn[3] *= -1.0; }, "frame 1: 1 contacts pull"},
-      {[](Segment& s) { s.frames[1].contacts.ft[3] = 2.0 * s.frames[1].contacts.fn[3]; },
-       "Coulomb's law allows 1"},
-      {[](Segment& s) { s.frames[0].contacts.fn[5] *= 1.5; },
-       "frame 0: internal_moment is not that of the contacts"},
-      {[](Segment& s) { s.frames[2].internal_moment[4].xy += 0.5; }, "frame 2: internal_moment"},
-      {[](Segment& s) { s.frames[0].tilt = 0.1; }, "forces and weight differ by"},
-      {[](Segment& s) {
-         s.frames[1].x[2] = s.frames[1].x[9];
-         s.frames[1].y[2] = s.frames[1].y[9];
-       },
-       "frame 1: "},
-      {[](Segment& s) { s.frames[1].x[2] = 2.0; }, "outside the period"},
-      {[](Segment& s) { s.frames[2].step = s.frames[1].step; }, "/frames/step: frame 2"},
-      {[](Segment& s) { at(s.steps[7], StepField::step) = 9.0; }, "/steps/step: row 7"},
-      {[](Segment& s) { s.steps.pop_back(); }, "/checkpoint/step"},
-      {[nan](Segment& s) { at(s.observables[2], Observable::kinetic_energy) = nan; },
-       "/observables/kinetic_energy: row 2"},
-      {[](Segment& s) { std::swap(s.observables[1], s.observables[2]); }, "/observables/step: row"}};
-  for (const auto& [change, fault] : changes) {
-    const std::string found = faults_of(check_with(change));
-    EXPECT_NE(found.find(fault), std::string::npos) << "expected: " << fault << "\nfound: " << found;
-  }
+struct Damage {
+  const char* name;
+  std::function<void(Segment&)> done;
+  const char* fault;  ///< in what is found
+};
+
+const Damage damages[] = {
+    {"a_contact_that_pulls", [](Segment& s) { s.frames[1].contacts.fn[3] *= -1.0; },
+     "frame 1: 1 contacts pull"},
+    {"too_much_friction", [](Segment& s) { s.frames[1].contacts.ft[3] = 2.0 * s.frames[1].contacts.fn[3]; },
+     "Coulomb's law allows 1"},
+    {"another_force", [](Segment& s) { s.frames[0].contacts.fn[5] *= 1.5; },
+     "frame 0: internal_moment is not that of the contacts"},
+    {"another_moment", [](Segment& s) { s.frames[2].internal_moment[4].xy += 0.5; },
+     "frame 2: internal_moment"},
+    {"another_tilt", [](Segment& s) { s.frames[0].tilt = 0.1; }, "forces and weight differ by"},
+    {"two_grains_in_one_place",
+     [](Segment& s) {
+       s.frames[1].x[2] = s.frames[1].x[9];
+       s.frames[1].y[2] = s.frames[1].y[9];
+     },
+     "frame 1: "},
+    {"a_grain_outside", [](Segment& s) { s.frames[1].x[2] = 2.0; }, "outside the period"},
+    {"frames_of_one_step", [](Segment& s) { s.frames[2].step = s.frames[1].step; }, "/frames/step: frame 2"},
+    {"another_number_of_a_step", [](Segment& s) { at(s.steps[7], StepField::step) = 9.0; },
+     "/steps/step: row 7"},
+    {"a_step_less", [](Segment& s) { s.steps.pop_back(); }, "/checkpoint/step"},
+    {"no_number",
+     [](Segment& s) {
+       at(s.observables[2], Observable::kinetic_energy) = std::numeric_limits<double>::quiet_NaN();
+     },
+     "/observables/kinetic_energy: row 2"},
+    {"rows_out_of_order", [](Segment& s) { std::swap(s.observables[1], s.observables[2]); },
+     "/observables/step: row"},
+};
+
+class RunCheckFinds : public testing::TestWithParam<Damage> {};
+
+TEST_P(RunCheckFinds, what_cannot_be) {
+  const std::string found = faults_of(check_with(GetParam().done));
+  EXPECT_NE(found.find(GetParam().fault), std::string::npos)
+      << "expected: " << GetParam().fault << "\nfound: " << found;
 }
+
+INSTANTIATE_TEST_SUITE_P(all, RunCheckFinds, testing::ValuesIn(damages),
+                         [](const auto& damage) { return damage.param.name; });
 
 TEST(RunCheck, does_not_tell_more_than_can_be_read) {
   const RunCheck check = check_with([](Segment& s) {
