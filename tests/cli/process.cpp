@@ -51,8 +51,10 @@ Outcome run_talus(const std::vector<std::string>& arguments, const std::filesyst
 }
 
 pid_t start_talus(const std::vector<std::string>& arguments, const std::filesystem::path& folder) {
-  return start(arguments, folder, {}, "/dev/null", "/dev/null");
+  return start(arguments, folder, {}, "/dev/null", (folder / ".stderr").string());
 }
+
+std::string errors_in(const std::filesystem::path& folder) { return content((folder / ".stderr").string()); }
 
 int wait_for(pid_t process) {
   int status = 0;

@@ -24,6 +24,8 @@ Outcome run_talus(const std::vector<std::string>& arguments, const std::filesyst
 
 /// Starts it with its output thrown away; the caller sends signals and collects it with wait_for.
 pid_t start_talus(const std::vector<std::string>& arguments, const std::filesystem::path& folder);
+/// What the last one that was started in a folder has said on stderr.
+std::string errors_in(const std::filesystem::path& folder);
 int wait_for(pid_t process);
 
 /// Writes a file in the folder and returns its name.

@@ -30,7 +30,9 @@ pid_t start_server(std::string& display) {
     const int nothing = open("/dev/null", O_RDWR);
     dup2(nothing, STDOUT_FILENO);
     dup2(nothing, STDERR_FILENO);
-    execlp("Xvfb", "Xvfb", "-displayfd", "3", "-screen", "0", "1500x1000x24", "-nolisten", "tcp", nullptr);
+    // Without -noreset it begins anew when its only client leaves, and refuses who comes meanwhile.
+    execlp("Xvfb", "Xvfb", "-displayfd", "3", "-screen", "0", "1500x1000x24", "-nolisten", "tcp", "-noreset",
+           nullptr);
     _exit(127);
   }
   close(ends[1]);

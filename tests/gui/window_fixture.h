@@ -38,7 +38,7 @@ class Window : public testing::Test {
     for (const char* word : {"--places", "places", "--size", "1200x800"}) arguments.emplace_back(word);
     arguments.insert(arguments.begin(), "view");
     process_ = start_talus(arguments, folder_.path());
-    ASSERT_TRUE(desktop_->wait_for_window("– Talus")) << "no window";
+    ASSERT_TRUE(desktop_->wait_for_window("– Talus")) << errors_in(folder_.path());
   }
   int end() {
     const int code = wait_for(process_);
