@@ -74,12 +74,15 @@ Bytes message_of(ExitCode code, const std::string& text) {
 }
 
 Bytes outcome_of(const std::string& path, const std::function<Bytes()>& work) {
+  const auto too_much = [&path] {
+    return message_of(ExitCode::bad_data, path + ": asks for more memory than a file of its size can need");
+  };
   try {
     return message_of(ExitCode::done, work());
   } catch (const Error& error) {
-    return message_of(error.code(), error.what());
+    return error.code() == ExitCode::out_of_memory ? too_much() : message_of(error.code(), error.what());
   } catch (const std::bad_alloc&) {
-    return message_of(ExitCode::bad_data, path + ": asks for more memory than a file of its size can need");
+    return too_much();
   }
 }
 

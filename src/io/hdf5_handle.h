@@ -54,13 +54,16 @@ inline void set_library_policy() {
   H5PLset_loading_state(0);
 }
 
-/// To be asked after a call of HDF5 on the file `name` that failed: where the system is the cause, that is
-/// thrown (std::bad_alloc, Error(io_error)). HDF5 does not tell it reliably, least of all when it has no
-/// memory to note it; errno does, since set_library_policy.
+/// To be asked after a call of HDF5 that failed on `name`, a file or a data set of it: where the system is
+/// the cause, that is thrown (Error(out_of_memory), Error(io_error)). HDF5 does not tell it reliably, least
+/// of all when it has no memory to note it; errno does, since set_library_policy. A malformed file can ask
+/// for more memory than there is.
 inline void throw_cause(const std::string& name) {
   constexpr int of_the_system[] = {EIO, ENOSPC, EDQUOT, EMFILE, ENFILE, ESTALE};
   const int cause = errno;
-  if (cause == ENOMEM) throw std::bad_alloc();
+  if (cause == ENOMEM)
+    throw Error(ExitCode::out_of_memory,
+                name + ": out of memory while it was read; where there is enough, the file is malformed");
   if (std::ranges::find(of_the_system, cause) != std::end(of_the_system))
     throw system_error(ExitCode::io_error, "read", name, cause);
 }

@@ -56,8 +56,9 @@ Reader Reader::from_file(const std::string& path) {
 }
 
 void Reader::refuse(const std::string& path, const std::string& problem) const {
-  throw_cause(name_);
-  throw Error(ExitCode::bad_data, name_ + ": data set " + path + " " + problem);
+  const std::string data_set = name_ + ": data set " + path;
+  throw_cause(data_set);
+  throw Error(ExitCode::bad_data, data_set + " " + problem);
 }
 
 void Reader::check_shape(const std::string& path, const std::vector<hsize_t>& dims) {
