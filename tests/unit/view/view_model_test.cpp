@@ -149,12 +149,14 @@ TEST_F(ViewOfRun, takes_curves_from_a_stored_analysis) {
 }
 
 TEST_F(ViewOfRun, takes_no_lengths_that_end_elsewhere) {
+  const double theta_c = model_->theta_c();
+  model_.reset();
   const RunFile run = RunFile::open(path_);
   AnalysisParameters parameters;
   parameters.lc_factor = 2.0;
   const Analysis analysis = analyse_run(run, parameters, 1, {});
-  EXPECT_FALSE(find_threshold(analysis, {model_->theta_c(), 1.0, false}).has_value());
-  EXPECT_EQ(find_threshold(analysis, {model_->theta_c(), 2.0, false}), 1u);
+  EXPECT_FALSE(find_threshold(analysis, {theta_c, 1.0, false}).has_value());
+  EXPECT_EQ(find_threshold(analysis, {theta_c, 2.0, false}), 1u);
 }
 
 TEST_F(ViewOfRun, takes_no_analysis_of_means_over_frames) {
