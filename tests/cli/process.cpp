@@ -4,9 +4,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
+#include <cstdint>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
+#include <thread>
 
 namespace talus::test {
 namespace {
@@ -60,6 +63,25 @@ int wait_for(pid_t process) {
   int status = 0;
   waitpid(process, &status, 0);
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+bool has_ended(pid_t process) {
+  siginfo_t info = {};
+  return waitid(P_PID, static_cast<id_t>(process), &info, WEXITED | WNOHANG | WNOWAIT) != 0 ||
+         info.si_pid == process;
+}
+
+bool wait_until_it_catches(pid_t process, int signal) {
+  const std::string status = "/proc/" + std::to_string(process) + "/status", mark = "SigCgt:";
+  for (int wait = 0; wait < 6000 && !has_ended(process); ++wait) {
+    const std::string text = content(status);
+    const std::size_t at = text.find(mark);
+    const std::uint64_t caught =
+        at == std::string::npos ? 0 : std::strtoull(text.c_str() + at + mark.size(), nullptr, 16);
+    if ((caught >> (signal - 1) & 1) != 0) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  return false;
 }
 
 std::string write_file(const TemporaryFolder& folder, const std::string& name, const std::string& text) {

@@ -27,6 +27,10 @@ pid_t start_talus(const std::vector<std::string>& arguments, const std::filesyst
 /// What the last one that was started in a folder has said on stderr.
 std::string errors_in(const std::filesystem::path& folder);
 int wait_for(pid_t process);
+/// Whether wait_for would return at once.
+bool has_ended(pid_t process);
+/// Waits until it has a handler for the signal, for half a minute at most.
+bool wait_until_it_catches(pid_t process, int signal);
 
 /// Writes a file in the folder and returns its name.
 std::string write_file(const TemporaryFolder& folder, const std::string& name, const std::string& text);

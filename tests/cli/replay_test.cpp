@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <csignal>
-#include <thread>
 
 #include "core/trigonometry.h"
 #include "io/run_file.h"
@@ -123,7 +122,7 @@ TEST_F(Replay, stops_when_asked) {
   checkpoint.world.step = 1'000'000'000;
   store.commit(session.segment(), checkpoint);
   const pid_t process = start_talus({"replay", "bed.h5"}, folder_.path());
-  std::this_thread::sleep_for(std::chrono::milliseconds(150));
+  EXPECT_TRUE(wait_until_it_catches(process, SIGINT));
   kill(process, SIGINT);
   EXPECT_EQ(wait_for(process), 75);
 }
