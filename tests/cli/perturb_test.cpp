@@ -81,9 +81,9 @@ TEST_P(InterruptedPerturb, goes_on_to_the_same_table) {
   ASSERT_EQ(run_talus(perturb("whole", {"--seed", "1"}), folder.path()).exit_code, 0);
   int stops = 0;
   int code = -1;
-  for (int attempt = 0; attempt < 100 && code != 0; ++attempt) {
+  for (int attempt = 0; attempt < 40 && code != 0; ++attempt) {
     const pid_t process = start_talus(perturb("parts", {"--seed", "1"}), folder.path());
-    std::this_thread::sleep_for(std::chrono::milliseconds(200 + 50 * attempt));
+    pause_before(attempt, 200);
     kill(process, GetParam());
     code = wait_for(process);
     // A signal may come before the program waits for it.

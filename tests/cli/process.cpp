@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <fstream>
@@ -82,6 +83,11 @@ bool wait_until_it_catches(pid_t process, int signal) {
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
   return false;
+}
+
+void pause_before(int attempt, double milliseconds) {
+  std::this_thread::sleep_for(
+      std::chrono::duration<double, std::milli>(milliseconds * std::pow(1.25, attempt)));
 }
 
 std::string write_file(const TemporaryFolder& folder, const std::string& name, const std::string& text) {

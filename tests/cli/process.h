@@ -31,6 +31,9 @@ int wait_for(pid_t process);
 bool has_ended(pid_t process);
 /// Waits until it has a handler for the signal, for half a minute at most.
 bool wait_until_it_catches(pid_t process, int signal);
+/// Sleeps for that long before attempt 0 to stop something, and a quarter longer before each one more: it
+/// comes to its end in few attempts, however slow the machine.
+void pause_before(int attempt, double milliseconds);
 
 /// Writes a file in the folder and returns its name.
 std::string write_file(const TemporaryFolder& folder, const std::string& name, const std::string& text);

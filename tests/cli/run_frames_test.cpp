@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <csignal>
-#include <thread>
 
 #include "pictures.h"
 #include "process.h"
@@ -65,9 +64,9 @@ TEST_F(RunFrames, do_not_change_the_run) {
 TEST_F(RunFrames, of_an_interrupted_run_are_those_of_a_whole_one) {
   ASSERT_EQ(talus(run("whole.h5", "whole")).exit_code, 0);
   int stops = 0;
-  for (int attempt = 0; attempt < 200; ++attempt) {
+  for (int attempt = 0; attempt < 40; ++attempt) {
     const pid_t process = start_talus(run("parts.h5", "parts", {"--resume"}), folder_.path());
-    std::this_thread::sleep_for(std::chrono::milliseconds(150 + 40 * attempt));
+    pause_before(attempt, 150);
     kill(process, attempt % 2 == 0 ? SIGTERM : SIGKILL);
     const int code = wait_for(process);
     ASSERT_TRUE(code == 0 || code == 75 || code == -1) << code;

@@ -111,9 +111,9 @@ TEST_P(Interrupted, run_resumes_to_the_same_bits) {
   write_file(folder, "bed.toml", small_bed);
   ASSERT_EQ(run_talus({"run", "bed.toml", "-o", "whole.h5"}, folder.path()).exit_code, 0);
   int stops = 0;
-  for (int attempt = 0; attempt < 200; ++attempt) {
+  for (int attempt = 0; attempt < 40; ++attempt) {
     const pid_t process = start_talus({"run", "bed.toml", "-o", "parts.h5", "--resume"}, folder.path());
-    std::this_thread::sleep_for(std::chrono::milliseconds(60 + 25 * attempt));
+    pause_before(attempt, 60);
     kill(process, GetParam());
     const int code = wait_for(process);
     if (code == 0) break;

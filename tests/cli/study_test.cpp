@@ -92,9 +92,9 @@ TEST_P(InterruptedStudy, goes_on_to_the_same_bits) {
   ASSERT_EQ(run_talus(study_of("whole"), folder.path()).exit_code, 0);
   int stops = 0;
   int code = -1;
-  for (int attempt = 0; attempt < 100 && code != 0; ++attempt) {
+  for (int attempt = 0; attempt < 40 && code != 0; ++attempt) {
     const pid_t process = start_talus(study_of("parts"), folder.path());
-    std::this_thread::sleep_for(std::chrono::milliseconds(50 + 50 * attempt));
+    pause_before(attempt, 50);
     kill(process, GetParam());
     code = wait_for(process);
     // A signal may come before the study waits for it. A run of a killed study may not be gone yet.
