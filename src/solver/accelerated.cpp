@@ -1,6 +1,7 @@
 #include "solver/accelerated.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 namespace talus {
@@ -67,44 +68,49 @@ PassSums add_blocks(const std::vector<PassSums>& blocks) {
 struct Member {
   const ContactProblem& problem;
   AcceleratedWorkspace& w;
+  ThreadTeam* team;  ///< null: alone
   GradientKernels kernels;
   Index first_block, last_block, first_body, last_body;
 
-  Member(const ContactProblem& of, AcceleratedWorkspace& workspace, int member)
-      : problem(of), w(workspace), kernels(gradient_kernels()) {
+  Member(const ContactProblem& of, AcceleratedWorkspace& workspace, ThreadTeam* of_team, int member)
+      : problem(of), w(workspace), team(of_team), kernels(gradient_kernels()) {
     const auto blocks = static_cast<int>(w.sums.size());
-    const int size = w.team->size();
+    const int size = team ? team->size() : 1;
     first_block = part_begin(blocks, member, size);
     last_block = part_begin(blocks, member + 1, size);
     first_body = part_begin(problem.body_count(), member, size);
     last_body = part_begin(problem.body_count(), member + 1, size);
   }
 
+  void wait_for_all() const {
+    if (team) team->wait_for_all();
+  }
+
   /// P0 becomes the guess; returns its residual.
   ExactResidual begin() {
     load_contacts(problem, first_block, last_block, w.linearisation);
-    w.team->wait_for_all();
+    wait_for_all();
     return linearise();
   }
 
   /// P0 becomes the present P; returns its residual.
   ExactResidual renew() {
     absorb_increments(problem, first_block, last_block, w.linearisation);
-    w.team->wait_for_all();
+    wait_for_all();
     return linearise();
   }
 
   /// Velocities due to y, after a renewal.
   void go_on() {
     kernels.bodies(body_pass_arrays(w.linearisation), first_body, last_body);
-    w.team->wait_for_all();
+    wait_for_all();
   }
 
   ExactResidual linearise() {
     sum_exact_velocities(problem, first_body, last_body, w.linearisation);
-    w.team->wait_for_all();
+    wait_for_all();
     linearise_contacts(problem, first_block, last_block, w.linearisation);
-    w.team->wait_for_all();
+    wait_for_all();
     return exact_residual(w.linearisation);
   }
 
@@ -114,10 +120,10 @@ struct Member {
     for (Index block = first_block; block < last_block; ++block)
       kernels.contacts(arrays, block * groups_per_block, std::min(groups, (block + 1) * groups_per_block),
                        static_cast<float>(momentum.step), static_cast<float>(momentum.beta), w.sums[block]);
-    w.team->wait_for_all();
+    wait_for_all();
     const PassSums sums = add_blocks(w.sums);
     kernels.bodies(body_pass_arrays(w.linearisation), first_body, last_body);
-    w.team->wait_for_all();
+    wait_for_all();
     return sums;
   }
 };
@@ -156,8 +162,13 @@ constexpr int blocks_per_thread = 2;
 
 void ensure_team(AcceleratedWorkspace& w, int threads) {
   const int useful = std::max(1, std::min(threads, static_cast<int>(w.sums.size()) / blocks_per_thread));
-  if (!w.team || w.team->size() != useful) w.team = std::make_unique<ThreadTeam>(useful);
+  if (w.team && w.team->size() == useful) return;
+  w.team = std::make_unique<ThreadTeam>(useful);
+  w.choice = {};
 }
+
+/// What a solve costs beside its passes, in passes.
+constexpr int passes_for_the_rest = 11;
 
 }  // namespace
 
@@ -167,11 +178,21 @@ AcceleratedOutcome solve_accelerated(const ContactProblem& problem, double toler
   prepare(problem, solution, workspace.linearisation);
   workspace.sums.resize(workspace.linearisation.sums.size());
   ensure_team(workspace, threads);
+  const auto begin = std::chrono::steady_clock::now();
   AcceleratedOutcome outcome;
-  workspace.team->run([&](int member) {
-    const AcceleratedOutcome mine = iterate({problem, workspace, member}, tolerance, max_iterations);
+  const auto take_part = [&](ThreadTeam* team, int member) {
+    const AcceleratedOutcome mine = iterate({problem, workspace, team, member}, tolerance, max_iterations);
     if (member == 0) outcome = mine;
-  });
+  };
+  ThreadTeam& team = *workspace.team;
+  if (workspace.choice.in_team())
+    team.run([&](int member) { take_part(&team, member); });
+  else
+    take_part(nullptr, 0);
+  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
+  if (team.size() > 1)
+    workspace.choice.add(taken.count(), static_cast<double>(problem.contact_count()) *
+                                            (outcome.iterations + passes_for_the_rest));
   unload_solution(problem, workspace.linearisation, solution);
   return outcome;
 }

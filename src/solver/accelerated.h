@@ -7,6 +7,7 @@
 #include "solver/linearisation.h"
 #include "solver/problem.h"
 #include "solver/residual.h"
+#include "solver/team_choice.h"
 #include "solver/thread_team.h"
 
 namespace talus {
@@ -16,6 +17,7 @@ struct AcceleratedWorkspace {
   Linearisation linearisation;
   std::vector<PassSums> sums;  ///< one for each block of contacts
   std::unique_ptr<ThreadTeam> team;
+  TeamChoice choice;  ///< between the team and its first member alone
 };
 
 struct AcceleratedOutcome {

@@ -72,6 +72,7 @@ RockedRun rock(const RockedBed& bed, std::int64_t steps, int threads,
   Contacts before;
   for (std::int64_t k = 0; k < steps; ++k) {
     world.tilt = radians(tilt_after(k));
+    workspace.solver.accelerated.choice = {};  // all threads, whether they are worth it or not
     step(world, settings, workspace);
     run.changes += !same_pairs(world.contacts, before);
     before = world.contacts;

@@ -1,0 +1,75 @@
+/// Windows of work whose costs are made up.
+
+#include "solver/team_choice.h"
+
+#include <gtest/gtest.h>
+
+namespace talus {
+namespace {
+
+constexpr double window = 0.05;  // s: more than one needs
+
+struct Share {
+  int team = 0, alone = 0;
+};
+
+/// How many windows are spent each way where a unit of work costs so much, s.
+Share work(TeamChoice& choice, int windows, double in_team, double alone) {
+  Share share;
+  for (int k = 0; k < windows; ++k) {
+    ++(choice.in_team() ? share.team : share.alone);
+    choice.add(window, window / (choice.in_team() ? in_team : alone));
+  }
+  return share;
+}
+
+TEST(TeamChoice, tries_alone_once_where_the_team_is_faster) {
+  TeamChoice choice;
+  EXPECT_TRUE(choice.in_team());
+  EXPECT_EQ(work(choice, 1000, 1.0, 1.8).alone, 1);
+  EXPECT_TRUE(choice.in_team());
+}
+
+TEST(TeamChoice, goes_alone_where_members_wait) {
+  TeamChoice choice;
+  EXPECT_LE(work(choice, 1000, 50.0, 2.0).team, 20);
+  EXPECT_FALSE(choice.in_team());
+}
+
+TEST(TeamChoice, follows_what_changes) {
+  TeamChoice choice;
+  work(choice, 100, 1.0, 1.8);
+  EXPECT_LE(work(choice, 300, 20.0, 2.5).team, 10) << "it gets crowded";
+  EXPECT_LE(work(choice, 300, 1.0, 1.8).alone, 65) << "and quiet again";
+  EXPECT_TRUE(choice.in_team());
+}
+
+/// Slower than one thread on a quiet machine, and still the faster of the two.
+TEST(TeamChoice, seldom_tries_what_did_not_pay) {
+  TeamChoice choice;
+  work(choice, 100, 1.0, 1.8);
+  EXPECT_LE(work(choice, 1000, 3.0, 4.0).alone, 20);
+  EXPECT_TRUE(choice.in_team());
+}
+
+TEST(TeamChoice, waits_for_a_window_of_work) {
+  TeamChoice choice;
+  for (int k = 0; k < 19; ++k) choice.add(1e-3, 1.0);
+  EXPECT_TRUE(choice.in_team());
+  choice.add(1e-3, 1.0);
+  choice.add(1e-3, 1.0);
+  EXPECT_FALSE(choice.in_team()) << "on trial";
+}
+
+TEST(TeamChoice, judges_by_nothing_less_than_time_and_work) {
+  TeamChoice without_time, without_work;
+  for (int k = 0; k < 100; ++k) {
+    without_time.add(0.0, 1.0);
+    without_work.add(1.0, 0.0);
+  }
+  EXPECT_TRUE(without_time.in_team());
+  EXPECT_TRUE(without_work.in_team());
+}
+
+}  // namespace
+}  // namespace talus
