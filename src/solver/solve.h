@@ -26,8 +26,8 @@ struct SolverReport {
   bool converged = false;
 };
 
-/// Memory that a solver keeps between steps so that a steady step allocates nothing. Holds no state: the
-/// result of a solve does not depend on what was solved before.
+/// Memory that a solver keeps between steps so that a steady step allocates nothing. The result
+/// of a solve does not depend on what was solved before.
 struct SolverWorkspace {
   AcceleratedWorkspace accelerated;
 };

@@ -5,22 +5,47 @@
 namespace talus {
 namespace {
 
-// Large enough that three threads have work: a solver may leave threads idle on small problems.
-TEST(Threads, any_number_of_them_gives_the_same_bits) {
+struct FallenBed {
   StepSettings settings = test::bed_step(1e-4);
-  const World start = test::fallen_bed(test::bed_plan(true, 3000, 60, 5), settings, 160);
-  ASSERT_GT(start.contacts.count(), 3200);
-  settings.solver.max_iterations = 100;
-  World alone = start;
+  // Large enough that three threads have work: a solver may leave threads idle on small problems.
+  World world = test::fallen_bed(test::bed_plan(true, 3000, 60, 5), settings, 160);
+
+  FallenBed() { settings.solver.max_iterations = 100; }
+};
+
+TEST(Threads, any_number_of_them_gives_the_same_bits) {
+  FallenBed bed;
+  ASSERT_GT(bed.world.contacts.count(), 3200);
+  World alone = bed.world;
   StepWorkspace workspace;
-  for (int k = 0; k < 5; ++k) step(alone, settings, workspace);
+  for (int k = 0; k < 5; ++k) step(alone, bed.settings, workspace);
   for (int threads : {2, 3}) {
-    settings.solver.threads = threads;
-    World together = start;
+    bed.settings.solver.threads = threads;
+    World together = bed.world;
     StepWorkspace fresh;
-    for (int k = 0; k < 5; ++k) step(together, settings, fresh);
+    for (int k = 0; k < 5; ++k) {
+      fresh.solver.accelerated.choice = {};  // all of them, whether they are worth it or not
+      step(together, bed.settings, fresh);
+    }
     EXPECT_EQ(state_hash(together), state_hash(alone)) << threads << " threads";
   }
+}
+
+TEST(Threads, one_that_goes_on_alone_gives_the_same_bits) {
+  FallenBed bed;
+  World alone = bed.world, left = bed.world;
+  StepWorkspace workspace, of_team;
+  for (int k = 0; k < 4; ++k) step(alone, bed.settings, workspace);
+  bed.settings.solver.threads = 2;
+  TeamChoice& choice = of_team.solver.accelerated.choice;
+  for (int k = 0; k < 4; ++k) {
+    step(left, bed.settings, of_team);
+    choice = {};
+    if (k == 1) choice.add(1.0, 1.0);  // the team was slow: alone is tried
+    EXPECT_EQ(choice.in_team(), k != 1);
+  }
+  EXPECT_EQ(of_team.solver.accelerated.team->size(), 2);
+  EXPECT_EQ(state_hash(left), state_hash(alone));
 }
 
 }  // namespace
