@@ -67,7 +67,7 @@ ReportTable beds_table(const ReproductionResult& result) {
   ReportTable table{{{"bed"},
                      {"H", true},
                      {"grains", true},
-                     {"deposition.friction", true},
+                     {"preparation"},
                      {"seeds complete", true},
                      {"theta_c [deg]", true},
                      {"processor time", true}},
@@ -81,7 +81,7 @@ ReportTable beds_table(const ReproductionResult& result) {
         {{bed_text(bed)},
          {short_text(bed.scenario.bed.depth) + " D"},
          {std::to_string(estimate(bed.scenario).grains)},
-         {short_text(bed.scenario.deposition.friction)},
+         {preparation_text(bed)},
          {std::to_string(outcomes.size()) + " of " + std::to_string(result.plan.seeds.size())},
          {spread_text(spread_of(result, b, PaperQuantity::theta_c, 0))},
          {duration_text(seconds)}});
@@ -125,8 +125,8 @@ std::vector<ReportBlock> run_blocks(const ReproductionResult& result) {
       "steps "
       "of 0.001 deg until the slope fails. Seeds: " +
       seeds +
-      ". The paper does not say how grains rubbed while its beds were deposited, so the periodic bed is "
-      "prepared in three ways: `deposition.friction` = 0.5 as in the rest of the run, 0.15 and 0."});
+      ". The paper says no more of its deposition than that it is random, so the periodic bed is prepared in "
+      "three ways: poured, set down geometrically, and as a collapse (`deposition.method`)."});
   blocks.emplace_back(beds_table(result));
   blocks.emplace_back(ReportParagraph{versions_text(result)});
   blocks.emplace_back(ReportParagraph{"The same by hand, in the folder of this report, for each seed N:"});
@@ -260,7 +260,17 @@ std::string agreement_count(const ReproductionResult& result, std::size_t bed,
 }  // namespace
 
 std::string preparation_text(const ReproducedBed& bed) {
-  return "deposition friction " + short_text(bed.scenario.deposition.friction);
+  switch (bed.scenario.deposition.method) {
+    case DepositionMethod::pour:
+      return "poured grains";
+    case DepositionMethod::geometric:
+      return "grains set down geometrically";
+    case DepositionMethod::collapse:
+      return "grains that collapse";
+    case DepositionMethod::file:
+      break;
+  }
+  return "grains placed by a file";
 }
 
 std::string spread_text(const Spread& spread) {

@@ -27,7 +27,7 @@ std::vector<std::string> threshold_conclusion(const ReproductionPlan& plan,
 /// "a, b and c".
 std::string listed(const std::vector<std::string>& words);
 
-/// "deposition friction 0.15".
+/// "poured grains".
 std::string preparation_text(const ReproducedBed& bed);
 
 /// "0.815 ± 0.012"; "<= 0.00" where no more is known; "-" where there is none; " (1 of 2)" where runs have

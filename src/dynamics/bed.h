@@ -1,8 +1,10 @@
 #pragma once
-/// The bed before it falls: a loose random arrangement above its floor.
+/// What a bed is made of: the sizes of its grains, its floor, what bounds it. How the grains get into it is a
+/// file of its own for each method: collapse.h, pour.h, geometric.h.
 
 #include <cstdint>
 
+#include "core/random.h"
 #include "core/world.h"
 
 namespace talus {
@@ -16,16 +18,23 @@ struct BedPlan {
   Index grain_count = 8000;
   bool periodic = true;
   bool rough_floor = true;  ///< glued grains of the mean diameter, their tops at y = 0; else the plane y = 0
-  double initial_solid_fraction = 0.5;  ///< of the loose arrangement
   std::uint64_t seed = 1;
 };
 
-/// Largest solid fraction that the loose arrangement can have for a size ratio: one grain in each square cell
-/// as wide as the largest grain.
-double largest_initial_solid_fraction(double size_ratio);
+/// Diameter of the smallest and of the largest grain, m.
+double smallest_diameter(const BedPlan& plan);
+double largest_diameter(const BedPlan& plan);
 
-/// The world of a plan: grains at rest, one in each cell of a square lattice, at a random place within its
-/// cell, with ids that grow from the floor upwards. The same for the same plan, everywhere.
-World make_bed(const BedPlan& plan);
+/// The radius of the next grain, m.
+double random_radius(const BedPlan& plan, Random& random);
+
+/// <d^2> / <d>^2 of the diameters: 1 + (Dmax - Dmin)^2 / (12 D^2).
+double mean_square_ratio(double size_ratio);
+
+/// The world of a plan without grains: side walls or a period.
+World empty_bed(const BedPlan& plan);
+
+/// Adds the floor, which closes the list of free grains: glued grains side by side, or a plane.
+void add_floor(const BedPlan& plan, World& world);
 
 }  // namespace talus

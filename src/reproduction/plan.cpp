@@ -10,7 +10,7 @@
 namespace talus {
 namespace {
 
-constexpr double preparations[] = {0.5, 0.15, 0.0};  // deposition.friction
+constexpr std::string_view preparations[] = {"pour", "geometric", "collapse"};  // deposition.method
 constexpr int wall_lengths[] = {100, 150, 200, 250, 300};
 constexpr double quick_scale = 0.5;  // of lengths and depths
 
@@ -33,13 +33,14 @@ ReproducedBed make_bed(std::string name, std::string scenario_name, std::vector<
 
 std::vector<ReproducedBed> make_beds(bool quick) {
   std::vector<ReproducedBed> beds;
-  const double as_it_is = Scenario().deposition.friction;
-  for (const double friction : preparations) {
-    const bool other = friction != as_it_is;
+  for (const std::string_view method : preparations) {
+    std::string name = "pbc";
     std::vector<std::string> settings;
-    if (other) settings.push_back(setting("deposition.friction", friction));
-    beds.push_back(make_bed(other ? "pbc-friction-" + short_text(friction) : "pbc", "paper-pbc",
-                            std::move(settings), quick));
+    if (method != preparations[0]) {
+      name.append("-").append(method);
+      settings.push_back(std::string("deposition.method=").append(method));
+    }
+    beds.push_back(make_bed(std::move(name), "paper-pbc", std::move(settings), quick));
   }
   for (const int length : wall_lengths)
     beds.push_back(make_bed("wbc-" + short_text((quick ? quick_scale : 1.0) * length),

@@ -34,7 +34,7 @@ struct ReproductionPlan {
   std::vector<ReproducedRun> runs;   ///< seed by seed, in each the cheapest first
 };
 
-/// The periodic bed with three preparations (deposition.friction = 0.5 as it is, 0.15 and 0) and five beds
+/// The periodic bed with three preparations (deposition.method: poured, geometric, collapse) and five beds
 /// between walls. `quick`: H = 20 D, walls at L = 50 ... 150 D, so the paper's H / L, and L = 100 D for the
 /// periodic bed. Throws as parse_seeds does.
 ReproductionPlan plan_reproduction(bool quick, const std::string& seeds);

@@ -11,6 +11,7 @@ namespace talus {
 
 enum class BedBoundary { periodic, walls };
 enum class BedFloor { rough, smooth };
+enum class DepositionMethod { pour, geometric, collapse, file };
 enum class AfterFailure { stop, lower, hold };
 enum class SolverMethod { accelerated, gauss_seidel };
 enum class GuardAction { stop, warn };
@@ -45,11 +46,18 @@ struct Scenario {
   } bed;
 
   struct Deposition {
-    double initial_solid_fraction = 0.5;  ///< of the loose arrangement the grains fall from
-    double friction = 0.5;                ///< between all bodies while the bed is deposited and comes to rest
+    DepositionMethod method = DepositionMethod::pour;
+    double arrival_speed = 6.0;           ///< pour: sqrt(g D), of a grain when it first touches
+    double rate = 0.25;                   ///< pour: layers of L / D grains that arrive in sqrt(D / g)
+    double initial_solid_fraction = 0.5;  ///< collapse: of the loose arrangement the grains fall from
+    /// Between grains, and with side walls, while the bed is deposited and comes to rest; without a value
+    /// ("contact"): as in the tilt.
+    std::optional<double> friction;
+    std::optional<double> wall_friction;
     double rest_velocity =
-        0.005;               ///< the bed is at rest when its rms velocity stays below this, in units of g h
-    double max_time = 60.0;  ///< s of simulated time after which a bed that has not come to rest is an error
+        0.005;  ///< the bed is at rest when its rms velocity stays below this, in units of g h
+    double max_time =
+        60.0;  ///< s of simulated time after the last arrival in which a bed has to come to rest
 
     bool operator==(const Deposition&) const = default;
   } deposition;

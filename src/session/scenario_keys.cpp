@@ -11,6 +11,9 @@ namespace {
 using Keys = std::vector<ScenarioKey>;
 
 NumberRange from_to(double low, double high) { return {low, high, true, {}}; }
+NumberRange from_to_or(double low, double high, std::string word) {
+  return {low, high, true, std::move(word)};
+}
 NumberRange above_to(double low, double high) { return {low, high, false, {}}; }
 NumberRange positive() { return above_to(0.0, std::numeric_limits<double>::infinity()); }
 
@@ -125,24 +128,44 @@ void add_bed_keys(Keys& keys) {
       [](auto& s) -> auto& { return s.bed.floor; }));
 }
 
-void add_loading_keys(Keys& keys) {
+void add_deposition_keys(Keys& keys) {
+  keys.push_back(choice(
+      "deposition", "method", {{"pour", "geometric", "collapse", "file"}},
+      "how the grains get into the bed: poured one after another, set down one after another, all at once, "
+      "or "
+      "as a file has them",
+      [](auto& s) -> auto& { return s.deposition.method; }));
+  keys.push_back(number(
+      "deposition", "arrival_speed", "sqrt(g D)", from_to(0.0, 20.0),
+      "pour: speed of a grain when it first touches",
+      [](auto& s) -> auto& { return s.deposition.arrival_speed; }));
+  keys.push_back(number(
+      "deposition", "rate", "sqrt(g/D)", from_to(0.01, 10.0),
+      "pour: layers, of L / D grains each, that arrive in sqrt(D / g)",
+      [](auto& s) -> auto& { return s.deposition.rate; }));
   keys.push_back(number(
       "deposition", "initial_solid_fraction", "", from_to(0.1, 0.7),
-      "solid fraction of the loose arrangement; less where the size ratio needs room",
+      "collapse: solid fraction of the loose arrangement; less where the size ratio needs room",
       [](auto& s) -> auto& { return s.deposition.initial_solid_fraction; }));
-  keys.push_back(number(
-      "deposition", "friction", "", from_to(0.0, 10.0),
-      "coefficient of friction of all contacts until the bed is at rest",
+  keys.push_back(number_or_word(
+      "deposition", "friction", "", from_to_or(0.0, 10.0, "contact"),
+      "coefficient of friction between grains until the bed is at rest; \"contact\": contact.friction",
       [](auto& s) -> auto& { return s.deposition.friction; }));
+  keys.push_back(number_or_word(
+      "deposition", "wall_friction", "", from_to_or(0.0, 10.0, "contact"),
+      "the same on the side walls; \"contact\": contact.wall_friction",
+      [](auto& s) -> auto& { return s.deposition.wall_friction; }));
   keys.push_back(number(
       "deposition", "rest_velocity", "g h", above_to(0.0, 0.1),
       "the bed is at rest when its rms velocity stays below this",
       [](auto& s) -> auto& { return s.deposition.rest_velocity; }));
   keys.push_back(number(
       "deposition", "max_time", "s", above_to(0.0, 3600.0),
-      "simulated time after which a bed that is not at rest is an error",
+      "simulated time after the last arrival in which the bed has to come to rest",
       [](auto& s) -> auto& { return s.deposition.max_time; }));
+}
 
+void add_tilt_keys(Keys& keys) {
   keys.push_back(number(
       "tilt", "rate", "deg/s", from_to(1e-4, 100.0), "how fast the bed is tilted",
       [](auto& s) -> auto& { return s.tilt.rate; }));
@@ -224,7 +247,8 @@ void add_guard_keys(Keys& keys) {
 Keys make_keys() {
   Keys keys;
   add_bed_keys(keys);
-  add_loading_keys(keys);
+  add_deposition_keys(keys);
+  add_tilt_keys(keys);
   add_computing_keys(keys);
   add_guard_keys(keys);
   return keys;

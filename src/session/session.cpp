@@ -5,25 +5,10 @@
 
 #include "core/errors.h"
 #include "core/trigonometry.h"
-#include "dynamics/bed.h"
 #include "stress/free_surface.h"
 
 namespace talus {
 namespace {
-
-World loose_bed(const Scenario& scenario) {
-  BedPlan plan;
-  plan.mean_diameter = scenario.grains.mean_diameter;
-  plan.size_ratio = scenario.grains.size_ratio;
-  plan.density = scenario.grains.density;
-  plan.length = scenario.bed.length * scenario.grains.mean_diameter;
-  plan.grain_count = static_cast<Index>(std::lround(scenario.bed.length * scenario.bed.depth));
-  plan.periodic = scenario.bed.boundary == BedBoundary::periodic;
-  plan.rough_floor = scenario.bed.floor == BedFloor::rough;
-  plan.initial_solid_fraction = scenario.deposition.initial_solid_fraction;
-  plan.seed = scenario.seed;
-  return make_bed(plan);
-}
 
 std::int64_t steps_between(double degrees_between, double step) {
   return std::max<std::int64_t>(1, std::llround(degrees_between / step));
@@ -72,9 +57,10 @@ StepSettings step_settings(const Scenario& scenario, const World& world) {
 
 RunStatics run_statics(const Scenario& scenario, const World& world) {
   RunStatics statics;
-  statics.free_count = world.grains.free_count;
-  statics.radius = world.grains.radius;
-  statics.mass = world.grains.mass;
+  const Grains grains = with_all_arrivals(world.grains, arrivals_of(scenario), scenario.grains.density);
+  statics.free_count = grains.free_count;
+  statics.radius = grains.radius;
+  statics.mass = grains.mass;
   statics.periodic = world.boundary.periodic;
   statics.length = world.boundary.length;
   statics.depth = scenario.bed.depth * scenario.grains.mean_diameter;
@@ -84,11 +70,15 @@ RunStatics run_statics(const Scenario& scenario, const World& world) {
   return statics;
 }
 
-Session::Session(const Scenario& scenario) : scenario_(scenario), world_(loose_bed(scenario)) {}
+Session::Session(const Scenario& scenario)
+    : scenario_(scenario), world_(initial_bed(scenario)), arrivals_(arrivals_of(scenario)) {}
 
 ContactLawParameters Session::law() const {
   ContactLawParameters law = contact_law(scenario_);
-  if (phase_ == Phase::deposition) law.friction = law.wall_friction = scenario_.deposition.friction;
+  if (phase_ == Phase::deposition) {
+    law.friction = scenario_.deposition.friction.value_or(law.friction);
+    law.wall_friction = scenario_.deposition.wall_friction.value_or(law.wall_friction);
+  }
   law.friction = friction_.value_or(law.friction);
   return law;
 }
@@ -140,11 +130,17 @@ const StepReport& Session::advance() {
   return report_;
 }
 
+bool Session::have_all_arrived() const {
+  return static_cast<std::size_t>(world_.grains.free_count) >= arrivals_.size();
+}
+
 void Session::advance_deposition() {
+  let_arrive(arrivals_, pour_rule(scenario_), time_step(scenario_), world_);
   take_step();
+  if (!have_all_arrived()) return;
   if (is_at_rest() && report_.solver.converged)
     begin_tilt();
-  else if (world_.time >= scenario_.deposition.max_time)
+  else if (world_.time >= end_of_arrivals(scenario_) + scenario_.deposition.max_time)
     throw Error(ExitCode::bad_data,
                 "the bed did not come to rest within deposition.max_time = " +
                     std::to_string(scenario_.deposition.max_time) + " s: its rms velocity is " +
@@ -220,7 +216,7 @@ void Session::record(bool row, bool frame) {
 
 void Session::take_step() {
   report_ = step(world_, settings(), workspace_);
-  quiet_steps_ = is_quiet() ? quiet_steps_ + 1 : 0;
+  quiet_steps_ = is_quiet() && have_all_arrived() ? quiet_steps_ + 1 : 0;
   const bool tilting = phase_ == Phase::tilt;
   if (!report_.solver.converged)
     ++(tilting                       ? record_.unconverged_tilt

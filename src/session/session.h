@@ -10,6 +10,7 @@
 #include "dynamics/step.h"
 #include "io/run_store.h"
 #include "session/command.h"
+#include "session/deposition.h"
 #include "session/guards.h"
 #include "session/measure.h"
 #include "session/scenario.h"
@@ -42,7 +43,7 @@ class StoredValues;
 /// well below the real one, so that a bed can always come to rest.
 class Session {
  public:
-  /// A new run: the loose bed of the scenario, about to fall.
+  /// A new run: the bed of the scenario before its first step.
   explicit Session(const Scenario& scenario);
   /// A run as its last commit left it. Throws Error(bad_data) where the checkpoint lacks a value; `origin` is
   /// what messages call the file.
@@ -91,6 +92,7 @@ class Session {
   StepSettings settings() const;
   bool is_quiet() const;  ///< slower than deposition.rest_velocity
   bool is_at_rest() const { return quiet_steps_ >= rest_steps; }
+  bool have_all_arrived() const;
   void take_step();
   void watch();
   void advance_deposition();
@@ -112,6 +114,7 @@ class Session {
 
   Scenario scenario_;
   World world_;
+  std::vector<Arrival> arrivals_;  ///< all that are poured; those of the first ids are in the world
   Phase phase_ = Phase::deposition;
   std::int64_t tilt_steps_ = 0;
   std::int64_t flow_steps_ = 0;
@@ -147,7 +150,7 @@ StepSettings step_settings(const Scenario& scenario);
 /// The next step of a world in the tilt, on one thread: with the tolerance that its velocity asks for.
 StepSettings step_settings(const Scenario& scenario, const World& world);
 
-/// What does not change during the run.
+/// What does not change during the run: of all grains, those included that have not arrived yet.
 RunStatics run_statics(const Scenario& scenario, const World& world);
 
 /// A slope that has not failed at this angle ends its run, deg.

@@ -138,7 +138,7 @@ void Session::take_flow(const StoredValues& stored) {
 }
 
 Session::Session(const Scenario& scenario, Checkpoint checkpoint, const std::string& origin)
-    : scenario_(scenario), world_(std::move(checkpoint.world)) {
+    : scenario_(scenario), world_(std::move(checkpoint.world)), arrivals_(arrivals_of(scenario)) {
   const StoredValues stored(checkpoint, origin);
   phase_ = static_cast<Phase>(stored.count("phase", static_cast<std::int64_t>(Phase::flow), "0, 1, 2 or 3"));
   tilt_steps_ = stored.count("tilt_steps");

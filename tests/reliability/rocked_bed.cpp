@@ -5,6 +5,7 @@
 
 #include "core/hash.h"
 #include "core/trigonometry.h"
+#include "dynamics/collapse.h"
 #include "stress/free_surface.h"
 #include "stress/internal_moment.h"
 #include "stress/stress_state.h"
@@ -66,7 +67,7 @@ std::vector<RockedBed> rocked_beds() {
 RockedRun rock(const RockedBed& bed, std::int64_t steps, int threads,
                const std::function<void(const World&)>& watch) {
   const StepSettings settings = settings_of(bed, threads);
-  World world = make_bed(bed.plan);
+  World world = make_loose_bed(bed.plan);
   StepWorkspace workspace;
   RockedRun run;
   Contacts before;

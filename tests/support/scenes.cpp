@@ -9,8 +9,14 @@
 #include "core/random.h"
 #include "core/trigonometry.h"
 #include "dynamics/assemble.h"
+#include "dynamics/collapse.h"
 
 namespace talus::test {
+namespace {
+
+constexpr double loose_fraction = 0.4;
+
+}  // namespace
 
 std::string name_of(SolverKind kind) {
   return kind == SolverKind::gauss_seidel ? "gauss_seidel" : "accelerated";
@@ -93,13 +99,12 @@ BedPlan bed_plan(bool periodic, Index count, Index columns, std::uint64_t seed) 
   plan.length = columns * plan.mean_diameter;
   plan.grain_count = count;
   plan.periodic = periodic;
-  plan.initial_solid_fraction = 0.4;
   plan.seed = seed;
   return plan;
 }
 
 World fallen_bed(const BedPlan& plan, const StepSettings& settings, int steps) {
-  World world = make_bed(plan);
+  World world = make_loose_bed(plan, loose_fraction);
   StepWorkspace workspace;
   for (int k = 0; k < steps; ++k) step(world, settings, workspace);
   return world;
@@ -114,7 +119,7 @@ void come_to_rest(World& world, const StepSettings& settings, StepWorkspace& wor
 }
 
 World settled_bed(const BedPlan& plan, const StepSettings& settings) {
-  World world = make_bed(plan);
+  World world = make_loose_bed(plan, loose_fraction);
   StepWorkspace workspace;
   come_to_rest(world, settings, workspace);
   return world;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "dynamics/collapse.h"
 #include "support/scenes.h"
 
 namespace talus {
@@ -94,7 +95,7 @@ TEST_P(PeriodicEdge, a_stack_moves_across_it_without_a_jolt) {
 TEST_P(PeriodicEdge, a_falling_crowd_keeps_its_momentum_along_x) {
   BedPlan plan = test::bed_plan(true, 60, 6, 3);
   plan.rough_floor = false;
-  World world = make_bed(plan);
+  World world = make_loose_bed(plan, 0.4);
   world.boundary.planes.clear();
   const World random = test::random_cloud(4, 60, true, 1.0);
   world.grains.vx = random.grains.vx;

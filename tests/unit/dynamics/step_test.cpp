@@ -1,3 +1,4 @@
+#include "dynamics/collapse.h"
 #include "dynamics/step.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +17,7 @@ BedPlan falling_plan(bool periodic) { return test::bed_plan(periodic, 36, 8, 11)
 TEST(Step, a_copied_world_goes_on_with_the_same_bits) {
   for (const bool periodic : {true, false}) {
     const StepSettings settings = test::bed_step(1e-6);
-    World world = make_bed(falling_plan(periodic));
+    World world = make_loose_bed(falling_plan(periodic), 0.4);
     StepWorkspace workspace;
     for (int k = 0; k < 120; ++k) step(world, settings, workspace);
     World copy = world;
@@ -65,7 +66,7 @@ TEST(Step, counts_steps_and_time_and_reports_what_it_did) {
 
 TEST(Step, floor_grains_never_move) {
   const BedPlan plan = falling_plan(true);
-  const World start = make_bed(plan);
+  const World start = make_loose_bed(plan, 0.4);
   const World world = test::fallen_bed(plan, test::bed_step(), 150);
   for (Index i = start.grains.free_count; i < start.grains.count(); ++i) {
     EXPECT_EQ(world.grains.x[i], start.grains.x[i]);

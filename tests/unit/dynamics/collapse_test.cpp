@@ -1,4 +1,4 @@
-#include "dynamics/bed.h"
+#include "dynamics/collapse.h"
 
 #include <gtest/gtest.h>
 
@@ -33,18 +33,18 @@ BedPlan plan_of(bool periodic, double columns, Index count) {
   return plan;
 }
 
-TEST(MakeBed, is_the_same_for_the_same_plan_and_another_for_another_seed) {
+TEST(LooseBed, is_the_same_for_the_same_plan_and_another_for_another_seed) {
   const BedPlan plan = plan_of(true, 30.0, 200);
   BedPlan other = plan;
   other.seed = 2;
-  EXPECT_EQ(state_hash(make_bed(plan)), state_hash(make_bed(plan)));
-  EXPECT_NE(state_hash(make_bed(plan)), state_hash(make_bed(other)));
+  EXPECT_EQ(state_hash(make_loose_bed(plan)), state_hash(make_loose_bed(plan)));
+  EXPECT_NE(state_hash(make_loose_bed(plan)), state_hash(make_loose_bed(other)));
 }
 
-TEST(MakeBed, has_the_grains_asked_for_at_rest_above_the_floor_and_inside_the_walls) {
+TEST(LooseBed, has_the_grains_asked_for_at_rest_above_the_floor_and_inside_the_walls) {
   for (const bool periodic : {true, false}) {
     const BedPlan plan = plan_of(periodic, 30.0, 500);
-    const World world = make_bed(plan);
+    const World world = make_loose_bed(plan);
     const Grains& g = world.grains;
     EXPECT_EQ(g.free_count, 500);
     EXPECT_EQ(world.boundary.periodic, periodic);
@@ -63,9 +63,9 @@ TEST(MakeBed, has_the_grains_asked_for_at_rest_above_the_floor_and_inside_the_wa
 
 // Uniform in [0.8, 1.2] D: mean D, variance (0.4 D)^2 / 12. With 2000 grains the mean has a standard error of
 // 0.0026 D, the variance one of 0.00024 D^2: four of each are allowed.
-TEST(MakeBed, sizes_are_uniform_between_the_smallest_and_the_largest) {
+TEST(LooseBed, sizes_are_uniform_between_the_smallest_and_the_largest) {
   const BedPlan plan = plan_of(true, 60.0, 2000);
-  const World world = make_bed(plan);
+  const World world = make_loose_bed(plan);
   double sum = 0.0, squares = 0.0, smallest = 1.0, largest = 0.0;
   for (Index i = 0; i < world.grains.free_count; ++i) {
     const double d = 2.0 * world.grains.radius[i] / plan.mean_diameter;
@@ -83,28 +83,26 @@ TEST(MakeBed, sizes_are_uniform_between_the_smallest_and_the_largest) {
   EXPECT_NEAR(squares / plan.grain_count - mean * mean, 0.16 / 12.0, 0.001);
 }
 
-TEST(MakeBed, one_size_is_possible) {
+TEST(LooseBed, one_size_is_possible) {
   BedPlan plan = plan_of(true, 30.0, 100);
   plan.size_ratio = 1.0;
-  const World world = make_bed(plan);
+  const World world = make_loose_bed(plan);
   for (double r : world.grains.radius) EXPECT_DOUBLE_EQ(r, 0.5 * plan.mean_diameter);
 }
 
-TEST(MakeBed, grains_do_not_overlap) {
+TEST(LooseBed, grains_do_not_overlap) {
   for (const bool periodic : {true, false})
     for (double columns : {6.0, 8.0, 10.0, 13.0, 20.0, 50.0})
       for (double fraction : {0.3, 0.5, 0.7}) {
         BedPlan plan = plan_of(periodic, columns, 100);
-        plan.initial_solid_fraction = fraction;
-        EXPECT_GE(smallest_gap(make_bed(plan)), -1e-16) << columns << " D long, solid fraction " << fraction;
+        EXPECT_GE(smallest_gap(make_loose_bed(plan, fraction)), -1e-16) << columns << " D long, solid fraction " << fraction;
       }
 }
 
-TEST(MakeBed, fills_its_lattice_with_the_solid_fraction_asked_for) {
+TEST(LooseBed, fills_its_lattice_with_the_solid_fraction_asked_for) {
   BedPlan plan = plan_of(true, 100.0, 4000);
   for (double fraction : {0.2, 0.35, 0.5}) {
-    plan.initial_solid_fraction = fraction;
-    const World world = make_bed(plan);
+    const World world = make_loose_bed(plan, fraction);
     double area = 0.0, top = 0.0;
     for (Index i = 0; i < world.grains.free_count; ++i) {
       area += pi * world.grains.radius[i] * world.grains.radius[i];
@@ -115,13 +113,13 @@ TEST(MakeBed, fills_its_lattice_with_the_solid_fraction_asked_for) {
 }
 
 // A square cell as wide as the largest grain: 0.25 pi <d^2> / Dmax^2, with <d^2> = D^2 + (0.4 D)^2 / 12.
-TEST(MakeBed, the_largest_solid_fraction_is_that_of_one_grain_in_each_cell) {
+TEST(LooseBed, the_largest_solid_fraction_is_that_of_one_grain_in_each_cell) {
   EXPECT_NEAR(largest_initial_solid_fraction(1.5), 0.25 * pi * (1.0 + 0.16 / 12.0) / 1.44, 1e-15);
   EXPECT_NEAR(largest_initial_solid_fraction(1.0), 0.25 * pi, 1e-15);
 }
 
-TEST(MakeBed, ids_grow_from_the_floor_upwards) {
-  const World world = make_bed(plan_of(true, 30.0, 300));
+TEST(LooseBed, ids_grow_from_the_floor_upwards) {
+  const World world = make_loose_bed(plan_of(true, 30.0, 300));
   double lower = 0.0, upper = 0.0;
   for (Index i = 0; i < 100; ++i) {
     lower += world.grains.y[i];
@@ -131,9 +129,9 @@ TEST(MakeBed, ids_grow_from_the_floor_upwards) {
   EXPECT_LT(world.grains.y[0], world.grains.y[299]);
 }
 
-TEST(MakeBed, a_rough_floor_is_a_row_of_touching_grains_with_their_tops_at_zero) {
+TEST(LooseBed, a_rough_floor_is_a_row_of_touching_grains_with_their_tops_at_zero) {
   const BedPlan plan = plan_of(true, 30.0, 10);
-  const World world = make_bed(plan);
+  const World world = make_loose_bed(plan);
   const Grains& g = world.grains;
   ASSERT_EQ(g.count() - g.free_count, 30);
   for (Index i = g.free_count; i < g.count(); ++i) {
@@ -144,10 +142,10 @@ TEST(MakeBed, a_rough_floor_is_a_row_of_touching_grains_with_their_tops_at_zero)
   }
 }
 
-TEST(MakeBed, a_smooth_floor_is_a_plane_with_the_friction_of_grains) {
+TEST(LooseBed, a_smooth_floor_is_a_plane_with_the_friction_of_grains) {
   BedPlan plan = plan_of(false, 30.0, 10);
   plan.rough_floor = false;
-  const World world = make_bed(plan);
+  const World world = make_loose_bed(plan);
   EXPECT_EQ(world.grains.count(), 10);
   ASSERT_EQ(world.boundary.planes.size(), 3u);
   EXPECT_TRUE(world.boundary.planes[0].wall);

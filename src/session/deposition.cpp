@@ -1,0 +1,55 @@
+#include "session/deposition.h"
+
+#include <cmath>
+
+#include "dynamics/collapse.h"
+
+namespace talus {
+namespace {
+
+BedPlan bed_plan(const Scenario& scenario) {
+  BedPlan plan;
+  plan.mean_diameter = scenario.grains.mean_diameter;
+  plan.size_ratio = scenario.grains.size_ratio;
+  plan.density = scenario.grains.density;
+  plan.length = scenario.bed.length * scenario.grains.mean_diameter;
+  plan.grain_count = static_cast<Index>(std::lround(scenario.bed.length * scenario.bed.depth));
+  plan.periodic = scenario.bed.boundary == BedBoundary::periodic;
+  plan.rough_floor = scenario.bed.floor == BedFloor::rough;
+  plan.seed = scenario.seed;
+  return plan;
+}
+
+World bed_without_grains(const BedPlan& plan) {
+  World world = empty_bed(plan);
+  add_floor(plan, world);
+  return world;
+}
+
+}  // namespace
+
+World initial_bed(const Scenario& scenario) {
+  const BedPlan plan = bed_plan(scenario);
+  if (scenario.deposition.method == DepositionMethod::collapse)
+    return make_loose_bed(plan, scenario.deposition.initial_solid_fraction);
+  return bed_without_grains(plan);
+}
+
+std::vector<Arrival> arrivals_of(const Scenario& scenario) {
+  if (scenario.deposition.method != DepositionMethod::pour) return {};
+  return pour_arrivals(bed_plan(scenario));
+}
+
+PourRule pour_rule(const Scenario& scenario) {
+  const double diameter = scenario.grains.mean_diameter, gravity = World().gravity;
+  return {.speed = scenario.deposition.arrival_speed * std::sqrt(gravity * diameter),
+          .interval = std::sqrt(diameter / gravity) / (scenario.deposition.rate * scenario.bed.length),
+          .density = scenario.grains.density};
+}
+
+double end_of_arrivals(const Scenario& scenario) {
+  if (scenario.deposition.method != DepositionMethod::pour) return 0.0;
+  return pour_rule(scenario).interval * (bed_plan(scenario).grain_count - 1);
+}
+
+}  // namespace talus

@@ -1,0 +1,23 @@
+#pragma once
+/// From a scenario to the bed before its first step, and what arrives in it afterwards.
+
+#include <vector>
+
+#include "dynamics/pour.h"
+#include "session/scenario.h"
+
+namespace talus {
+
+/// The bed before its first step: all grains, or where they are poured none, above or on the floor.
+World initial_bed(const Scenario& scenario);
+
+/// The grains that are poured, in the order of their arrival; none for other methods.
+std::vector<Arrival> arrivals_of(const Scenario& scenario);
+
+/// How they arrive, in SI units.
+PourRule pour_rule(const Scenario& scenario);
+
+/// When the last grain arrives, s; 0 where all are there from the beginning.
+double end_of_arrivals(const Scenario& scenario);
+
+}  // namespace talus
