@@ -1,5 +1,7 @@
 #include "app/figure_runs.h"
 
+#include "session/run_header.h"
+
 namespace talus {
 
 std::vector<FigureRun> open_figure_runs(const std::vector<std::string>& paths,
@@ -10,7 +12,7 @@ std::vector<FigureRun> open_figure_runs(const std::vector<std::string>& paths,
     // The analysis comes first: storing it replaces the file.
     Analysis analysis = analysed_run(path, parameters, options).analysis;
     RunFile file = RunFile::open(path);
-    const Scenario scenario = parse_scenario(file.header().scenario_resolved, path);
+    const Scenario scenario = stored_scenario(file.header(), path);
     runs.push_back({path, std::move(file), std::move(analysis), scenario});
   }
   return runs;

@@ -14,6 +14,7 @@
 #include "core/trigonometry.h"
 #include "io/run_file.h"
 #include "session/command.h"
+#include "session/run_header.h"
 #include "session/scenario.h"
 
 namespace talus {
@@ -56,7 +57,7 @@ double figure(const Figures& figures, const std::string& name) {
 /// The tolerance of the stored scenario; none where it is a scenario of another version.
 double tolerance_of(const RunHeader& header, const std::string& path) {
   try {
-    return parse_scenario(header.scenario_resolved, path).solver.tolerance;
+    return stored_scenario(header, path).solver.tolerance;
   } catch (const Error&) {
     return none;
   }

@@ -5,6 +5,7 @@
 #include "core/errors.h"
 #include "io/run_file.h"
 #include "session/estimate.h"
+#include "session/run_header.h"
 
 namespace talus {
 namespace {
@@ -14,7 +15,7 @@ bool is_complete(const WantedRun& run, const std::string& whole) {
   const RunPresence presence = run_presence(run.path);
   if (presence == RunPresence::none) return false;
   // Values are compared, not texts: a key that an earlier version did not have is at its default in it.
-  if (parse_scenario(RunFile::open(run.path).header().scenario_resolved, run.path) != run.scenario)
+  if (stored_scenario(RunFile::open(run.path).header(), run.path) != run.scenario)
     throw Error(ExitCode::bad_data, run.path + " is a run of another scenario than this " + whole +
                                         "'s; expected the scenario, the settings and the version that the " +
                                         whole + " began with; give another folder");

@@ -61,7 +61,7 @@ OpenRun resume_run(const RunRequest& request) {
   RunHeader header;
   Checkpoint checkpoint;
   RunStore store = RunStore::resume(request.output, header, checkpoint);
-  const Scenario scenario = parse_scenario(header.scenario_resolved, request.output + ":/parameters");
+  const Scenario scenario = stored_scenario(header, request.output + ":/parameters");
   if (!request.scenario.empty() && read_scenario(request.scenario, request.settings) != scenario)
     throw Error(ExitCode::bad_data,
                 request.output + " was started with another scenario than " + request.scenario +

@@ -12,6 +12,7 @@
 #include "io/durable_file.h"
 #include "io/run_file.h"
 #include "session/perturbation_threshold.h"
+#include "session/run_header.h"
 
 namespace talus {
 namespace {
@@ -89,8 +90,7 @@ PerturbationTable read_perturbation_table(const std::string& run, const Perturba
 bool is_perturbed(const RunRequest& request, const PerturbationPlan& plan) {
   const RunPresence presence = run_presence(request.output);
   if (presence == RunPresence::none) return false;
-  const std::string stored = RunFile::open(request.output).header().scenario_resolved;
-  if (parse_scenario(stored, request.output + ":/parameters") !=
+  if (stored_scenario(RunFile::open(request.output).header(), request.output + ":/parameters") !=
       read_scenario(request.scenario, request.settings))
     throw Error(ExitCode::bad_data, request.output + " is a run of another scenario; give another folder");
   if (!std::filesystem::exists(perturbation_table_path(request.output)))

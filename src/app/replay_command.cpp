@@ -79,7 +79,7 @@ void replay_run(const ReplayArguments& arguments) {
                     " was repaired, and its last state is lost: there is nothing to compare with; "
                     "compute it again from its scenario (talus info)");
   const std::vector<Command> commands = run.commands();
-  Session session(parse_scenario(run.header().scenario_resolved, arguments.run + ":/parameters"));
+  Session session(stored_scenario(run.header(), arguments.run + ":/parameters"));
   session.use_threads(arguments.threads);
   std::optional<RunStore> store = begin_output(arguments, session, run);
   ProgressLine line(arguments.quiet);

@@ -15,6 +15,7 @@
 #include "core/errors.h"
 #include "core/hash.h"
 #include "core/trigonometry.h"
+#include "session/run_header.h"
 
 namespace talus {
 namespace {
@@ -148,8 +149,7 @@ void draw_what_is_missing(const RunArguments& arguments) {
   std::optional<LiveMaps> maps = prepare_maps(arguments, request_of(arguments), true);
   if (!maps) return;
   const RunFile file = RunFile::open(arguments.output);
-  const Scenario scenario =
-      parse_scenario(file.header().scenario_resolved, arguments.output + ":/parameters");
+  const Scenario scenario = stored_scenario(file.header(), arguments.output + ":/parameters");
   maps->begin(file.header(), arguments.output, scenario.tilt.step);
   maps->meet(file);
 }

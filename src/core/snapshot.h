@@ -57,6 +57,10 @@ struct RunStatics {
   double friction = 0.0;       ///< between grains
 };
 
+/// The statics of a frame with `count` grains, floor included: of a bed that is being poured, where the
+/// grains with the highest ids of the free ones have not arrived yet.
+RunStatics arrived_statics(const RunStatics& all, Index count);
+
 /// Named facts about a run, in writing order: provenance, timing, results.
 using Facts = std::vector<std::pair<std::string, std::string>>;
 using Figures = std::vector<std::pair<std::string, double>>;

@@ -7,6 +7,7 @@
 
 #include "core/errors.h"
 #include "core/trigonometry.h"
+#include "session/run_header.h"
 #include "session/scenario.h"
 #include "session/scenario_text.h"
 
@@ -36,11 +37,26 @@ bool all_finite(std::span<const double> values) {
   return std::ranges::all_of(values, [](double value) { return std::isfinite(value); });
 }
 
+/// Friction of contacts between grains, and with side walls.
+struct Frictions {
+  double grains = 0.0, walls = 0.0;
+};
+
 /// The friction in force at a step: the scenario's, or what a command has set.
 double friction_at(const RunFile& run, double given, std::int64_t step) {
   for (const Command& command : run.commands())
     if (command.kind == CommandKind::friction && command.step < step) given = command.x;
   return given;
+}
+
+/// Of frame k: the first has the forces of the last step of the deposition.
+Frictions frictions_of(const RunFile& run, const Scenario& scenario, std::size_t k, const Frame& frame) {
+  Frictions mu{scenario.contact.friction, scenario.contact.wall_friction};
+  if (k == 0 && frame.tilt == 0.0)
+    mu = {scenario.deposition.friction.value_or(mu.grains),
+          scenario.deposition.wall_friction.value_or(mu.walls)};
+  mu.grains = friction_at(run, mu.grains, frame.step);
+  return mu;
 }
 
 // --- series ---
@@ -130,11 +146,6 @@ double overlap(const Frame& frame, const RunStatics& statics, std::size_t c) {
   const double x = frame.x[b] + static_cast<double>(contacts.shift[c]) * statics.length - frame.x[a];
   return statics.radius[a] + statics.radius[b] - std::hypot(x, frame.y[b] - frame.y[a]);
 }
-
-/// Friction of a contact: of side walls where it is one with a wall.
-struct Frictions {
-  double grains = 0.0, walls = 0.0;
-};
 
 void check_contacts(const Frame& frame, const RunStatics& statics, const Frictions& mu,
                     const std::string& name, Findings& found) {
@@ -254,7 +265,7 @@ RunCheck check_run(const RunFile& run, const std::function<void(std::size_t)>& p
   else
     check_steps(steps, run.checkpoint(), found);
   check_observables(rows, static_cast<double>(last_step), lacks, found);
-  const Scenario scenario = parse_scenario(run.header().scenario_resolved, "/parameters/scenario_resolved");
+  const Scenario scenario = stored_scenario(run.header(), "/parameters/scenario_resolved");
   std::int64_t before = -1;
   for (std::size_t k = 0; k < run.all_frame_tilts().size(); ++k, ++check.frames) {
     const std::string name = frame_name(k);
@@ -266,10 +277,7 @@ RunCheck check_run(const RunFile& run, const std::function<void(std::size_t)>& p
                                       ", after one of step " + std::to_string(before));
       before = frame.step;
       if (check_values(frame, statics, name, found)) {
-        check_contacts(
-            frame, statics,
-            {friction_at(run, scenario.contact.friction, frame.step), scenario.contact.wall_friction}, name,
-            found);
+        check_contacts(frame, statics, frictions_of(run, scenario, k, frame), name, found);
         const Loads loads = loads_of(frame, statics);
         check_moments(frame, loads, name, found);
         if (at_rest(rows, frame.step)) check_balance(frame, loads, statics, name, found);

@@ -24,6 +24,9 @@ std::string host_name() {
   return name;
 }
 
+/// All keys stand in a stored scenario, so one that lacks this key is from before it.
+constexpr const char* key_of_poured_beds = "arrival_speed";
+
 }  // namespace
 
 RunHeader run_header(const Session& session, const RunOrigin& origin) {
@@ -42,6 +45,15 @@ RunHeader run_header(const Session& session, const RunOrigin& origin) {
                        {"command", origin.command_line},
                        {"scenario_file", origin.scenario_file}};
   return header;
+}
+
+Scenario stored_scenario(const RunHeader& header, const std::string& name) {
+  Scenario scenario = parse_scenario(header.scenario_resolved, name);
+  if (header.scenario_resolved.find(key_of_poured_beds) == std::string::npos) {
+    scenario.deposition.method = DepositionMethod::collapse;
+    scenario.deposition.wall_friction = scenario.deposition.friction;
+  }
+  return scenario;
 }
 
 }  // namespace talus

@@ -18,4 +18,9 @@ struct RunOrigin {
 /// The header of a run that this program begins now, on this host.
 RunHeader run_header(const Session& session, const RunOrigin& origin);
 
+/// The scenario of a stored run, from its header; `name` is what messages call it. A run of before grains
+/// were poured says nothing of a method: its grains collapsed, and all its contacts had deposition.friction
+/// until the bed was at rest.
+Scenario stored_scenario(const RunHeader& header, const std::string& name);
+
 }  // namespace talus

@@ -71,7 +71,9 @@ RunStatics run_statics(const Scenario& scenario, const World& world) {
 }
 
 Session::Session(const Scenario& scenario)
-    : scenario_(scenario), world_(initial_bed(scenario)), arrivals_(arrivals_of(scenario)) {}
+    : scenario_(scenario), world_(initial_bed(scenario)), arrivals_(arrivals_of(scenario)) {
+  let_arrive(arrivals_, pour_rule(scenario_), time_step(scenario_), world_);
+}
 
 ContactLawParameters Session::law() const {
   ContactLawParameters law = contact_law(scenario_);
@@ -135,9 +137,11 @@ bool Session::have_all_arrived() const {
 }
 
 void Session::advance_deposition() {
-  let_arrive(arrivals_, pour_rule(scenario_), time_step(scenario_), world_);
   take_step();
-  if (!have_all_arrived()) return;
+  if (!have_all_arrived()) {
+    let_arrive(arrivals_, pour_rule(scenario_), time_step(scenario_), world_);
+    return;
+  }
   if (is_at_rest() && report_.solver.converged)
     begin_tilt();
   else if (world_.time >= end_of_arrivals(scenario_) + scenario_.deposition.max_time)

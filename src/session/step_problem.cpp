@@ -6,6 +6,7 @@
 #include "core/errors.h"
 #include "core/trigonometry.h"
 #include "dynamics/assemble.h"
+#include "session/run_header.h"
 #include "session/session.h"
 
 namespace talus {
@@ -90,7 +91,7 @@ World world_at_frame(const RunFile& run, std::size_t k) {
 }
 
 StepProblem problem_after_frame(const RunFile& run, std::size_t k) {
-  const Scenario scenario = parse_scenario(run.header().scenario_resolved, "/parameters/scenario_resolved");
+  const Scenario scenario = stored_scenario(run.header(), "/parameters/scenario_resolved");
   World world = world_at_frame(run, k);
   const bool rounded = world.step != run.checkpoint().world.step;
   const InForce now = in_force(run, scenario, world.step);

@@ -26,7 +26,7 @@ void ViewModel::Data::open_replay() {
   frames = std::make_shared<RunFrames>(path);
   replay.emplace(frames);
   const RunFile& file = frames->file();
-  statics = file.header().statics;
+  statics = all_statics = file.header().statics;
   seed = file.header().seed;
   theta_c = find_value(file.checkpoint().results, "theta_c");
   if (theta_c && !std::isfinite(*theta_c)) theta_c.reset();  // it has not failed
@@ -44,11 +44,12 @@ void ViewModel::Data::open_replay() {
 void ViewModel::Data::begin_series() {
   series.reset();
   if (replay) {
-    series = std::make_unique<FrameSeries>(statics, [from = frames](std::size_t k) { return from->read(k); });
+    series =
+        std::make_unique<FrameSeries>(all_statics, [from = frames](std::size_t k) { return from->read(k); });
     series->set_counts(replay->count(), frames->file().frame_count());
   } else {
-    series =
-        std::make_unique<FrameSeries>(statics, [from = recorded](std::size_t k) { return from->read(k); });
+    series = std::make_unique<FrameSeries>(all_statics,
+                                           [from = recorded](std::size_t k) { return from->read(k); });
     series->set_counts(recorded->all().size(), recorded->all().size());
   }
 }
@@ -58,7 +59,7 @@ void ViewModel::Data::start_live(const std::string& next_output, bool overwrite)
   output = next_output;
   series.reset();
   live = std::move(next);
-  statics = live->statics();
+  statics = all_statics = live->statics();
   seed = scenario.seed;
   theta_c.reset();
   rows.clear();
@@ -86,6 +87,7 @@ void ViewModel::Data::show_replayed() {
 void ViewModel::Data::show(std::shared_ptr<const Frame> next) {
   if (next == frame) return;
   frame = std::move(next);
+  if (frame->x.size() != statics.radius.size()) statics = arrived_statics(all_statics, frame->grain_count());
   // While a bed falls together its top goes down: then only the frame shown counts.
   if (!replay) bed = series ? series->extent() : bed_extent(statics);
   join(bed, extent_of(*frame, statics));

@@ -31,7 +31,8 @@ class RecordedFrames {
 
 struct ViewModel::Data {
   std::string path;
-  RunStatics statics;
+  RunStatics all_statics;
+  RunStatics statics;  ///< of the frame shown: while a bed is poured, of the grains that have arrived
   std::uint64_t seed = 0;
   std::shared_ptr<const Frame> frame;  ///< that is shown
   std::optional<double> theta_c;       ///< rad
