@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "analysis/neighbourhoods.h"
 #include "stress/overload.h"
@@ -39,7 +40,30 @@ void summarise(CoarseGraining& result) {
   result.standard_error = result.overloaded > 1 ? std::sqrt(squares / (count - 1.0) / count) : nan;
 }
 
+/// l_c of an overloaded grain, m; nothing where the search reaches the cut.
+std::optional<double> search_length(Neighbourhoods& neighbourhoods, Index grain,
+                                    const CoarseGrainingRule& rule) {
+  std::optional<double> found;
+  neighbourhoods.around(grain, 0.5 * rule.cut, [&](double distance, const Tensor2& sum) {
+    const double l = 2.0 * distance;
+    // Up to the next distance gamma_l stays what it is: the last neighbourhood up to l_min is the one there.
+    if (found && l > rule.l_min) return false;
+    found.reset();
+    if (is_within(sum, rule.end_ratio)) found = std::max(l, rule.l_min);
+    return !found || l < rule.l_min;
+  });
+  return found;
+}
+
 }  // namespace
+
+Frame with_gamma_of_neighbourhoods(Frame frame, const RunStatics& statics, double l_min) {
+  if (l_min == 0.0) return frame;
+  const std::vector<double> gamma = coarse_stress_ratio(frame, statics, l_min);
+  for (std::size_t i = 0; i < gamma.size(); ++i)
+    if (!std::isnan(frame.gamma[i])) frame.gamma[i] = gamma[i];
+  return frame;
+}
 
 CoarseGraining coarse_graining(const Frame& frame, const RunStatics& statics,
                                const CoarseGrainingRule& rule) {
@@ -48,16 +72,10 @@ CoarseGraining coarse_graining(const Frame& frame, const RunStatics& statics,
   Neighbourhoods neighbourhoods(frame, statics);
   for (Index i = 0; i < statics.free_count; ++i) {
     if (!is_overloaded(frame.gamma[i], rule.threshold)) continue;
-    double length = rule.cut;
-    bool found = false;
-    neighbourhoods.around(i, 0.5 * rule.cut, [&](double distance, const Tensor2& sum) {
-      found = is_within(sum, rule.end_ratio);
-      if (found) length = 2.0 * distance;
-      return !found;
-    });
-    result.length[i] = length;
+    const std::optional<double> length = search_length(neighbourhoods, i, rule);
+    result.length[i] = length.value_or(rule.cut);
     ++result.overloaded;
-    if (!found) ++result.cut_off;
+    if (!length) ++result.cut_off;
   }
   summarise(result);
   return result;

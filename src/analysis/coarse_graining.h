@@ -1,6 +1,7 @@
 #pragma once
-/// Coarse graining of the grain stresses: how large a neighbourhood of an overloaded grain has to be before
-/// it is not overloaded any more (paper, section V B).
+/// Coarse graining of the grain stresses: the stress ratio of a grain together with its neighbours, and how
+/// large a neighbourhood of an overloaded grain has to be before it is not overloaded any more (paper,
+/// section V B).
 
 #include <vector>
 
@@ -8,14 +9,23 @@
 
 namespace talus {
 
+/// l_min, in D, that is used unless another is asked for: a grain together with its first neighbours.
+inline constexpr double default_l_min = 3.0;
+
 /// The neighbourhood of diameter l of a grain is all free grains whose centre, or its nearest periodic image,
 /// lies within l/2 of its own, itself among them; gamma_l is the stress ratio of the sum of their internal
-/// moments. l_c is the smallest l at which gamma_l <= `end_ratio`.
+/// moments. Neighbourhoods begin at the diameter l_min (m): returns the frame with gamma_l at l = l_min in
+/// place of the gamma of each free grain. A grain that carries nothing itself keeps NaN. With l_min = 0, the
+/// bare grain as the paper prints it, the frame is returned as it is.
+Frame with_gamma_of_neighbourhoods(Frame frame, const RunStatics& statics, double l_min);
+
+/// How l_c is found: it is the smallest l >= l_min at which gamma_l <= `end_ratio`.
 struct CoarseGrainingRule {
-  double threshold = 0.0;  ///< a grain is overloaded from this gamma on
+  double threshold = 0.0;  ///< a grain is overloaded from this gamma of the frame on
   double end_ratio = 0.0;  ///< in the paper the same
-  double cut = 0.0;  ///< m, a diameter: ends the search; beyond the period of a periodic bed neighbourhoods
-                     ///< are not whole
+  double l_min = 0.0;      ///< m: the one with which the frame was made
+  double cut = 0.0;  ///< m, a diameter not below l_min: ends the search; beyond the period of a periodic
+                     ///< bed neighbourhoods are not whole
 };
 
 struct CoarseGraining {
@@ -28,7 +38,8 @@ struct CoarseGraining {
   double standard_error = 0.0;  ///< of the mean, as if grains were independent
 };
 
-/// l_c of all overloaded grains.
+/// l_c of all overloaded grains. `frame` is one of with_gamma_of_neighbourhoods, made with the l_min of the
+/// rule.
 CoarseGraining coarse_graining(const Frame& frame, const RunStatics& statics, const CoarseGrainingRule& rule);
 
 /// gamma_l of every free grain at the diameter l (m). NaN where the neighbourhood carries nothing.

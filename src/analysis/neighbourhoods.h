@@ -43,9 +43,11 @@ class Neighbourhoods {
     const Index row = row_of(cells_, y_[centre]);
     near_.clear();
     Tensor2 sum;
-    double met = 0.0;  // all up to this distance were added
+    double met = 0.0;                                        // all up to this distance were added
+    const double farthest = radius * radius * (1.0 + 1e-9);  // a hair more: the distance itself decides
     for (Index ring = 0; met <= radius; ++ring) {
-      const bool more = visit_ring(cells_, column, row, ring, [&](Index grain) { add(centre, grain); });
+      const bool more =
+          visit_ring(cells_, column, row, ring, [&](Index grain) { add(centre, grain, farthest); });
       // What is in no ring yet is farther than `known`, which is a hair less than the rings are wide:
       // distances are rounded.
       const double known = more ? ring * cells_.size * (1.0 - 1e-9) : std::numeric_limits<double>::infinity();
@@ -63,11 +65,13 @@ class Neighbourhoods {
   }
 
  private:
-  void add(Index centre, Index grain) {
+  /// Where the square of its distance is not above `farthest`.
+  void add(Index centre, Index grain, double farthest) {
     double dx = x_[grain] - x_[centre];
     dx += nearest_image(dx, cells_.period) * cells_.period;
     const double dy = y_[grain] - y_[centre];
-    near_.push_back({dx * dx + dy * dy, grain});
+    const double square = dx * dx + dy * dy;
+    if (square <= farthest) near_.push_back({square, grain});
   }
 
   const std::vector<Tensor2>& moments_;

@@ -8,7 +8,7 @@ using Fields = std::vector<AnalysisField>;
 
 const std::string moments = "averaging";
 const std::string thresholds = "threshold_factors gamma_c";
-const std::string ratios = moments + " min_contacts";
+const std::string ratios = moments + " min_contacts l_min";
 const std::string overload = thresholds + " " + ratios;
 const std::string graining = overload + " lc_factor lc_cut";
 const std::string clusters = overload + " joining";
@@ -71,7 +71,8 @@ Fields overload_fields() {
   return {
       {{"/analysis/gamma/edge", float64, "B+1", "1", "edges of the bins of gamma"}, "bins"},
       {{"/analysis/gamma/density", float64, "T B", "1",
-        "probability density of gamma over the free grains that carry something (paper, Fig. 8)"},
+        "probability density of gamma over the free grains that carry something (paper, Fig. 8); gamma of a "
+        "grain is the stress ratio of its neighbourhood of diameter l_min, here and in all that follows"},
        ratios + " bins"},
       {{"/analysis/gamma/error", float64, "T B", "1",
         "standard error of the density, from the number of grains in each bin"},
@@ -89,14 +90,16 @@ Fields overload_fields() {
         "overloaded grains over all free grains"},
        overload},
       {{"/analysis/lc/cut", float64, "", "m",
-        "diameter at which the search for l_c ends, in a periodic bed not above L"},
-       "lc_cut"},
+        "diameter at which the search for l_c ends, in a periodic bed not above L; not below l_min"},
+       "lc_cut l_min"},
       {{"/analysis/lc/end_ratio", float64, "F", "1", "stress ratio of a neighbourhood at which l_c is found"},
        thresholds + " lc_factor"},
       {{"/analysis/lc/length", float32, "T F N", "m",
-        "l_c of an overloaded grain, a diameter: that of the smallest circle about its centre in which the "
-        "summed internal moments have a stress ratio not above lc/end_ratio; the cut where there is none; "
-        "NaN for other grains"},
+        "l_c of an overloaded grain, a diameter: that of the smallest circle about its centre, from l_min "
+        "on, "
+        "in which the summed internal moments have a stress ratio not above lc/end_ratio; the cut where "
+        "there "
+        "is none; NaN for other grains"},
        graining},
       {{"/analysis/lc/mean", float64, "T F", "m", "mean l_c of the overloaded grains"}, graining},
       {{"/analysis/lc/error", float64, "T F", "m",

@@ -12,7 +12,7 @@ namespace talus {
 
 /// Counts up with each change of the table or of what is computed: stored analyses of other versions are
 /// computed again.
-inline constexpr std::int32_t analysis_version = 2;
+inline constexpr std::int32_t analysis_version = 3;
 
 struct AnalysisField {
   DataSetField data_set;

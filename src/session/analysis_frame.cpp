@@ -119,11 +119,12 @@ void analyse_correlations(const Frame& frame, const RunStatics& statics, int bin
   rows.set("correlation/mean_stress", mean_stress_correlation(frame, statics, largest, bins).value);
 }
 
-void analyse_coarse_graining(const Frame& frame, const RunStatics& statics, std::size_t f,
-                             const FrameRows& rows) {
+void analyse_coarse_graining(const Frame& frame, const RunStatics& statics,
+                             const AnalysisParameters& parameters, std::size_t f, const FrameRows& rows) {
   const CoarseGraining lc = coarse_graining(frame, statics,
                                             {.threshold = values<double>(rows.analysis, "threshold")[f],
                                              .end_ratio = values<double>(rows.analysis, "lc/end_ratio")[f],
+                                             .l_min = parameters.l_min * statics.mean_diameter,
                                              .cut = values<double>(rows.analysis, "lc/cut")[0]});
   const auto lengths = row<float>(rows.analysis, "lc/length", rows.k);
   std::ranges::transform(lc.length, lengths.begin() + static_cast<std::ptrdiff_t>(f * statics.radius.size()),
@@ -206,7 +207,7 @@ void analyse_frame(const Frame& frame, const RunStatics& statics, const Analysis
     std::vector<bool> overloaded;
     for (const double gamma : of_free_grains(frame.gamma, statics))
       overloaded.push_back(is_overloaded(gamma, thresholds[f]));
-    analyse_coarse_graining(frame, statics, f, rows);
+    analyse_coarse_graining(frame, statics, parameters, f, rows);
     analyse_clusters(frame, statics, overloaded, ground, f, rows);
     analyse_directed(frame, statics, overloaded, ground, f, rows);
   }

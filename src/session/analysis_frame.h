@@ -14,7 +14,8 @@ namespace talus {
 void set_axes(const RunStatics& statics, const AnalysisParameters& parameters, Analysis& analysis);
 
 /// Sets row k of all series of frames but those that come from the observables. Thresholds and the cut of l_c
-/// are those of the record. Different rows can be set at the same time.
+/// are those of the record; `frame` is one of analysed_frame, made with the same parameters. Different rows
+/// can be set at the same time.
 void analyse_frame(const Frame& frame, const RunStatics& statics, const AnalysisParameters& parameters,
                    std::size_t k, Analysis& analysis);
 

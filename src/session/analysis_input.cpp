@@ -2,7 +2,9 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
+#include "analysis/coarse_graining.h"
 #include "analysis/free_grains.h"
 #include "core/trigonometry.h"
 #include "stress/stress_state.h"
@@ -48,11 +50,11 @@ void leave_out_poorly_held(int min_contacts, Index free_count, Frame& frame) {
 }  // namespace
 
 Frame analysed_frame(const RunFile& run, const AnalysisParameters& parameters, std::size_t k) {
+  const RunStatics& statics = run.header().statics;
   Frame frame = run.frame(k);
   if (parameters.averaging > 0.0) average_moments(run, 0.5 * radians(parameters.averaging), k, frame);
-  if (parameters.min_contacts > 1)
-    leave_out_poorly_held(parameters.min_contacts, run.header().statics.free_count, frame);
-  return frame;
+  if (parameters.min_contacts > 1) leave_out_poorly_held(parameters.min_contacts, statics.free_count, frame);
+  return with_gamma_of_neighbourhoods(std::move(frame), statics, parameters.l_min * statics.mean_diameter);
 }
 
 }  // namespace talus

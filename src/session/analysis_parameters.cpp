@@ -47,18 +47,17 @@ AnalysisKey optional_number(const std::string& name, const std::string& unit, co
           }};
 }
 
-AnalysisKey averaging_key() {
-  constexpr double highest = 10.0;
-  return {"averaging",
-          "deg",
+AnalysisKey number_from_zero(const std::string& name, const std::string& unit, double highest,
+                             const std::string& help, double AnalysisParameters::*field) {
+  return {name,
+          unit,
           std::string("a number in [0, ") + short_text(highest) + "]",
-          "tilt over which the internal moment of a grain is averaged, half of it on either side of the "
-          "frame; 0: that of the frame alone",
-          [](const AnalysisParameters& p) { return short_text(p.averaging); },
-          [](AnalysisParameters& p, const std::string& text) {
+          help,
+          [=](const AnalysisParameters& p) { return short_text(p.*field); },
+          [=](AnalysisParameters& p, const std::string& text) {
             const auto value = parse_number(text, -1.0, highest);
             if (!value || *value < 0.0) return false;
-            p.averaging = *value;
+            p.*field = *value;
             return true;
           }};
 }
@@ -144,6 +143,11 @@ const std::vector<AnalysisKey>& analysis_keys() {
       optional_number("gamma_c", "", "run", 1.0,
                       "Gamma_c, the threshold of the packing; run: sin(theta_c), where the slope has failed",
                       &P::gamma_c),
+      number_from_zero(
+          "l_min", "D", 100.0,
+          "diameter of the neighbourhood whose stress ratio is the gamma of a grain, and at which the search "
+          "for l_c begins; 3: a grain and its first neighbours; 0: the grain alone",
+          &P::l_min),
       optional_number(
           "lc_factor", "Gamma_c", "threshold", 10.0,
           "stress ratio of a neighbourhood at which the search for l_c ends; threshold: that from "
@@ -152,7 +156,11 @@ const std::vector<AnalysisKey>& analysis_keys() {
       optional_number("lc_cut", "D", "depth", 1e4,
                       "diameter at which the search for l_c ends; depth: min(H, L/2)", &P::lc_cut),
       joining_key(),
-      averaging_key(),
+      number_from_zero(
+          "averaging", "deg", 10.0,
+          "tilt over which the internal moment of a grain is averaged, half of it on either side "
+          "of the frame; 0: that of the frame alone",
+          &P::averaging),
       count(
           "min_contacts", 6,
           "force-carrying contacts that a grain must have to count: a grain with fewer has no gamma, as one "
@@ -182,6 +190,12 @@ Facts as_facts(const AnalysisParameters& parameters) {
   Facts facts;
   for (const AnalysisKey& key : analysis_keys()) facts.emplace_back(key.name, key.get(parameters));
   return facts;
+}
+
+AnalysisParameters from_facts(const Facts& facts) {
+  std::vector<std::string> settings;
+  for (const auto& [name, value] : facts) settings.push_back(name + "=" + value);
+  return parse_analysis_settings(settings);
 }
 
 }  // namespace talus

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/coarse_graining.h"
 #include "core/snapshot.h"
 
 namespace talus {
@@ -20,8 +21,9 @@ enum class Joining {
 struct AnalysisParameters {
   std::vector<double> threshold_factors = {1.0, 2.0};  ///< thresholds over Gamma_c, ascending
   std::optional<double> gamma_c;                       ///< without a value: sin(theta_c) of the run
-  std::optional<double> lc_factor;                     ///< end of l_c over Gamma_c; without a value: as above
-  std::optional<double> lc_cut;                        ///< D; without a value: min(H, L/2)
+  double l_min = default_l_min;     ///< D: diameter at which neighbourhoods begin; 0: the bare grain
+  std::optional<double> lc_factor;  ///< end of l_c over Gamma_c; without a value: as above
+  std::optional<double> lc_cut;     ///< D; without a value: min(H, L/2)
   Joining joining = Joining::contacts;
   double averaging =
       0.0;               ///< deg of tilt over which the internal moment of a grain is averaged; 0: one frame
@@ -48,5 +50,7 @@ AnalysisParameters parse_analysis_settings(const std::vector<std::string>& setti
 
 /// Names and values of all parameters, in the order of their table.
 Facts as_facts(const AnalysisParameters& parameters);
+/// The parameters of such a list, as an analysis has it. Throws as parse_analysis_settings does.
+AnalysisParameters from_facts(const Facts& facts);
 
 }  // namespace talus

@@ -35,7 +35,8 @@ Analysis begin_analysis(const RunFile& run, const AnalysisParameters& parameters
   values<double>(analysis, "gamma_c")[0] = gamma_c;
   const double cut = parameters.lc_cut ? *parameters.lc_cut * statics.mean_diameter
                                        : std::min(statics.depth, 0.5 * statics.length);
-  values<double>(analysis, "lc/cut")[0] = statics.periodic ? std::min(cut, statics.length) : cut;
+  values<double>(analysis, "lc/cut")[0] = std::max(parameters.l_min * statics.mean_diameter,
+                                                   statics.periodic ? std::min(cut, statics.length) : cut);
   for (std::size_t f = 0; f < factors; ++f) {
     values<double>(analysis, "threshold_factor")[f] = parameters.threshold_factors[f];
     values<double>(analysis, "threshold")[f] = parameters.threshold_factors[f] * gamma_c;

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/trigonometry.h"
+#include "session/analysis_input.h"
 #include "stress/overload.h"
 
 namespace talus {
@@ -37,7 +38,8 @@ void measure_bed(const RunFile& run, const std::vector<ObservableRow>& rows, dou
   const auto& tilts = run.frame_tilts();
   const auto above = std::upper_bound(tilts.begin(), tilts.end(), highest);
   if (row == rows.rend() || above == tilts.begin()) return;
-  const Frame frame = run.frame(static_cast<std::size_t>(above - tilts.begin()) - 1);
+  const Frame frame =
+      analysed_frame(run, AnalysisParameters(), static_cast<std::size_t>(above - tilts.begin()) - 1);
   const RunStatics& statics = run.header().statics;
   const double overloaded =
       std::isnan(theta_c) ? none : count_overloaded(frame, statics, sine(radians(theta_c))).fraction();
@@ -76,7 +78,9 @@ const std::array<StudyField, study_quantity_count> study_fields = {{
     {"creep_at_reference", "creep", StudyGroup::at_reference, 100.0, "% of H",
      "mean displacement downslope of the free grains since the tilt began, over the depth of the bed"},
     {"overloaded_fraction_at_reference", "p_o", StudyGroup::at_reference, 1.0, "",
-     "share of overloaded grains, gamma >= sin(theta_c) with the theta_c of the same run"},
+     "share of overloaded grains: those that have, with their first neighbours, gamma >= sin(theta_c), "
+     "theta_c "
+     "that of the same run"},
     {"stress_ratio_at_reference", "Gamma", StudyGroup::at_reference, 1.0, "", "Q/P of the packing"},
     {"coordination_number_at_reference", "z", StudyGroup::at_reference, 1.0, "", "coordination number"},
     {"volume_strain_at_theta_c", "volume strain", StudyGroup::at_theta_c, 100.0, "%", "the same at theta_c"},

@@ -12,13 +12,6 @@
 namespace talus {
 namespace {
 
-/// Parameters as they are stored with an analysis.
-AnalysisParameters parameters_of(const Analysis& analysis) {
-  std::vector<std::string> settings;
-  for (const auto& [name, value] : analysis.parameters) settings.push_back(name + "=" + value);
-  return parse_analysis_settings(settings);
-}
-
 bool is_near(double one, double other) { return std::abs(one - other) <= 1e-9 * std::abs(other); }
 
 }  // namespace
@@ -47,7 +40,7 @@ std::optional<Analysis> read_usable_analysis(const std::string& path, const RunF
   if (!run.complete()) return std::nullopt;
   std::optional<Analysis> analysis = read_analysis(path);
   if (!analysis) return std::nullopt;
-  const AnalysisParameters parameters = parameters_of(*analysis);
+  const AnalysisParameters parameters = from_facts(analysis->parameters);
   const bool single_frames = parameters.averaging == 0.0 && parameters.min_contacts == 1;
   const bool same_cut = is_near(values<double>(*analysis, "lc/cut")[0], length_cut(run.header().statics));
   if (!single_frames || !same_cut || analysis->key != analysis_key(run, parameters)) return std::nullopt;
@@ -55,7 +48,7 @@ std::optional<Analysis> read_usable_analysis(const std::string& path, const RunF
 }
 
 std::optional<std::size_t> find_threshold(const Analysis& analysis, const OverloadRule& rule) {
-  const bool neighbours = parameters_of(analysis).joining == Joining::neighbours;
+  const bool neighbours = from_facts(analysis.parameters).joining == Joining::neighbours;
   if (neighbours != rule.joined_by_neighbours) return std::nullopt;
   const double wanted = threshold_of(rule);
   for (std::size_t f = 0; f < analysis.sizes.at('F'); ++f)

@@ -40,17 +40,21 @@ double ratio_within(const Packing& packing, Index centre, double l) {
   return stress_state(sum).ratio;
 }
 
-double length_of(const Packing& packing, Index centre, double threshold, double cut) {
-  if (!is_overloaded(packing.frame.gamma[centre], threshold)) return std::nan("");
-  for (const auto& [distance, i] : neighbours_of(packing, centre)) {
-    if (distance > 0.5 * cut) break;
-    if (ratio_within(packing, centre, 2.0 * distance) <= threshold) return 2.0 * distance;
-  }
-  return cut;
+double length_of(const Packing& packing, Index centre, const CoarseGrainingRule& rule) {
+  const double first =
+      rule.l_min > 0.0 ? ratio_within(packing, centre, rule.l_min) : packing.frame.gamma[centre];
+  if (std::isnan(packing.frame.gamma[centre]) || !is_overloaded(first, rule.threshold)) return std::nan("");
+  std::vector<double> candidates = {rule.l_min};
+  for (const auto& [distance, i] : neighbours_of(packing, centre))
+    if (2.0 * distance > rule.l_min && 2.0 * distance <= rule.cut) candidates.push_back(2.0 * distance);
+  for (const double l : candidates)
+    if (ratio_within(packing, centre, l) <= rule.end_ratio) return l;
+  return rule.cut;
 }
 
 CoarseGraining graining(const Packing& packing, double threshold, double cut) {
-  return coarse_graining(packing.frame, packing.statics, {threshold, threshold, cut});
+  return coarse_graining(packing.frame, packing.statics,
+                         {.threshold = threshold, .end_ratio = threshold, .l_min = 0.0, .cut = cut});
 }
 
 void expect_same_bits(const std::vector<double>& one, const std::vector<double>& other) {
@@ -66,10 +70,58 @@ TEST(CoarseGraining, equals_the_definition_to_the_last_bit) {
       const Packing packing = test::random_packing(1, 150, 20.5, 12.0, periodic);
       const CoarseGraining result = graining(packing, threshold, 12.0);
       std::vector<double> expected;
-      for (Index i = 0; i < 150; ++i) expected.push_back(length_of(packing, i, threshold, 12.0));
+      const CoarseGrainingRule rule = {
+          .threshold = threshold, .end_ratio = threshold, .l_min = 0.0, .cut = 12.0};
+      for (Index i = 0; i < 150; ++i) expected.push_back(length_of(packing, i, rule));
       expect_same_bits(result.length, expected);
       EXPECT_GT(result.largest, threshold < 0.1 ? 6.0 : 2.0) << "too easy";
     }
+}
+
+TEST(CoarseGraining, from_l_min_on_equals_the_definition_to_the_last_bit) {
+  for (const bool periodic : {false, true})
+    for (const double end_ratio : {0.15, 0.2, 0.3}) {
+      Packing packing = test::random_packing(5, 250, 20.5, 12.0, periodic);
+      packing.frame.gamma[7] = std::nan("");
+      const CoarseGrainingRule rule = {.threshold = 0.2, .end_ratio = end_ratio, .l_min = 3.0, .cut = 12.0};
+      std::vector<double> expected;
+      for (Index i = 0; i < 250; ++i) expected.push_back(length_of(packing, i, rule));
+      const Frame frame = with_gamma_of_neighbourhoods(packing.frame, packing.statics, rule.l_min);
+      const CoarseGraining result = coarse_graining(frame, packing.statics, rule);
+      expect_same_bits(result.length, expected);
+      EXPECT_TRUE(std::isnan(expected[7])) << "carries nothing";
+      EXPECT_GT(result.largest, 4.0) << "too easy";
+      EXPECT_EQ(std::ranges::count(result.length, 3.0) > 0, end_ratio > rule.threshold);
+    }
+}
+
+TEST(CoarseGraining, gamma_of_neighbourhoods_equals_the_definition_to_the_last_bit) {
+  for (const bool periodic : {false, true}) {
+    Packing packing = test::random_packing(6, 200, 20.5, 12.0, periodic);
+    test::add_floor_grain(packing, 10.0, -0.5);
+    packing.frame.gamma.back() = 0.75;
+    packing.frame.gamma[3] = std::nan("");
+    for (const double l_min : {0.0, 2.25, 3.0, 6.0}) {
+      std::vector<double> expected = packing.frame.gamma;
+      for (Index i = 0; l_min > 0.0 && i < 200; ++i)
+        if (i != 3) expected[i] = ratio_within(packing, i, l_min);
+      const Frame frame = with_gamma_of_neighbourhoods(packing.frame, packing.statics, l_min);
+      expect_same_bits(frame.gamma, expected);
+    }
+  }
+}
+
+// A grain that carries nothing gets no gamma from its neighbours, and takes nothing from them.
+TEST(CoarseGraining, gamma_of_neighbourhoods_of_three_grains) {
+  Packing packing = test::empty_packing(20.0, false);
+  test::add_grain(packing, 5.0, 0.0, 0.5, {3.0, 0.0, 0.0, 1.0});
+  test::add_grain(packing, 6.0, 0.0, 0.5, {1.0, 0.0, 0.0, 1.0});
+  test::add_grain(packing, 5.0, 1.0, 0.5);
+  test::gamma_from_moments(packing);
+  const Frame frame = with_gamma_of_neighbourhoods(packing.frame, packing.statics, 3.0);
+  EXPECT_EQ(frame.gamma[0], 1.0 / 3.0);
+  EXPECT_EQ(frame.gamma[1], 1.0 / 3.0);
+  EXPECT_TRUE(std::isnan(frame.gamma[2]));
 }
 
 TEST(CoarseGraining, of_the_map_equals_the_definition_to_the_last_bit) {

@@ -23,10 +23,11 @@ std::string refusal(const std::vector<std::string>& settings) {
 
 TEST(AnalysisParameters, are_taken_from_settings) {
   const AnalysisParameters p = parse_analysis_settings(
-      {"threshold_factors=0.5,1,3", "gamma_c=0.3", "lc_factor=2", "lc_cut=30", "joining=neighbours",
-       "averaging=0.5", "min_contacts=3", "sections=7", "bins=10"});
+      {"threshold_factors=0.5,1,3", "gamma_c=0.3", "l_min=0", "lc_factor=2", "lc_cut=30",
+       "joining=neighbours", "averaging=0.5", "min_contacts=3", "sections=7", "bins=10"});
   EXPECT_EQ(p.threshold_factors, (std::vector{0.5, 1.0, 3.0}));
   EXPECT_EQ(p.gamma_c, 0.3);
+  EXPECT_EQ(p.l_min, 0.0);
   EXPECT_EQ(p.lc_factor, 2.0);
   EXPECT_EQ(p.lc_cut, 30.0);
   EXPECT_EQ(p.joining, Joining::neighbours);
@@ -36,6 +37,7 @@ TEST(AnalysisParameters, are_taken_from_settings) {
   EXPECT_EQ(p.bins, 10);
   EXPECT_EQ(as_facts(p), (Facts{{"threshold_factors", "0.5,1,3"},
                                 {"gamma_c", "0.3"},
+                                {"l_min", "0"},
                                 {"lc_factor", "2"},
                                 {"lc_cut", "30"},
                                 {"joining", "neighbours"},
@@ -46,9 +48,7 @@ TEST(AnalysisParameters, are_taken_from_settings) {
 }
 
 TEST(AnalysisParameters, admit_their_defaults_as_text) {
-  std::vector<std::string> settings;
-  for (const auto& [name, value] : as_facts(AnalysisParameters{})) settings.push_back(name + "=" + value);
-  EXPECT_EQ(as_facts(parse_analysis_settings(settings)), as_facts(AnalysisParameters{}));
+  EXPECT_EQ(as_facts(from_facts(as_facts(AnalysisParameters{}))), as_facts(AnalysisParameters{}));
   EXPECT_FALSE(parse_analysis_settings({"gamma_c=0.3", "gamma_c=run"}).gamma_c.has_value());
 }
 
@@ -63,6 +63,9 @@ TEST(AnalysisParameters, out_of_range_are_refused) {
                               "gamma_c=1.5",
                               "gamma_c=nan",
                               "gamma_c=sin",
+                              "l_min=-1",
+                              "l_min=101",
+                              "l_min=",
                               "lc_cut=-3",
                               "lc_cut=30D",
                               "lc_cut=inf",
@@ -82,9 +85,8 @@ TEST(AnalysisParameters, are_refused_all_at_once_and_say_what_was_expected) {
   EXPECT_EQ(
       refusal({"lc_cut=-3", "colour=red", "bins"}),
       "--set lc_cut=-3: error: key 'lc_cut' = -3: expected a number in (0, 10000], or depth, in D\n"
-      "--set colour=red: error: unknown key 'colour'; expected one of threshold_factors, gamma_c, lc_factor, "
-      "lc_cut, "
-      "joining, averaging, min_contacts, sections, bins\n"
+      "--set colour=red: error: unknown key 'colour'; expected one of threshold_factors, gamma_c, l_min, "
+      "lc_factor, lc_cut, joining, averaging, min_contacts, sections, bins\n"
       "--set bins: error: expected key=value, such as --set lc_cut=30");
 }
 

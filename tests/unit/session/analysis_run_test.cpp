@@ -85,9 +85,11 @@ void write_run(const std::string& path, const std::vector<Index>& soft, double t
 
 class AnalysisRun : public testing::Test {
  protected:
-  Analysis analyse(const std::vector<Index>& soft, double theta_c,
-                   const std::vector<std::string>& settings = {}, int threads = 1) const {
+  /// By the gamma of single grains, unless the settings say another l_min.
+  Analysis analyse(const std::vector<Index>& soft, double theta_c, std::vector<std::string> settings = {},
+                   int threads = 1) const {
     write_run(path_, soft, theta_c);
+    settings.insert(settings.begin(), "l_min=0");
     return analyse_run(RunFile::open(path_), parse_analysis_settings(settings), threads, {});
   }
 
@@ -175,6 +177,30 @@ TEST_F(AnalysisRun, ends_the_search_where_it_is_told_to) {
   EXPECT_FLOAT_EQ(first[1], 0.0) << "1/3 >= 0.25, and within 0.55 by itself";
 }
 
+TEST_F(AnalysisRun, takes_each_grain_with_its_first_neighbours) {
+  // The moments of grains 0 to 3, each with those above and below it, sum up to gamma 3/5, 5/7, 5/7, 1.
+  const Analysis a =
+      analyse({-1, 1}, 30.0, {"l_min=3", "threshold_factors=1.3", "lc_factor=1.45", "lc_cut=3.5"});
+  EXPECT_EQ(number(a, "overloaded/fraction", 1), 0.75);
+  EXPECT_DOUBLE_EQ(number(a, "gamma/mean", 1), (0.6 + 10.0 / 7.0 + 1.0) / 4.0);
+  EXPECT_EQ(integer(a, "clusters/largest", 1), 3);
+  const auto length = row<float>(a, "lc/length", 1);
+  EXPECT_TRUE(std::isnan(length[0])) << "0.6 < 0.65: not overloaded";
+  EXPECT_FLOAT_EQ(length[1], 3 * diameter) << "5/7 <= 0.725 where the search begins";
+  EXPECT_FLOAT_EQ(length[3], 3.5 * diameter) << "1 > 0.725 up to the cut";
+}
+
+TEST_F(AnalysisRun, takes_first_neighbours_unless_it_is_told_otherwise) {
+  write_run(path_, {-1, 1}, 30.0);
+  const RunFile run = RunFile::open(path_);
+  EXPECT_DOUBLE_EQ(number(analyse_run(run, {}, 1, {}), "gamma/mean", 1), (0.6 + 10.0 / 7.0 + 1.0) / 4.0);
+}
+
+TEST_F(AnalysisRun, search_does_not_end_before_it_begins) {
+  const Analysis a = analyse({-1, 1}, 30.0, {"l_min=3", "lc_cut=2"});
+  EXPECT_DOUBLE_EQ(values<double>(a, "lc/cut")[0], 3 * diameter);
+}
+
 TEST_F(AnalysisRun, takes_from_the_observables_what_they_have) {
   const Analysis a = analyse({-1, 1, -1}, 30.0);
   EXPECT_EQ(number(a, "packing/volume_strain", 2), 4.0) << "of the row at 2 deg";
@@ -235,7 +261,7 @@ TEST_F(AnalysisRun, key_depends_on_run_and_parameters) {
   const RunFile run = RunFile::open(path_);
   const std::string key = analysis_key(run, {});
   EXPECT_EQ(analysis_key(run, {}), key);
-  for (const char* setting : {"threshold_factors=1", "gamma_c=0.5", "lc_factor=2", "lc_cut=3",
+  for (const char* setting : {"threshold_factors=1", "gamma_c=0.5", "lc_factor=2", "lc_cut=3", "l_min=0",
                               "joining=neighbours", "averaging=2", "min_contacts=2", "sections=3", "bins=7"})
     EXPECT_NE(analysis_key(run, parse_analysis_settings({setting})), key) << setting;
   write_run(folder_.path("other.h5"), {-1, -1}, 30.0);
@@ -247,7 +273,8 @@ TEST_F(AnalysisRun, of_a_folder_is_that_of_its_file) {
   write_run(folder_.path("part.h5"), {-1, 1}, 30.0, false);
   const RunFile run = RunFile::open(folder_.path("part.h5"));
   EXPECT_FALSE(run.complete());
-  EXPECT_EQ(analyse_run(run, {}, 1, {}).data_sets.at("lc/max"), packed.data_sets.at("lc/max"));
+  EXPECT_EQ(analyse_run(run, parse_analysis_settings({"l_min=0"}), 1, {}).data_sets.at("lc/max"),
+            packed.data_sets.at("lc/max"));
 }
 
 TEST_F(AnalysisRun, without_frames_is_refused) {

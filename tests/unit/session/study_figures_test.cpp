@@ -25,7 +25,8 @@ Frame frame_at(double tilt, double x, Index image, double gamma) {
   frame.image = {image, 0, 0};
   frame.gamma = {gamma, 0.1, 1.0};
   frame.y = frame.angle = frame.vx = frame.vy = frame.omega = {0.0, 0.0, 0.0};
-  frame.internal_moment.resize(3);
+  for (const double each : frame.gamma)
+    frame.internal_moment.push_back(std::isnan(each) ? Tensor2{} : Tensor2{1.0 + each, 0.0, 0.0, 1.0 - each});
   return frame;
 }
 
@@ -92,8 +93,8 @@ TEST_F(StudyFiguresTest, are_those_at_the_angle) {
   EXPECT_DOUBLE_EQ(at(found, StudyQuantity::coordination_number_at_reference), 4.0);
   EXPECT_DOUBLE_EQ(at(found, StudyQuantity::creep_at_reference), 0.25 / 2 / 0.5)
       << "over the edge, mean of two grains";
-  EXPECT_DOUBLE_EQ(at(found, StudyQuantity::overloaded_fraction_at_reference), 0.5)
-      << "the grain of the floor does not count; 0.1 is above sin(2.5 deg)";
+  EXPECT_DOUBLE_EQ(at(found, StudyQuantity::overloaded_fraction_at_reference), 1.0)
+      << "the grain of the floor does not count; 0 and 0.1 together are above sin(2.5 deg)";
 }
 
 TEST_F(StudyFiguresTest, at_theta_c_are_the_last_before_the_flow) {
