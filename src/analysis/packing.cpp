@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "analysis/free_grains.h"
+#include "core/trigonometry.h"
 #include "stress/bed.h"
 #include "stress/internal_moment.h"
 
@@ -12,6 +14,12 @@ namespace {
 
 Tensor2 over(const Tensor2& moment, double volume) {
   return {moment.xx / volume, moment.xy / volume, moment.yx / volume, moment.yy / volume};
+}
+
+/// Area of a disc below a height above its centre, m^2.
+double area_below(double height, double radius) {
+  const double u = std::clamp(height / radius, -1.0, 1.0);
+  return radius * radius * (0.5 * pi + u * std::sqrt(1.0 - u * u) + std::asin(u));
 }
 
 }  // namespace
@@ -27,6 +35,17 @@ double frame_volume(const Frame& frame, const RunStatics& statics) {
   boundary.periodic = statics.periodic;
   boundary.length = statics.length;
   return bed_volume(grains, boundary, statics.mean_diameter / samples_per_diameter);
+}
+
+double bulk_solid_fraction(const Frame& frame, const RunStatics& statics, double volume) {
+  const double low = bulk_margin * statics.mean_diameter;
+  const double high = volume / statics.length - low;
+  if (!(high > low)) return std::numeric_limits<double>::quiet_NaN();
+  double area = 0.0;
+  for (Index i = 0; i < statics.free_count; ++i)
+    area +=
+        area_below(high - frame.y[i], statics.radius[i]) - area_below(low - frame.y[i], statics.radius[i]);
+  return area / (statics.length * (high - low));
 }
 
 PackingStress packing_stress(const Frame& frame, const RunStatics& statics, double volume) {

@@ -23,6 +23,15 @@ struct PackingStress {
 /// sampled every 0.1 mean diameters.
 double frame_volume(const Frame& frame, const RunStatics& statics);
 
+/// Layers at the floor and below the free surface that are not the bulk of a bed, in mean diameters: the
+/// floor orders the grains above it, and the surface is rough.
+inline constexpr double bulk_margin = 5.0;
+
+/// Share of the area that the free grains cover, between bulk_margin above the floor and bulk_margin below
+/// the mean free surface, volume / length; the parts of discs that lie between. NaN where nothing lies
+/// between.
+double bulk_solid_fraction(const Frame& frame, const RunStatics& statics, double volume);
+
 /// `volume` in m^2.
 PackingStress packing_stress(const Frame& frame, const RunStatics& statics, double volume);
 

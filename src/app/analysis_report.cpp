@@ -107,9 +107,14 @@ std::string dilation_text(const Analysis& analysis, std::size_t s) {
          " to " + degree_text(values<double>(analysis, "theta_d/dilation_high")[s]);
 }
 
+std::string first_slide_text(const Analysis& analysis) {
+  const double angle = values<double>(analysis, "first_slide")[0];
+  return std::isnan(angle) ? "none" : degree_text(angle) + " deg";
+}
+
 std::string transition_table(const AnalysedRun& run) {
   const Analysis& analysis = run.analysis;
-  std::string text = "theta_d by\n";
+  std::string text = line("first slide of the surface layer", {first_slide_text(analysis)}) + "theta_d by\n";
   for (std::size_t f = 0; f < analysis.sizes.at('F'); ++f) {
     const auto value = [&](const char* name) { return values<double>(analysis, name)[f]; };
     const std::string at = formatted(", %.4g Gamma_c", value("threshold_factor"));

@@ -24,6 +24,11 @@ Fields general_fields() {
       {{"/analysis/theta_c", float64, "", "rad",
         "angle of repose, as in /results; NaN if the slope has not failed"},
        ""},
+      {{"/analysis/first_slide", float64, "", "rad",
+        "first tilt after which the surface layer moves downslope by 0.5 D within 0.5 deg: it may stop "
+        "again; "
+        "NaN if it never does"},
+       ""},
       {{"/analysis/gamma_c", float64, "", "1",
         "Gamma_c, the threshold of the packing: sin(theta_c), or as given; NaN where there is neither"},
        "gamma_c"},
@@ -54,6 +59,11 @@ Fields packing_fields() {
        ""},
       {{"/analysis/packing/centre_of_mass_strain", float64, "T", "1",
         "(y - y0)/y0 of the centre of mass, a quieter estimate of the volume strain; from /observables"},
+       ""},
+      {{"/analysis/packing/bulk_solid_fraction", float64, "T", "1",
+        "share of the area that the free grains cover from 5 D above the floor to 5 D below the mean free "
+        "surface; "
+        "NaN where the bed is not deep enough"},
        ""},
       {{"/analysis/packing/solid_fraction", float64, "T", "1",
         "area of the free grains over V; from /observables"},

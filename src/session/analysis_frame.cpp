@@ -55,6 +55,7 @@ void analyse_packing(const Frame& frame, const RunStatics& statics, int sections
   const PackingStress stress = packing_stress(frame, statics, volume);
   const Tensor2& sigma = stress.sigma;
   rows.set("packing/volume", volume);
+  rows.set("packing/bulk_solid_fraction", bulk_solid_fraction(frame, statics, volume));
   rows.set("packing/stress", {sigma.xx, sigma.xy, sigma.yx, sigma.yy});
   rows.set("packing/sigma_t_over_n", stress.shear_over_normal);
   rows.set("packing/stress_ratio", stress.state.ratio);

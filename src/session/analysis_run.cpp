@@ -87,7 +87,7 @@ void take_observables(const std::vector<ObservableRow>& rows, std::span<const do
 }
 
 void find_transitions(const std::vector<ObservableRow>& rows, std::span<const double> tilts,
-                      Analysis& analysis) {
+                      double mean_diameter, Analysis& analysis) {
   const double theta_c = values<double>(analysis, "theta_c")[0];
   std::vector<double> row_tilts;
   for (const ObservableRow& row : rows) row_tilts.push_back(at(row, Observable::tilt));
@@ -100,6 +100,10 @@ void find_transitions(const std::vector<ObservableRow>& rows, std::span<const do
     values<double>(analysis, "theta_d/dilation_low")[s] = onset.low;
     values<double>(analysis, "theta_d/dilation_high")[s] = onset.high;
   }
+  std::vector<double> displacement;
+  for (const ObservableRow& row : rows) displacement.push_back(at(row, Observable::surface_displacement));
+  values<double>(analysis, "first_slide")[0] =
+      first_slide(row_tilts, displacement, slide_distance * mean_diameter, radians(slide_window));
   for (std::size_t f = 0; f < analysis.sizes.at('F'); ++f) {
     std::vector<double> lengths;
     std::vector<Index> spans;
@@ -134,7 +138,7 @@ Analysis analyse_run(const RunFile& run, const AnalysisParameters& parameters, i
   analyse_frames(run, parameters, threads, progress, analysis);
   const std::vector<ObservableRow> rows = run.observables();
   take_observables(rows, run.frame_tilts(), analysis);
-  find_transitions(rows, run.frame_tilts(), analysis);
+  find_transitions(rows, run.frame_tilts(), run.header().statics.mean_diameter, analysis);
   return analysis;
 }
 

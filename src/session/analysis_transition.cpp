@@ -74,4 +74,14 @@ DilationOnset dilation_onset(std::span<const double> tilts, std::span<const doub
   return {tilt_of(lowest), tilt_of(low), tilt_of(high)};
 }
 
+double first_slide(std::span<const double> tilts, std::span<const double> displacements, double distance,
+                   double window) {
+  std::size_t end = 0;  // the last row within the window of row k
+  for (std::size_t k = 0; k < tilts.size(); ++k) {
+    while (end + 1 < tilts.size() && tilts[end + 1] - tilts[k] <= window) ++end;
+    if (displacements[end] - displacements[k] >= distance) return tilts[k];
+  }
+  return none;
+}
+
 }  // namespace talus

@@ -1,6 +1,6 @@
 #pragma once
-/// theta_d, the angle at which the packing begins to change as a whole, by three estimators. Plain series;
-/// angles in rad, ascending; NaN where there is no transition.
+/// theta_d, the angle at which the packing begins to change as a whole, by three estimators, and the first
+/// slide of the surface layer. Plain series; angles in rad, ascending; NaN where there is no transition.
 
 #include <span>
 
@@ -41,5 +41,16 @@ inline constexpr double dilation_window = 1.0;
 /// range reaches the end: the strain has not risen by more than the noise.
 DilationOnset dilation_onset(std::span<const double> tilts, std::span<const double> strains, double theta_c,
                              double window);
+
+/// What counts as a slide: mean diameters by which the surface layer moves downslope, and degrees of tilt
+/// within which it does.
+inline constexpr double slide_distance = 0.5;
+inline constexpr double slide_window = 0.5;
+
+/// Where the surface layer slides first: the first tilt after which it moves by `distance` within `window`
+/// (rad). A slide may stop; the flow that does not is a slide as well, so this is not above theta_c but for
+/// the window. `displacements` of the surface layer since the beginning, in the unit of `distance`.
+double first_slide(std::span<const double> tilts, std::span<const double> displacements, double distance,
+                   double window);
 
 }  // namespace talus

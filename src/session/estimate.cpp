@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "session/deposition.h"
+
 namespace talus {
 namespace {
 
@@ -12,7 +14,8 @@ constexpr double seconds_per_contact_and_pass = 3.4e-9;
 constexpr double seconds_per_contact_and_sweep = 15e-9;  // Gauss-Seidel
 constexpr double contacts_per_grain = 1.9;               // near contacts included
 constexpr double passes_of_deposition = 150.0;
-constexpr double passes_of_tilt = 105.0;
+constexpr double passes_of_tilt = 60.0;
+constexpr double passes_of_tilt_of_collapsed = 105.0;
 constexpr double falls_until_rest = 5.0;     // times sqrt(H / g)
 constexpr double gauss_seidel_passes = 5.0;  // times those of the accelerated solver
 
@@ -37,9 +40,11 @@ double difficulty(const Scenario& scenario) {
 double estimated_seconds(const Scenario& scenario, const Estimate& sizes) {
   const double factor = difficulty(scenario);
   const double most = scenario.solver.max_iterations;
+  const double tilt =
+      scenario.deposition.method == DepositionMethod::collapse ? passes_of_tilt_of_collapsed : passes_of_tilt;
   const double passes =
       std::min(passes_of_deposition * factor, most) * static_cast<double>(sizes.deposition_steps) +
-      std::min(passes_of_tilt * factor, most) * static_cast<double>(sizes.tilt_steps);
+      std::min(tilt * factor, most) * static_cast<double>(sizes.tilt_steps);
   const bool accelerated = scenario.solver.method == SolverMethod::accelerated;
   return (accelerated ? seconds_per_contact_and_pass : seconds_per_contact_and_sweep) * sizes.contacts *
          passes;
@@ -64,7 +69,7 @@ Estimate estimate(const Scenario& scenario) {
 
   const double depth = scenario.bed.depth * scenario.grains.mean_diameter;
   const double rest = std::min(falls_until_rest * std::sqrt(depth / gravity), scenario.deposition.max_time);
-  result.deposition_steps = std::llround(rest / result.time_step);
+  result.deposition_steps = std::llround((end_of_arrivals(scenario) + rest) / result.time_step);
   const double end = scenario.tilt.end_angle.value_or(assumed_repose);
   result.tilt_steps = std::llround(end / scenario.tilt.step);
   result.frames = 1 + static_cast<std::int64_t>(end / scenario.output.frame_every);

@@ -35,6 +35,16 @@ TEST(PackingStress, of_a_stack) {
   EXPECT_EQ(packing.frame.gamma[2], 1.0);
 }
 
+// From 5 D above the floor to 5 D below the top of a square lattice of touching disks, 1 wide and 20 high.
+TEST(BulkSolidFraction, of_a_square_lattice_is_a_quarter_of_pi_whatever_is_cut) {
+  Packing packing = test::empty_packing(10.0, true);
+  for (Index k = 0; k < 200; ++k) test::add_grain(packing, 0.5 + k % 10, 0.5 + k / 10);
+  EXPECT_NEAR(bulk_solid_fraction(packing.frame, packing.statics, 200.0), 0.25 * pi, 1e-12);
+  EXPECT_NEAR(bulk_solid_fraction(packing.frame, packing.statics, 193.0), 0.25 * pi, 0.02)
+      << "0.3 of a row is cut";
+  EXPECT_TRUE(std::isnan(bulk_solid_fraction(packing.frame, packing.statics, 100.0))) << "nothing between";
+}
+
 /// A disk on two others of its size that it touches 30 deg from the vertical; they stand on the floor. They
 /// are held from the side by `side`.
 Packing arch() {

@@ -41,6 +41,19 @@ TEST(LengthJump, is_not_seen_beside_a_frame_without_overloaded_grains) {
   EXPECT_EQ(length_jump(tilts, std::vector{none, 20.0, none, 5.0, 6.0, 6.0}, none, cut).tilt, 0.5);
 }
 
+TEST(FirstSlide, is_where_the_layer_begins_to_move_far_enough_within_the_window) {
+  const std::vector<double> displacements = {0.0, 0.1, 0.2, 0.6, 0.7, 2.0};
+  EXPECT_EQ(first_slide(tilts, displacements, 0.5, 0.35), 0.1) << "0.5 from 0.1 to 0.4";
+  EXPECT_EQ(first_slide(tilts, displacements, 0.5, 0.15), 0.5) << "1.3 from 0.5 to 0.6";
+  EXPECT_EQ(first_slide(tilts, displacements, 0.5, 1.0), 0.0);
+}
+
+TEST(FirstSlide, of_a_layer_that_creeps_or_moves_upslope_is_none) {
+  EXPECT_TRUE(std::isnan(first_slide(tilts, std::vector{0.0, 0.1, 0.2, 0.3, 0.4, 0.49}, 0.5, 0.6)));
+  EXPECT_TRUE(std::isnan(first_slide(tilts, std::vector{9.0, 8.0, 7.0, 6.0, 5.0, 4.0}, 0.5, 0.6)));
+  EXPECT_TRUE(std::isnan(first_slide({}, {}, 0.5, 0.6)));
+}
+
 TEST(PercolationOnset, is_the_first_of_three_frames) {
   const PercolationOnset onset = percolation_onset(tilts, std::vector<Index>{0, 1, 0, 1, 1, 1}, none);
   EXPECT_EQ(onset.tilt, 0.4);
