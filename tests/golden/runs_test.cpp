@@ -12,11 +12,12 @@
 namespace talus {
 namespace {
 
-/// Deposited, brought nearly to rest and tilted by a twentieth of a degree.
+/// Collapsed, brought nearly to rest and tilted by a twentieth of a degree.
 Scenario bed(double length, double depth) {
   Scenario scenario;
   scenario.bed.length = length;
   scenario.bed.depth = depth;
+  scenario.deposition.method = DepositionMethod::collapse;
   scenario.deposition.rest_velocity = 0.1;
   scenario.tilt.end_angle = 0.05;
   return scenario;
@@ -36,6 +37,22 @@ TEST(GoldenRun, periodic_bed) {
   const std::string golden = "627e438cb163f6b9";
   EXPECT_EQ(final_hash(scenario, 1), golden);
   EXPECT_EQ(final_hash(scenario, 2), golden) << "on two threads";
+}
+
+TEST(GoldenRun, poured_bed) {
+  Scenario scenario = bed(60.0, 5.0);
+  scenario.deposition.method = DepositionMethod::pour;
+  const std::string golden = "";
+  EXPECT_EQ(final_hash(scenario, 1), golden);
+  EXPECT_EQ(final_hash(scenario, 2), golden) << "on two threads";
+}
+
+TEST(GoldenRun, poured_bed_between_walls) {
+  Scenario scenario = bed(20.0, 10.0);
+  scenario.bed.boundary = BedBoundary::walls;
+  scenario.deposition.method = DepositionMethod::pour;
+  scenario.deposition.wall_friction = 0.0;
+  EXPECT_EQ(final_hash(scenario, 1), "");
 }
 
 TEST(GoldenRun, walled_bed_with_restitution) {

@@ -1,0 +1,140 @@
+/// How grains get into the bed: poured beds stepped, stopped and taken up.
+
+#include "session/deposition.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "core/errors.h"
+#include "session/run_header.h"
+#include "session/session.h"
+#include "support/small_bed.h"
+
+namespace talus {
+namespace {
+
+/// 30 grains that arrive within 0.19 s; tilted by 0.05 deg.
+Scenario poured_bed(BedBoundary boundary = BedBoundary::periodic) {
+  Scenario scenario = test::small_tilted_bed(0.5);
+  scenario.bed.boundary = boundary;
+  scenario.deposition.method = DepositionMethod::pour;
+  scenario.deposition.rate = 0.5;
+  return scenario;
+}
+
+void advance_to_tilt(Session& session) {
+  while (session.phase() == Phase::deposition) session.advance();
+}
+
+TEST(PouredRun, begins_with_its_first_grain_and_tilts_all_of_them) {
+  for (const BedBoundary boundary : {BedBoundary::periodic, BedBoundary::walls}) {
+    Session session(poured_bed(boundary));
+    EXPECT_EQ(session.world().grains.free_count, 1);
+    advance_to_tilt(session);
+    EXPECT_EQ(session.world().grains.free_count, 30);
+    ASSERT_EQ(session.segment().frames.size(), 1u);
+    EXPECT_EQ(session.segment().frames[0].grain_count(), 40);
+    EXPECT_GE(session.world().time, end_of_arrivals(session.scenario()));
+  }
+}
+
+TEST(PouredRun, tilts_when_all_have_arrived_even_if_those_before_are_at_rest) {
+  Scenario scenario = poured_bed();
+  scenario.deposition.rate = 0.05;  // 64 steps from one grain to the next, and 50 are rest
+  Session session(scenario);
+  advance_to_tilt(session);
+  EXPECT_EQ(session.world().grains.free_count, 30);
+}
+
+TEST(PouredRun, holds_only_what_has_arrived_in_its_problem) {
+  Session session(poured_bed());
+  Index most = 0;
+  for (int k = 0; k < 20; ++k) {
+    session.advance();
+    most = std::max(most, session.world().grains.free_count);
+    EXPECT_EQ(session.world().grains.count(), session.world().grains.free_count + 10);
+  }
+  EXPECT_EQ(most, arrived_by(session.world().time, pour_rule(session.scenario()), 30));
+  EXPECT_LT(most, 10);
+}
+
+TEST(PouredRun, has_statics_of_all_its_grains_from_the_beginning) {
+  Session session(poured_bed());
+  const RunStatics before = run_statics(session.scenario(), session.world());
+  advance_to_tilt(session);
+  const RunStatics after = run_statics(session.scenario(), session.world());
+  EXPECT_EQ(before.free_count, 30);
+  EXPECT_EQ(before.radius, after.radius);
+  EXPECT_EQ(before.mass, after.mass);
+  const RunStatics three = arrived_statics(before, 13);
+  EXPECT_EQ(three.free_count, 3);
+  ASSERT_EQ(three.radius.size(), 13u);
+  EXPECT_EQ(three.radius[2], before.radius[2]);
+  EXPECT_EQ(three.radius[3], before.radius[30]) << "the floor's";
+}
+
+TEST(PouredRun, taken_up_after_any_step_ends_with_the_same_bits) {
+  for (const BedBoundary boundary : {BedBoundary::periodic, BedBoundary::walls}) {
+    Session whole(poured_bed(boundary));
+    while (whole.phase() != Phase::done) whole.advance();
+    for (const int stopped_after : {1, 6, 7, 50, 180}) {
+      Session first(poured_bed(boundary));
+      for (int k = 0; k < stopped_after; ++k) first.advance();
+      Session second(first.scenario(), first.checkpoint(0.0));
+      while (second.phase() != Phase::done) second.advance();
+      EXPECT_EQ(state_hash(second.world()), state_hash(whole.world())) << stopped_after;
+    }
+  }
+}
+
+TEST(PouredRun, has_its_time_to_come_to_rest_after_the_last_arrival) {
+  Scenario scenario = poured_bed();
+  scenario.deposition.max_time = 0.02;  // the arrivals alone take ten times that
+  Session session(scenario);
+  EXPECT_THROW(advance_to_tilt(session), Error);
+  EXPECT_GE(session.world().time, end_of_arrivals(scenario) + 0.02);
+  EXPECT_EQ(session.world().grains.free_count, 30);
+}
+
+TEST(PouredRun, of_a_smooth_floor_and_of_still_grains) {
+  Scenario scenario = poured_bed(BedBoundary::walls);
+  scenario.bed.floor = BedFloor::smooth;
+  scenario.deposition.arrival_speed = 0.0;
+  Session session(scenario);
+  advance_to_tilt(session);
+  EXPECT_EQ(session.world().grains.count(), 30);
+}
+
+TEST(Deposition, has_the_friction_of_the_run_unless_it_has_its_own) {
+  Scenario scenario = poured_bed();
+  scenario.contact.friction = 0.3;
+  scenario.contact.wall_friction = 0.2;
+  EXPECT_EQ(Session(scenario).law().friction, 0.3);
+  EXPECT_EQ(Session(scenario).law().wall_friction, 0.2);
+  scenario.deposition.friction = 0.4;
+  scenario.deposition.wall_friction = 0.1;
+  Session session(scenario);
+  EXPECT_EQ(session.law().friction, 0.4);
+  EXPECT_EQ(session.law().wall_friction, 0.1);
+  advance_to_tilt(session);
+  EXPECT_EQ(session.law().friction, 0.3);
+  EXPECT_EQ(session.law().wall_friction, 0.2);
+}
+
+TEST(StoredScenario, of_before_there_were_methods_is_a_collapse_with_one_friction) {
+  Scenario scenario = poured_bed();
+  scenario.deposition.friction = 0.4;
+  scenario.deposition.wall_friction = 0.1;
+  RunHeader header;
+  header.scenario_resolved = resolved_toml(scenario);
+  EXPECT_EQ(stored_scenario(header, "run"), scenario);
+  header.scenario_resolved = "[contact]\nwall_friction = 0.2\n[deposition]\nfriction = 0.3\n";
+  const Scenario old = stored_scenario(header, "run");
+  EXPECT_EQ(old.deposition.method, DepositionMethod::collapse);
+  EXPECT_EQ(old.deposition.friction, 0.3);
+  EXPECT_EQ(old.deposition.wall_friction, 0.3);
+}
+
+}  // namespace
+}  // namespace talus
