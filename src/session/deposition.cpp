@@ -2,7 +2,9 @@
 
 #include <cmath>
 
+#include "core/trigonometry.h"
 #include "dynamics/collapse.h"
+#include "dynamics/geometric.h"
 
 namespace talus {
 namespace {
@@ -30,8 +32,12 @@ World bed_without_grains(const BedPlan& plan) {
 
 World initial_bed(const Scenario& scenario) {
   const BedPlan plan = bed_plan(scenario);
-  if (scenario.deposition.method == DepositionMethod::collapse)
-    return make_loose_bed(plan, scenario.deposition.initial_solid_fraction);
+  const Scenario::Deposition& deposition = scenario.deposition;
+  if (deposition.method == DepositionMethod::collapse)
+    return make_loose_bed(plan, deposition.initial_solid_fraction);
+  if (deposition.method == DepositionMethod::geometric)
+    return make_geometric_bed(
+        plan, {.critical_angle = radians(deposition.critical_angle), .sites = deposition.sites});
   return bed_without_grains(plan);
 }
 

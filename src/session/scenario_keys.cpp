@@ -132,8 +132,7 @@ void add_deposition_keys(Keys& keys) {
   keys.push_back(choice(
       "deposition", "method", {{"pour", "geometric", "collapse", "file"}},
       "how the grains get into the bed: poured one after another, set down one after another, all at once, "
-      "or "
-      "as a file has them",
+      "or as a file has them",
       [](auto& s) -> auto& { return s.deposition.method; }));
   keys.push_back(number(
       "deposition", "arrival_speed", "sqrt(g D)", from_to(0.0, 20.0),
@@ -143,6 +142,14 @@ void add_deposition_keys(Keys& keys) {
       "deposition", "rate", "sqrt(g/D)", from_to(0.01, 10.0),
       "pour: layers, of L / D grains each, that arrive in sqrt(D / g)",
       [](auto& s) -> auto& { return s.deposition.rate; }));
+  keys.push_back(number(
+      "deposition", "critical_angle", "deg", from_to(0.0, 90.0),
+      "geometric: a grain stays where it has fallen on another one at a contact normal up to this from the "
+      "vertical; 0: it always rolls",
+      [](auto& s) -> auto& { return s.deposition.critical_angle; }));
+  keys.push_back(integer(
+      "deposition", "sites", {1, 1000}, "geometric: places tried for each grain, of which the lowest is kept",
+      [](auto& s) -> auto& { return s.deposition.sites; }));
   keys.push_back(number(
       "deposition", "initial_solid_fraction", "", from_to(0.1, 0.7),
       "collapse: solid fraction of the loose arrangement; less where the size ratio needs room",

@@ -1,0 +1,84 @@
+#pragma once
+/// Discs by where they are, so that a grain that falls or rolls among them meets only those near it.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "core/boundary.h"
+#include "core/types.h"
+
+namespace talus {
+
+/// A disc; lengths in m.
+struct Disc {
+  double x = 0.0, y = 0.0, radius = 0.0;
+};
+
+/// Discs in square cells as wide as the largest of them. A periodic bed is longer than four cells.
+class DiscGrid {
+ public:
+  static constexpr Index none = -1;
+
+  /// What a falling grain touches first.
+  struct Touch {
+    double height = -std::numeric_limits<double>::infinity();  ///< m, of the centre of the grain
+    Index disc = none;                                         ///< none: the plane floor
+  };
+
+  /// `largest`: the largest diameter of a disc, m. No disc has its centre lower than one diameter below 0.
+  DiscGrid(const Boundary& boundary, double largest);
+
+  void add(const Disc& disc);
+  const Disc& operator[](Index disc) const { return discs_[static_cast<std::size_t>(disc)]; }
+  const Boundary& boundary() const { return boundary_; }
+  double largest_radius() const { return 0.5 * height_; }
+
+  /// From one x to another, the shorter way round in a periodic bed, m.
+  double separation(double from, double to) const {
+    return boundary_.periodic ? std::remainder(to - from, boundary_.length) : to - from;
+  }
+
+  /// What a grain that falls along x from the height `from` touches first; `left` is the disc that it has
+  /// just rolled off, which it does not meet again.
+  Touch first_touch(double x, double radius, double from, Index left) const;
+
+  /// Calls visit(disc) for each disc with its centre in a rectangle, and for some that lie near it.
+  template <typename Visit>
+  void visit(Vec2 low, Vec2 high, Visit visit) const {
+    visit_rows(std::max<Index>(0, row_of(low.y)), std::min(row_of(high.y), rows_ - 1), low.x, high.x, visit);
+  }
+
+ private:
+  // The first row is that of the floor grains, below 0.
+  Index row_of(double y) const { return static_cast<Index>(std::floor(y / height_)) + 1; }
+  double bottom_of(Index row) const { return (row - 1) * height_; }
+  Index column_of(double x) const { return static_cast<Index>(std::floor(x / width_)); }
+  const std::vector<Index>& cell(Index row, Index column) const {
+    const Index wrapped = (column % columns_ + columns_) % columns_;
+    return cells_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+                  static_cast<std::size_t>(wrapped)];
+  }
+
+  template <typename Visit>
+  void visit_rows(Index bottom, Index top, double x_low, double x_high, Visit visit) const {
+    Index first = column_of(x_low), last = column_of(x_high);
+    if (!boundary_.periodic) {
+      first = std::max<Index>(0, first);
+      last = std::min(last, columns_ - 1);
+    }
+    last = std::min(last, first + columns_ - 1);
+    for (Index row = bottom; row <= top; ++row)
+      for (Index column = first; column <= last; ++column)
+        for (const Index disc : cell(row, column)) visit(disc);
+  }
+
+  Boundary boundary_;
+  double height_ = 0.0, width_ = 0.0;  ///< of a cell, m
+  Index columns_ = 1, rows_ = 0;
+  std::vector<Disc> discs_;
+  std::vector<std::vector<Index>> cells_;
+};
+
+}  // namespace talus

@@ -1,0 +1,166 @@
+#include "dynamics/rolling.h"
+
+#include <optional>
+
+#include "core/errors.h"
+
+namespace talus {
+namespace {
+
+constexpr int most_moves = 1'000'000;  // falls and rolls of one grain; a tower of grains takes some hundreds
+
+/// A grain on a disc. Its centre moves on a circle about that of the disc, from `direction` down to the
+/// equator. All positions are relative to that centre: they are as exact far from the origin as near it.
+struct Roll {
+  Index on = DiscGrid::none;
+  double reach = 0.0;  ///< m, radius of the circle: those of disc and grain
+  Vec2 direction;      ///< unit, from the centre of the disc to that of the grain
+  double side = 1.0;   ///< of the disc on which the grain rolls down: 1 right, -1 left
+};
+
+/// Where on its circle the rolling grain meets something.
+struct Stop {
+  Vec2 direction;
+  Index disc = DiscGrid::none;  ///< none: a wall or the plane floor
+  bool holds = true;            ///< from the other side; else the grain rolls on over the disc
+};
+
+double component(double other) { return std::sqrt(std::max(0.0, (1.0 - other) * (1.0 + other))); }
+
+double square(Vec2 v) { return v.x * v.x + v.y * v.y; }
+
+/// Whether a rolling grain gets to `first` before `second`, or both are the same.
+bool is_before(Vec2 first, Vec2 second, double side) {
+  return side * (first.x * second.y - first.y * second.x) <= 0.0;
+}
+
+class Path {
+ public:
+  Path(const DiscGrid& bed, const FallingGrain& grain) : bed_(bed), grain_(grain), x_(grain.x) {}
+
+  Vec2 end() {
+    for (int move = 0; move < most_moves; ++move)
+      if (const std::optional<Vec2> place = roll_ ? go_on_rolling() : fall()) return *place;
+    throw Error(ExitCode::internal, "a grain that is set down rolls without end");
+  }
+
+ private:
+  double reach(Index disc) const { return grain_.radius + bed_[disc].radius; }
+
+  /// The centre of the grain, in a direction from that of a disc.
+  Vec2 place(Index disc, Vec2 direction) const {
+    double x = bed_[disc].x + reach(disc) * direction.x;
+    const Boundary& boundary = bed_.boundary();
+    if (boundary.periodic) {
+      x -= boundary.length * std::floor(x / boundary.length);
+      if (x >= boundary.length) x = 0.0;  // the step back from just below 0 rounds up to the period
+    }
+    return {x, bed_[disc].y + reach(disc) * direction.y};
+  }
+
+  std::optional<Vec2> fall() {
+    const DiscGrid::Touch touch = bed_.first_touch(x_, grain_.radius, height_, left_);
+    if (touch.disc == DiscGrid::none) return Vec2{x_, touch.height};
+    const double across = bed_.separation(bed_[touch.disc].x, x_) / reach(touch.disc);
+    const Vec2 direction{across, component(across)};
+    if (grain_.critical_sine > 0.0 && std::fabs(across) <= grain_.critical_sine)
+      return place(touch.disc, direction);
+    roll_ = Roll{touch.disc, reach(touch.disc), direction, across < 0.0 ? -1.0 : 1.0};
+    return std::nullopt;
+  }
+
+  std::optional<Vec2> go_on_rolling() {
+    const Roll roll = *roll_;
+    const std::optional<Stop> stop = first_stop(roll);
+    if (!stop) {
+      const Vec2 equator = place(roll.on, {roll.side, 0.0});
+      x_ = equator.x;
+      height_ = equator.y;
+      left_ = roll.on;
+      roll_.reset();
+      return std::nullopt;
+    }
+    if (stop->holds) return place(roll.on, stop->direction);
+    const Vec2 to_disc = from_to(roll.on, stop->disc);
+    const double next_reach = reach(stop->disc);
+    roll_->on = stop->disc;
+    roll_->reach = next_reach;
+    roll_->direction = {(roll.reach * stop->direction.x - to_disc.x) / next_reach,
+                        (roll.reach * stop->direction.y - to_disc.y) / next_reach};
+    return std::nullopt;
+  }
+
+  Vec2 from_to(Index disc, Index other) const {
+    return {bed_.separation(bed_[disc].x, bed_[other].x), bed_[other].y - bed_[disc].y};
+  }
+
+  std::optional<Stop> first_stop(const Roll& roll) const {
+    std::optional<Stop> first;
+    const auto take = [&](const std::optional<Stop>& stop) {
+      if (stop && (!first || !is_before(first->direction, stop->direction, roll.side))) first = stop;
+    };
+    const Disc& on = bed_[roll.on];
+    const double around = grain_.radius + bed_.largest_radius();
+    const double from = on.x + roll.reach * roll.direction.x, to = on.x + roll.reach * roll.side;
+    const double top = on.y + roll.reach * roll.direction.y;
+    bed_.visit({std::min(from, to) - around, on.y - around}, {std::max(from, to) + around, top + around},
+               [&](Index disc) {
+                 if (disc != roll.on) take(stop_at_disc(roll, disc));
+               });
+    for (const Plane& plane : bed_.boundary().planes)
+      take(plane.wall ? stop_at_wall(roll, plane) : stop_at_floor(roll, plane));
+    return first;
+  }
+
+  /// The circles on which the centre stays in touch with both discs cross where it is at cos(alpha) along the
+  /// line between them: it gets there on the side it comes from.
+  std::optional<Stop> stop_at_disc(const Roll& roll, Index disc) const {
+    const Vec2 to_disc = from_to(roll.on, disc);
+    const double distance = std::sqrt(square(to_disc)), other = reach(disc);
+    if (distance >= roll.reach + other) return std::nullopt;
+    const double cosine =
+        (roll.reach * roll.reach + (distance - other) * (distance + other)) / (2.0 * roll.reach * distance);
+    const double sine = roll.side * component(cosine);
+    const Vec2 along{to_disc.x / distance, to_disc.y / distance};
+    const Stop stop{{along.x * cosine - along.y * sine, along.y * cosine + along.x * sine},
+                    disc,
+                    roll.side * (to_disc.x - roll.reach * (along.x * cosine - along.y * sine)) > 0.0};
+    const bool ahead = stop.direction.y >= 0.0 && roll.side * stop.direction.x >= 0.0 &&
+                       is_before(roll.direction, stop.direction, roll.side);
+    return ahead || is_touched_already(roll, to_disc, other) ? std::optional(stop) : std::nullopt;
+  }
+
+  /// Whether the grain touches, to round-off, a disc towards which it rolls.
+  static bool is_touched_already(const Roll& roll, Vec2 to_disc, double other) {
+    const Vec2 apart{to_disc.x - roll.reach * roll.direction.x, to_disc.y - roll.reach * roll.direction.y};
+    const double towards = roll.side * (roll.direction.y * to_disc.x - roll.direction.x * to_disc.y);
+    return square(apart) < other * other && towards > 0.0;
+  }
+
+  std::optional<Stop> stop_at_wall(const Roll& roll, const Plane& wall) const {
+    if (wall.normal.x * roll.side > 0.0) return std::nullopt;  // the wall behind
+    const double x = wall.normal.x * wall.offset + wall.normal.x * grain_.radius;
+    const double across = (x - bed_[roll.on].x) / roll.reach;
+    if (std::fabs(across) > 1.0) return std::nullopt;
+    return Stop{{across, component(across)}};
+  }
+
+  std::optional<Stop> stop_at_floor(const Roll& roll, const Plane& floor) const {
+    const double up = (floor.offset + grain_.radius - bed_[roll.on].y) / roll.reach;
+    if (up < 0.0) return std::nullopt;
+    return Stop{{roll.side * component(up), up}};
+  }
+
+  const DiscGrid& bed_;
+  const FallingGrain& grain_;
+  double x_;                                                 ///< m, where the grain falls
+  double height_ = std::numeric_limits<double>::infinity();  ///< m, from where
+  Index left_ = DiscGrid::none;                              ///< the disc that it has rolled off
+  std::optional<Roll> roll_;                                 ///< none while it falls
+};
+
+}  // namespace
+
+Vec2 resting_place(const DiscGrid& bed, const FallingGrain& grain) { return Path(bed, grain).end(); }
+
+}  // namespace talus
