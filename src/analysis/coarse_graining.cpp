@@ -95,6 +95,32 @@ std::vector<double> coarse_stress_ratio(const Frame& frame, const RunStatics& st
   return result;
 }
 
+std::vector<double> overloaded_over_scale(const Frame& frame, const RunStatics& statics, double threshold,
+                                          std::span<const double> l) {
+  std::vector<Index> overloaded(l.size(), 0);
+  Index loaded = 0;
+  Neighbourhoods neighbourhoods(frame, statics);
+  for (Index i = 0; i < statics.free_count; ++i) {
+    if (std::isnan(frame.gamma[i])) continue;
+    ++loaded;
+    Tensor2 within;
+    std::size_t next = 0;  // diameter that is not judged yet
+    const auto judge_up_to = [&](double diameter) {
+      for (; next < l.size() && l[next] < diameter; ++next)
+        if (is_overloaded(stress_state(within).ratio, threshold)) ++overloaded[next];
+    };
+    neighbourhoods.around(i, 0.5 * l.back(), [&](double distance, const Tensor2& sum) {
+      judge_up_to(2.0 * distance);
+      within = sum;
+      return true;
+    });
+    judge_up_to(std::numeric_limits<double>::infinity());
+  }
+  std::vector<double> shares;
+  for (const Index count : overloaded) shares.push_back(static_cast<double>(count) / loaded);
+  return shares;
+}
+
 NeighbourhoodCurve neighbourhood_curve(const Frame& frame, const RunStatics& statics, Index grain,
                                        double largest) {
   NeighbourhoodCurve curve;

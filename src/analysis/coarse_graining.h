@@ -3,6 +3,7 @@
 /// large a neighbourhood of an overloaded grain has to be before it is not overloaded any more (paper,
 /// section V B).
 
+#include <span>
 #include <vector>
 
 #include "core/snapshot.h"
@@ -44,6 +45,12 @@ CoarseGraining coarse_graining(const Frame& frame, const RunStatics& statics, co
 
 /// gamma_l of every free grain at the diameter l (m). NaN where the neighbourhood carries nothing.
 std::vector<double> coarse_stress_ratio(const Frame& frame, const RunStatics& statics, double l);
+
+/// p_o over the size of neighbourhoods: of the free grains that carry something, the share with gamma_l >=
+/// threshold at each of the diameters `l` (m, ascending). `frame` has the gamma of single grains. NaN where
+/// no grain carries anything.
+std::vector<double> overloaded_over_scale(const Frame& frame, const RunStatics& statics, double threshold,
+                                          std::span<const double> l);
 
 /// gamma_l over l for one grain, a point for each distance at which the neighbourhood takes in grains, up to
 /// the diameter `largest` (m). The paper's Fig. 11.

@@ -6,6 +6,7 @@
 #include <initializer_list>
 
 #include "core/trigonometry.h"
+#include "session/analysis_parameters.h"
 
 namespace talus {
 namespace {
@@ -45,8 +46,12 @@ std::string heading(const AnalysedRun& run) {
   if (std::isnan(gamma_c))
     return text + ": overloaded grains need a threshold, give one with --set gamma_c=0.3\n";
   const double diameter = run.statics.mean_diameter;
-  return text + formatted("; Gamma_c = %.4f; l_c cut at %.4g D\n", gamma_c,
-                          values<double>(analysis, "lc/cut")[0] / diameter);
+  const double l_min = from_facts(analysis.parameters).l_min;
+  text += formatted("; Gamma_c = %.4f; l_c cut at %.4g D\n", gamma_c,
+                    values<double>(analysis, "lc/cut")[0] / diameter);
+  return text + (l_min > 0.0 ? formatted("gamma of grains with their neighbours, within %.4g D of each\n",
+                                         0.5 * l_min)
+                             : std::string("gamma of single grains\n"));
 }
 
 std::string span_text(const Analysis& analysis, std::size_t k, std::size_t f) {

@@ -121,6 +121,7 @@ void LiveMaps::draw(Frame frame) {
     extend(*extent_, frame, statics);
     extent_->y_max += margin_above * statics.depth;
   }
+  if (shows_gamma(plan_)) frame = mapped_frame(std::move(frame), statics, plan_.maps[0]);
   if (!before_ || frame.tilt > highest_.tilt) highest_ = {frame.step, frame.time, frame.tilt};
   std::vector<ClusterColour> cluster_colours;
   if (draws_clusters(plan_))

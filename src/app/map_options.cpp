@@ -51,6 +51,13 @@ void add_live_options(CLI::App& command, MapOptions& options) {
       .add_option("--theta-c", options.theta_c,
                   "Angle of repose in degrees, for Gamma_c = sin(theta_c) [that of the run]")
       ->check(CLI::Range(2.0, 89.0));
+  command
+      .add_option(
+          "--l-min", options.l_min,
+          "Maps gamma, overloaded and clusters, and their traces: a grain is taken together with all "
+          "whose centres lie within half of this of its own, in mean diameters: 3 for a grain and its "
+          "first neighbours, 0 for the grain alone [3]")
+      ->check(CLI::Range(0.0, 100.0));
   command.add_option("--colours", options.colours,
                      "Colours of the bar: " + list_of_colours() + " [each map its own]");
   command
@@ -116,6 +123,7 @@ MapSettings common_settings(const MapOptions& options) {
   MapSettings settings;
   settings.theta_c = options.theta_c ? radians(*options.theta_c) : std::numeric_limits<double>::quiet_NaN();
   settings.threshold_factor = options.threshold.value_or(settings.threshold_factor);
+  settings.l_min = options.l_min.value_or(settings.l_min);
   settings.length = options.length.value_or(settings.length);
   settings.turned = options.turned;
   settings.transparent = options.transparent;
@@ -150,6 +158,8 @@ void refuse_idle_options(const MapOptions& options, const MapPlan& plan) {
   if (options.length && !draws(MapKind::coarse)) refuse("--length: it is for the map coarse");
   if (options.since && !any_layer(plan, needs_reference))
     refuse("--since: it is for the maps displacement and rotation");
+  if (options.l_min && !shows_gamma(plan))
+    refuse("--l-min: no map or trace that is asked for goes by gamma of grains");
   if (options.threshold && !needs_theta_c(plan))
     refuse("--threshold: no map or trace that is asked for goes by Gamma_c");
   if (options.joined && !draws(MapKind::clusters) &&
@@ -213,6 +223,10 @@ bool draws_clusters(const MapPlan& plan) {
 bool needs_theta_c(const MapPlan& plan) {
   return any_layer(plan, needs_theta_c) ||
          std::ranges::any_of(plan.traces, [](TraceKind kind) { return needs_theta_c(kind); });
+}
+
+bool shows_gamma(const MapPlan& plan) {
+  return any_layer(plan, shows_gamma) || std::ranges::any_of(plan.traces, trace_from_frames);
 }
 
 }  // namespace talus

@@ -19,6 +19,7 @@ struct MapOptions {
   std::optional<double> theta_c;      ///< deg
   std::string colours;                ///< empty: each map its own
   std::string context = "auto";       ///< or osmesa, egl
+  std::optional<double> l_min;        ///< D
   std::optional<double> threshold;    ///< of Gamma_c
   std::optional<double> length;       ///< D
   std::optional<double> since;        ///< deg
@@ -33,7 +34,7 @@ struct MapOptions {
 
 /// What of them a command has.
 enum class MapOptionSet {
-  drawn_live,  ///< --map, --width, --theta-c, --colours, --context
+  drawn_live,  ///< --map, --width, --theta-c, --l-min, --colours, --context
   all,
 };
 /// RUN: the run to draw.
@@ -65,5 +66,7 @@ bool any_layer(const MapPlan& plan, bool (*has)(MapKind));
 bool draws_clusters(const MapPlan& plan);
 /// Whether a map or a trace goes by Gamma_c.
 bool needs_theta_c(const MapPlan& plan);
+/// Whether a map or a trace goes by the gamma of grains.
+bool shows_gamma(const MapPlan& plan);
 
 }  // namespace talus

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include "app/count_progress.h"
 #include "app/picture_key.h"
@@ -68,7 +69,7 @@ void MappedRun::meet_frames(const std::function<void(std::size_t, std::size_t)>&
   const std::size_t count = file_.all_frame_tilts().size();
   ClusterColours colours;
   for (std::size_t k = 0; k < count; ++k) {
-    const Frame frame = whole ? file_.frame(k) : file_.positions(k);
+    const Frame frame = whole ? as_mapped(file_.frame(k)) : file_.positions(k);
     instants_.push_back({frame.step, frame.time, frame.tilt});
     extend(extent_, frame, statics);
     if (clusters)
@@ -119,8 +120,13 @@ void MappedRun::load(std::size_t k) {
     reference_ = current_ == k - 1 ? std::move(frame_) : file_.frame(k - 1);
     before_ = k - 1;
   }
-  frame_ = file_.frame(k);
+  frame_ = as_mapped(file_.frame(k));
   current_ = k;
+}
+
+Frame MappedRun::as_mapped(Frame frame) const {
+  if (!shows_gamma(plan_)) return frame;
+  return mapped_frame(std::move(frame), file_.header().statics, plan_.maps[0]);
 }
 
 const Frame* MappedRun::reference() const { return before_ && *before_ < *current_ ? &reference_ : nullptr; }

@@ -54,6 +54,7 @@ class MappedRun {
   void meet_frames(const std::function<void(std::size_t, std::size_t)>& progress);
   void read_observables();
   void load(std::size_t k);
+  Frame as_mapped(Frame frame) const;
   const Frame* reference() const;
 
   std::string path_;

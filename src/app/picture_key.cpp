@@ -48,6 +48,7 @@ void add_settings(PictureKey& key, const MapSettings& settings, int width, const
   key.add("theta_c", settings.theta_c);
   key.add("theta_c_assumed", settings.theta_c_assumed);
   key.add("threshold_factor", settings.threshold_factor);
+  key.add("l_min", settings.l_min);
   key.add("length", settings.length);
   key.add("joined_by_neighbours", settings.joined_by_neighbours);
   key.add("turned", settings.turned);

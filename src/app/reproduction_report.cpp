@@ -83,7 +83,7 @@ ReportTable beds_table(const ReproductionResult& result) {
          {std::to_string(estimate(bed.scenario).grains)},
          {preparation_text(bed)},
          {std::to_string(outcomes.size()) + " of " + std::to_string(result.plan.seeds.size())},
-         {spread_text(spread_of(result, b, PaperQuantity::theta_c, 0))},
+         {spread_text(spread_of(result, b, PaperQuantity::theta_c))},
          {duration_text(seconds)}});
   }
   return table;
@@ -147,24 +147,25 @@ std::vector<ReportBlock> rule_blocks() {
           ("\"Does not occur\": no run shows it. \"Not comparable\" says why. `<=` is an upper bound: what "
            "is "
            "looked for is there from the first frame on."),
-          ("All that depends on the threshold for overloaded grains stands there twice: with the printed "
-           "one, "
-           "gamma >= Gamma_c = sin(theta_c), and with twice it. theta_c is that of the same run."),
+          ("All that depends on which grains are overloaded stands there in three readings: single grains "
+           "with the printed threshold, gamma >= Gamma_c = sin(theta_c); single grains with twice it; and "
+           "grains taken together with their first neighbours, all within 1.5 D, with the printed one. "
+           "theta_c is that of the same run."),
       }}};
 }
 
-std::vector<ReportTable::Column> value_columns(const ReproductionPlan& plan, bool threshold) {
+std::vector<ReportTable::Column> value_columns(const ReproductionPlan& plan, bool by_reading) {
   std::vector<ReportTable::Column> columns = {{"quantity"}, {"paper"}};
-  if (threshold) columns.push_back({"threshold"});
+  if (by_reading) columns.push_back({"overloaded are"});
   for (const std::size_t b : periodic_beds(plan)) columns.push_back({preparation_text(plan.beds[b]), true});
   return columns;
 }
 
 std::vector<ReportCell> value_cells(const ReproductionResult& result, const PaperValue& paper,
-                                    std::size_t factor) {
+                                    const Reading& reading) {
   std::vector<ReportCell> cells;
   for (const std::size_t b : periodic_beds(result.plan))
-    cells.push_back(judged_cell(paper, spread_of(result, b, paper.quantity, factor),
+    cells.push_back(judged_cell(paper, spread_of(result, b, paper.quantity, reading),
                                 result.plan.beds[b].scenario.bed.depth));
   return cells;
 }
@@ -177,7 +178,7 @@ ReportTable packing_table(const ReproductionResult& result) {
   ReportTable table{value_columns(result.plan, false), {}};
   for (const PaperValue& paper : packing_values()) {
     std::vector<ReportCell> row = {{name_text(paper)}, paper_cell(paper)};
-    std::ranges::move(value_cells(result, paper, 0), std::back_inserter(row));
+    std::ranges::move(value_cells(result, paper, base_readings().back()), std::back_inserter(row));
     table.rows.push_back(std::move(row));
   }
   return table;
@@ -185,14 +186,15 @@ ReportTable packing_table(const ReproductionResult& result) {
 
 ReportTable chain_table(const ReproductionResult& result) {
   ReportTable table{value_columns(result.plan, true), {}};
-  const char* const thresholds[] = {"Gamma_c, as printed", "2 Gamma_c"};
   for (const PaperValue& paper : chain_values()) {
-    const bool both = paper.quantity != PaperQuantity::theta_d_by_dilation;
-    for (std::size_t f = 0; f < (both ? 2U : 1U); ++f) {
-      std::vector<ReportCell> row = {{f == 0 ? name_text(paper) : ""},
-                                     f == 0 ? paper_cell(paper) : ReportCell{""},
-                                     {both ? thresholds[f] : "none needed"}};
-      std::ranges::move(value_cells(result, paper, f), std::back_inserter(row));
+    const bool by_reading = paper.quantity != PaperQuantity::theta_d_by_dilation;
+    const std::span<const Reading> all = base_readings();
+    for (const Reading& reading : by_reading ? all : all.first(1)) {
+      const bool first = &reading == &all.front();
+      std::vector<ReportCell> row = {{first ? name_text(paper) : ""},
+                                     first ? paper_cell(paper) : ReportCell{""},
+                                     {by_reading ? reading.base : "none needed"}};
+      std::ranges::move(value_cells(result, paper, reading), std::back_inserter(row));
       table.rows.push_back(std::move(row));
     }
   }
@@ -210,7 +212,7 @@ ReportTable wall_table(const ReproductionResult& result) {
           {{bed_text(bed)},
            {name_text(paper)},
            paper_cell(paper),
-           judged_cell(paper, spread_of(result, b, paper.quantity, 0), bed.scenario.bed.depth)});
+           judged_cell(paper, spread_of(result, b, paper.quantity), bed.scenario.bed.depth)});
     }
   const std::vector<WallPoint> points = wall_points(result);
   const WallFit fit = fit_wall_law(points);
@@ -249,7 +251,7 @@ std::string agreement_count(const ReproductionResult& result, std::size_t bed,
   int agreeing = 0, comparable = 0;
   for (const PaperValue& paper : values) {
     const Agreement found =
-        judge(paper, spread_of(result, bed, paper.quantity, 0), result.plan.beds[bed].scenario.bed.depth)
+        judge(paper, spread_of(result, bed, paper.quantity), result.plan.beds[bed].scenario.bed.depth)
             .agreement;
     agreeing += found == Agreement::agrees ? 1 : 0;
     comparable += found != Agreement::not_comparable ? 1 : 0;

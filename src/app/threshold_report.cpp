@@ -17,7 +17,7 @@ std::string formatted(const char* format, double value) {
 }
 
 std::string reading_text(const Reading& reading) {
-  return reading.threshold + (reading.change.empty() ? "" : ", " + reading.change);
+  return reading.base + (reading.change.empty() ? "" : ", " + reading.change);
 }
 
 std::string result_text(const ReproductionPlan& plan, const ReadingResult& result) {
@@ -65,7 +65,7 @@ ReportTable preparation_table(std::span<const ReadingResult> results, std::size_
   for (const ReadingResult& result : results) {
     if (result.preparation != preparation) continue;
     const Reading& reading = readings()[result.reading];
-    std::vector<ReportCell> row = {reading.change.empty() ? ReportCell{reading.threshold}
+    std::vector<ReportCell> row = {reading.change.empty() ? ReportCell{reading.base}
                                                           : ReportCell{"", reading.change}};
     for (std::size_t v = 0; v < result.values.size(); ++v)
       row.push_back(chain_cell(result.values[v], result.judgements[v]));
@@ -98,20 +98,20 @@ std::string least_text(const ReproductionPlan& plan, std::span<const ReadingResu
 }
 
 std::string scores_text(const ReproductionPlan& plan, const StudyConclusion& conclusion) {
-  std::vector<std::string> preparations, thresholds;
+  std::vector<std::string> preparations, bases;
   for (std::size_t p = 0; p < conclusion.score_of_preparation.size(); ++p)
     if (!std::isnan(conclusion.score_of_preparation[p]))
       preparations.push_back(formatted("%.1f", conclusion.score_of_preparation[p]) + " with " +
                              preparation_text(plan.beds[p]));
   for (std::size_t r = 0; r < conclusion.score_of_reading.size(); ++r)
     if (readings()[r].change.empty())
-      thresholds.push_back(formatted("%.1f", conclusion.score_of_reading[r]) + " for `" +
-                           readings()[r].threshold + "`");
+      bases.push_back(formatted("%.1f", conclusion.score_of_reading[r]) + " for `" + readings()[r].base +
+                      "`");
   return "Mean number of values that agree, over all readings: " + listed(preparations) +
-         "; over preparations, with nothing else changed: " + listed(thresholds) + ".";
+         "; over preparations, with nothing else changed: " + listed(bases) + ".";
 }
 
-/// The change of each threshold that raises its score most, over preparations.
+/// The change of each base that raises its score most, over preparations.
 std::string changes_text(const StudyConclusion& conclusion) {
   std::vector<std::string> texts;
   for (std::size_t base = 0; base < conclusion.score_of_reading.size(); ++base) {
@@ -121,8 +121,8 @@ std::string changes_text(const StudyConclusion& conclusion) {
          ++r)
       if (conclusion.score_of_reading[r] > conclusion.score_of_reading[best]) best = r;
     texts.push_back(best == base
-                        ? "no change raises that of `" + readings()[base].threshold + "`"
-                        : "`" + readings()[best].change + "` raises that of `" + readings()[base].threshold +
+                        ? "no change raises that of `" + readings()[base].base + "`"
+                        : "`" + readings()[best].change + "` raises that of `" + readings()[base].base +
                               "` most, to " + formatted("%.1f", conclusion.score_of_reading[best]));
   }
   return "Of the changes to a reading, " + listed(texts) + ".";
@@ -148,11 +148,15 @@ std::string missed_text(const ReproductionPlan& plan, std::span<const ReadingRes
 /// What is asked, and how the definitions are read.
 std::vector<ReportBlock> introduction() {
   return {
-      ReportHeading{2, "Settling the threshold"},
+      ReportHeading{2, "Settling which grains are overloaded"},
       ReportParagraph{
           "The paper leaves some things open: how beds were made, and details of its data processing. Here "
-          "its definitions are read in other ways, one factor at a time from the printed threshold and from "
-          "twice it, for each preparation. \"Agree\" counts the values of the chain that agree with the "
+          "its definitions are read in other ways for each preparation, one factor at a time from three "
+          "readings: "
+          "single grains with the printed threshold, single grains with twice it, and grains taken together "
+          "with "
+          "their first neighbours, within 1.5 D, with the printed threshold. \"Agree\" counts the values of "
+          "the chain that agree with the "
           "paper's, each by the rule above; \"half within\" is the median of |ours - paper| / paper over the "
           "chain. They say how near a reading comes, not why; values of one chain are not independent."},
       ReportList{{
@@ -165,6 +169,8 @@ std::vector<ReportBlock> introduction() {
           "l_c cut as in the paper: at 30 D of 40 D, so at 3/4 of the depth; else at the depth.",
           ("l_c ends at Gamma_c: grains count from 2 Gamma_c on, but their neighbourhoods grow until the "
            "stress ratio is Gamma_c."),
+          ("Neighbourhoods from 4 D on: a grain is taken together with all within 2 D of it, and l_c is not "
+           "below 4 D."),
       }}};
 }
 

@@ -39,6 +39,8 @@ std::span<const FigureRecipe> figure_catalogue() {
        overload_maps},
       {"fig14-volume-strain", "Volume strain over tilt, and theta_d by each estimator (paper, Fig. 14)",
        "a periodic bed", volume_strain_figure},
+      {"overloaded-over-scale", "Overloaded fraction over the size of neighbourhoods",
+       "a periodic bed that has failed", overload_scale_figure},
       {"contact-directions", "Directions of contact normals", "a run that has failed", contact_directions},
       {"force-chains", "Force chains just before failure", "a run that has failed", force_chains},
       {"force-distribution", "Distribution of the normal forces", "a run that has failed",

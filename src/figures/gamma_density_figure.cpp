@@ -14,21 +14,6 @@ namespace {
 
 constexpr double angles[] = {0.0, 10.0, 15.0};  // deg, as in the paper
 
-/// Those of the runs that stand at `tilt`, rad, and the frame of each that is nearest to it.
-struct FramesAtAngle {
-  RunChoice runs;
-  std::vector<std::size_t> frames;
-};
-FramesAtAngle frames_at_angle(const RunChoice& runs, double tilt) {
-  FramesAtAngle result;
-  for (const FigureRun* run : runs)
-    if (stands_at(*run, tilt)) {
-      result.runs.push_back(run);
-      result.frames.push_back(frame_nearest(*run, tilt));
-    }
-  return result;
-}
-
 /// gamma, and its density at each angle that at least half of the runs reach.
 std::vector<Column> density_columns(const RunChoice& runs) {
   Column gamma{"gamma", "1", "middle of the bin", {}};
@@ -74,6 +59,7 @@ std::optional<Figure> gamma_density_figure(std::span<const RunGroup> groups) {
   for (const RunGroup& group : groups) {
     const RunChoice runs = runs_with_threshold(group);
     if (!group.periodic() || runs.empty()) continue;
+    if (figure.tables.empty()) figure.caption.append(" ").append(reading_caption(*runs.front()));
     add_group_table(figure, group, runs, density_columns(runs));
     set_variable(figure, "gamma_c_" + std::to_string(figure.tables.size()), mean_gamma_c(runs));
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "figures/run_means.h"
+#include "session/analysis_parameters.h"
 #include "session/scenario_text.h"
 
 namespace talus {
@@ -60,6 +61,24 @@ RunChoice runs_with_threshold(const RunGroup& group) {
 
 RunChoice failed_runs(const RunGroup& group) {
   return choose(group, [](const FigureRun& run) { return !std::isnan(theta_c_of(run)); });
+}
+
+FramesAtAngle frames_at_angle(const RunChoice& runs, double tilt) {
+  FramesAtAngle result;
+  for (const FigureRun* run : runs)
+    if (stands_at(*run, tilt)) {
+      result.runs.push_back(run);
+      result.frames.push_back(frame_nearest(*run, tilt));
+    }
+  return result;
+}
+
+std::string reading_caption(const FigureRun& run) {
+  const double l_min = from_facts(run.analysis.parameters).l_min;
+  if (l_min == 0.0) return "gamma is that of single grains.";
+  const std::string who = l_min == default_l_min ? "its first neighbours" : "its neighbours";
+  return "gamma of a grain is that of the grain together with " + who + ", a neighbourhood of diameter " +
+         short_text(l_min) + " D.";
 }
 
 void set_variable(Figure& figure, const std::string& name, const std::string& value) {

@@ -20,6 +20,16 @@ RunChoice all_runs(const RunGroup& group);
 RunChoice runs_with_threshold(const RunGroup& group);
 RunChoice failed_runs(const RunGroup& group);
 
+/// Those of some runs that stand at a tilt (rad), and the frame of each that is nearest to it.
+struct FramesAtAngle {
+  RunChoice runs;
+  std::vector<std::size_t> frames;
+};
+FramesAtAngle frames_at_angle(const RunChoice& runs, double tilt);
+
+/// How the analysis of a run reads gamma, as a sentence for captions: of which neighbourhood of a grain.
+std::string reading_caption(const FigureRun& run);
+
 /// Adds the table of a group, called after its label, before any other table. The script knows its file as
 /// data_g, with label_g for the key and every_g, rows from one symbol to the next; `groups` is their number,
 /// and theta_max the largest tilt (deg) of their columns "theta". The key has room for the labels and one

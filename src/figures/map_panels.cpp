@@ -8,6 +8,7 @@
 #include "figures/failed_group.h"
 #include "figures/run_means.h"
 #include "maps/maps.h"
+#include "session/analysis_input.h"
 #include "stress/overload.h"
 
 namespace talus {
@@ -34,7 +35,7 @@ Panels read_panels(const FigureRun& run) {
   panels.choice = panel_frames(run.file.frame_tilts(), theta_c_of(run));
   panels.extent = bed_extent(run.file.header().statics);
   for (const std::size_t k : panels.choice) {
-    panels.frames.push_back(run.file.frame(k));
+    panels.frames.push_back(analysed_frame(run.file, from_facts(run.analysis.parameters), k));
     extend(panels.extent, panels.frames.back(), run.file.header().statics);
   }
   return panels;
@@ -64,7 +65,9 @@ std::string bed_text(const FailedGroup& failed, const Panels& panels) {
     if (radians(tilt) >= theta_c) beyond.append(beyond.empty() ? "" : " and ").append(rounded_text(tilt, 0));
   if (!beyond.empty()) text += "; the paper's " + beyond + " deg lies beyond it and is left out";
   return text +
-         ". The bed is shown in its own frame, with the direction of gravity; hatched grains are the floor.";
+         ". The bed is shown in its own frame, with the direction of gravity; hatched grains are the "
+         "floor. " +
+         reading_caption(failed.first());
 }
 
 /// cm, of so many side by side.

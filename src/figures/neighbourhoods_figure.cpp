@@ -11,6 +11,7 @@
 #include "figures/failed_group.h"
 #include "figures/run_means.h"
 #include "maps/frame_choice.h"
+#include "session/analysis_input.h"
 
 namespace talus {
 namespace {
@@ -62,11 +63,12 @@ std::string caption_of(const FailedGroup& failed, const Frame& frame, Index grai
          " deg, outlined, and the grains about it in the gray of their gamma. A neighbourhood of diameter l "
          "has "
          "all grains whose centres lie within the circle: thin circles every 2 D, thick ones at l_c. Right: "
-         "stress ratio gamma_l of the neighbourhood over l; l_c is the smallest l at which it is not above "
-         "the "
-         "threshold. Of the grains in the middle half of the bed that are overloaded at each threshold, it "
+         "stress ratio gamma_l of the neighbourhood over l; l_c is the smallest l, "
+         "from that of gamma on, at which it is not above the threshold. Of the grains in the middle half of "
+         "the bed that are overloaded at each threshold, it "
          "is "
-         "the one whose l_c are nearest to their means.";
+         "the one whose l_c are nearest to their means. " +
+         reading_caption(failed.first());
 }
 
 }  // namespace
@@ -116,7 +118,7 @@ std::optional<Figure> neighbourhoods_figure(std::span<const RunGroup> groups) {
   const RunStatics& statics = run.file.header().statics;
   const double diameter = statics.mean_diameter;
   const std::size_t k = shown_frame(run);
-  const Frame frame = run.file.frame(k);
+  const Frame frame = analysed_frame(run.file, from_facts(run.analysis.parameters), k);
   const auto all_lengths = row<float>(run.analysis, "lc/length", k);
   const auto grain = typical_grain(frame, statics, all_lengths, row<double>(run.analysis, "lc/mean", k));
   if (!grain) return std::nullopt;

@@ -59,6 +59,7 @@ void add_periodic_groups(Figure& figure, std::span<const RunGroup> groups, const
       set_variable(figure, "threshold_" + std::to_string(f + 1), threshold_label(factors[f]));
     }
     set_variable(figure, "thresholds", static_cast<double>(factors.size()));
+    if (figure.tables.empty()) figure.caption.append(" ").append(reading_caption(*runs.front()));
     add_group_table(figure, group, runs, means_over_runs(runs, all));
   }
 }

@@ -18,4 +18,7 @@ std::optional<Figure> overloaded_fraction_figure(std::span<const RunGroup> group
 /// Mean and largest l_c over tilt, for each threshold (paper, Fig. 12).
 std::optional<Figure> length_figure(std::span<const RunGroup> groups);
 
+/// p_o over the size of neighbourhoods, at 0 and 15 deg and just before failure.
+std::optional<Figure> overload_scale_figure(std::span<const RunGroup> groups);
+
 }  // namespace talus

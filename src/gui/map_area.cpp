@@ -61,8 +61,8 @@ void use_mouse(Gui& gui, const ShownMap& shown) {
     const double diameter = gui.model.mean_diameter();
     const std::optional<Index> grain = gui.model.grain_at(place.x, place.y);
     if (grain && !ImGui::IsMouseDown(0))
-      ImGui::SetTooltip("%.1f, %.1f D: grain %d, γ = %.3f", place.x / diameter, place.y / diameter, *grain,
-                        gui.model.frame().gamma[*grain]);
+      ImGui::SetTooltip("%.1f, %.1f D: grain %d, γ = %.3f, %s", place.x / diameter, place.y / diameter,
+                        *grain, gui.model.frame().gamma[*grain], reading_text(state.map).c_str());
     const bool dragged = io.MouseDragMaxDistanceSqr[0] > 16.0f;
     if (ImGui::IsMouseReleased(0) && !dragged) state.selected = grain;
   }

@@ -87,7 +87,7 @@ void draw_curve(Gui& gui, const Inspection& grain) {
   draw_plot(gui, plot, {ImGui::GetContentRegionAvail().x, 12.0f * gui.em}, marks);
 }
 
-void draw_state(const Inspection& grain, double diameter) {
+void draw_state(const Inspection& grain, double diameter, double l_min) {
   fact("radius", formatted("%.3f D", grain.radius / diameter));
   fact("place", formatted("%.2f, %.2f D", grain.x / diameter, grain.y / diameter));
   fact("velocity", formatted("%.3g, %.3g m/s", grain.vx, grain.vy));
@@ -101,7 +101,9 @@ void draw_state(const Inspection& grain, double diameter) {
   }
   fact("p = s_1 + s_2", formatted("%.3g J/m", grain.state.mean));
   fact("q = s_1 − s_2", formatted("%.3g J/m", grain.state.deviator));
-  fact("γ = q/p", formatted("%.3f%s", grain.gamma, grain.overloaded ? ", overloaded" : ""));
+  const char* overloaded = grain.overloaded ? ", overloaded" : "";
+  fact("γ = q/p", formatted("%.3f%s", grain.state.ratio, l_min > 0.0 ? "" : overloaded));
+  if (l_min > 0.0) fact(formatted("γ, ℓ = %g D", l_min), formatted("%.3f%s", grain.gamma, overloaded));
   fact("major axis", formatted("%.1f° to the bed", grain.state.axis * 180.0 / pi));
   if (grain.cluster >= 0) fact("cluster", formatted("%d grains", grain.cluster_size));
   if (grain.coarse_graining_length)
@@ -118,7 +120,7 @@ void draw_inspector(Gui& gui) {
   }
   ImGui::Text("%s %d", grain->free ? "grain" : "floor grain", grain->grain);
   ImGui::Separator();
-  draw_state(*grain, gui.model.mean_diameter());
+  draw_state(*grain, gui.model.mean_diameter(), gui.model.state.map.l_min);
   if (!grain->contacts.empty()) draw_contacts(*grain, grain->mass * gui.model.statics().gravity);
   if (!grain->free || std::isnan(grain->gamma)) return;
   draw_mohr_circle(gui, *grain, gui.model.theta_c());

@@ -89,6 +89,8 @@ void draw_map_panel(Gui& gui) {
   choose_colours(gui);
   choose_range(gui);
   ImGui::Separator();
+  named_slider(gui, "l_min", "γ within ℓ", state.map.l_min, 0.0, 10.0, "%.1f D",
+               "diameter of the neighbourhood whose γ a grain has: 3 with its first neighbours, 0 alone");
   named_slider(gui, "threshold", "threshold in Γ_c", state.map.threshold_factor, 0.1, 4.0, "%.2f",
                "grains are overloaded from this times Γc on: [ and ]");
   named_slider(gui, "length", "ℓ of the map coarse", state.map.length, 1.0, 40.0, "%.1f D",

@@ -14,7 +14,7 @@ struct MapEntry {
 };
 
 constexpr auto entries = std::to_array<MapEntry>({
-    {MapKind::gamma, "gamma", "stress ratio of each grain"},
+    {MapKind::gamma, "gamma", "stress ratio of each grain and its neighbours, or of the grain alone"},
     {MapKind::overloaded, "overloaded", "overloaded grains, gamma >= Gamma_c"},
     {MapKind::clusters, "clusters", "clusters of overloaded grains, each in a colour of its own"},
     {MapKind::coarse, "coarse", "stress ratio of the neighbourhood of each grain"},
@@ -49,9 +49,10 @@ std::string_view map_name(MapKind kind) { return entry_of(kind).name; }
 
 std::string_view map_help(MapKind kind) { return entry_of(kind).help; }
 
-bool needs_theta_c(MapKind kind) {
-  return kind == MapKind::gamma || kind == MapKind::overloaded || kind == MapKind::clusters ||
-         kind == MapKind::coarse;
+bool needs_theta_c(MapKind kind) { return shows_gamma(kind) || kind == MapKind::coarse; }
+
+bool shows_gamma(MapKind kind) {
+  return kind == MapKind::gamma || kind == MapKind::overloaded || kind == MapKind::clusters;
 }
 
 bool needs_reference(MapKind kind) { return kind == MapKind::displacement || kind == MapKind::rotation; }

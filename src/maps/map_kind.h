@@ -29,6 +29,8 @@ std::string_view map_help(MapKind kind);
 
 /// Whether its scale or its threshold is Gamma_c.
 bool needs_theta_c(MapKind kind);
+/// Whether it shows the gamma of grains, or what follows from it: whether MapSettings::l_min changes it.
+bool shows_gamma(MapKind kind);
 /// Whether it is measured from an earlier frame.
 bool needs_reference(MapKind kind);
 

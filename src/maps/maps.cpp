@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <utility>
 
 #include "core/errors.h"
 #include "core/trigonometry.h"
@@ -128,6 +129,10 @@ void extend(MapExtent& extent, const Frame& frame, const RunStatics& statics) {
     extent.y_min = std::min(extent.y_min, frame.y[i] - statics.radius[i]);
     extent.y_max = std::max(extent.y_max, frame.y[i] + statics.radius[i]);
   }
+}
+
+Frame mapped_frame(Frame frame, const RunStatics& statics, const MapSettings& settings) {
+  return with_gamma_of_neighbourhoods(std::move(frame), statics, settings.l_min * statics.mean_diameter);
 }
 
 FrameView bare_map(const Frame& frame, const RunStatics& statics, std::span<const double> shades,

@@ -3,8 +3,10 @@
 
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
+#include "analysis/coarse_graining.h"
 #include "core/snapshot.h"
 #include "maps/cluster_colours.h"
 #include "maps/map_kind.h"
@@ -19,10 +21,12 @@ struct MapSettings {
   std::optional<ColourMap> colours;  ///< of the first layer that has a bar; without a value: its own
   std::optional<double> range_low;   ///< of the bar of that layer, in the unit of its title
   std::optional<double> range_high;
-  double theta_c = 0.0;               ///< rad, angle of repose: Gamma_c = sin(theta_c)
-  bool theta_c_assumed = false;       ///< the caption says so
-  double threshold_factor = 1.0;      ///< grains are overloaded from this times Gamma_c on
-  double length = 10.0;               ///< D: the diameter of neighbourhoods of the map `coarse`
+  double theta_c = 0.0;           ///< rad, angle of repose: Gamma_c = sin(theta_c)
+  bool theta_c_assumed = false;   ///< the caption says so
+  double threshold_factor = 1.0;  ///< grains are overloaded from this times Gamma_c on
+  double l_min = default_l_min;   ///< D: diameter of the neighbourhood whose stress ratio is the gamma of a
+                                  ///< grain; 0: the grain alone
+  double length = 10.0;           ///< D: the diameter of neighbourhoods of the map `coarse`
   bool joined_by_neighbours = false;  ///< clusters: grains closer than 1.1 times the sum of their radii join,
                                       ///< instead of those that touch with a force
   bool turned = false;                ///< to its slope, instead of the bed's own frame
@@ -41,9 +45,16 @@ struct MapExtent {
 MapExtent bed_extent(const RunStatics& statics);
 void extend(MapExtent& extent, const Frame& frame, const RunStatics& statics);
 
+/// A frame as its maps see it: gamma of a grain is that of its neighbourhood of diameter `settings.l_min`.
+/// Maps, traces and clusters are all made from such a frame.
+Frame mapped_frame(Frame frame, const RunStatics& statics, const MapSettings& settings);
+
+/// Whose gamma a map shows, for its title: "l = 3 D", or "single grains" where l_min is 0.
+std::string reading_text(const MapSettings& settings);
+
 /// A frame, with what maps need beside it.
 struct MapFrame {
-  const Frame& frame;
+  const Frame& frame;  ///< of mapped_frame, with the settings of the map
   const RunStatics& statics;
   /// For `displacement` and `rotation`: the frame that they are measured from, null where there is none yet
   /// (nothing has moved); and whether the map says what moved in a degree of tilt, or in all;

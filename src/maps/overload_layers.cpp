@@ -38,10 +38,11 @@ std::vector<Colour> colours_of(std::span<const ClusterColour> cluster_colours) {
   return colours;
 }
 
-std::string clusters_title(const Clusters& clusters) {
-  if (clusters.count() == 0) return "No clusters of overloaded grains";
+std::string clusters_title(const Clusters& clusters, const MapSettings& settings) {
+  const std::string reading = ", " + reading_text(settings);
+  if (clusters.count() == 0) return "No clusters of overloaded grains" + reading;
   const double share = 100.0 * clusters.size[0] / clusters.members;
-  return std::to_string(clusters.count()) + (clusters.count() == 1 ? " cluster" : " clusters") +
+  return std::to_string(clusters.count()) + (clusters.count() == 1 ? " cluster" : " clusters") + reading +
          "; the largest has " + fixed_text(share, 0) + " % of the overloaded grains";
 }
 
@@ -68,7 +69,8 @@ MapLayer overloaded_layer(const MapFrame& of, const MapSettings& settings, bool 
   const double threshold = overload_threshold(settings);
   const OverloadCount count = count_overloaded(of.frame, of.statics, threshold);
   MapLayer layer;
-  layer.title = "Overloaded grains";
+  layer.title = settings.l_min > 0.0 ? "Overloaded grains, " + reading_text(settings)
+                                     : "Overloaded " + reading_text(settings);
   if (count.loaded > 0) layer.title += ", p_o = " + fixed_text(count.fraction(), 3);
   for (Index i = 0; i < of.statics.free_count; ++i) {
     const bool overloaded = is_overloaded(of.frame.gamma[i], threshold);
@@ -88,7 +90,7 @@ MapLayer clusters_layer(const MapFrame& of, const MapSettings& settings, bool ov
       of.cluster_colours.empty() ? ClusterColours().next(clusters)
                                  : std::vector(of.cluster_colours.begin(), of.cluster_colours.end()));
   MapLayer layer;
-  layer.title = clusters_title(clusters);
+  layer.title = clusters_title(clusters, settings);
   for (const Index label : clusters.label) {
     if (label < 0) {
       layer.looks.push_back(outline_look());

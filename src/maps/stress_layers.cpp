@@ -42,6 +42,10 @@ std::vector<double> pressures(const Frame& frame, const RunStatics& statics) {
 
 double gamma_c_of(const MapSettings& settings) { return sine(settings.theta_c); }
 
+std::string reading_text(const MapSettings& settings) {
+  return settings.l_min > 0.0 ? "l = " + brief_text(settings.l_min) + " D" : std::string("single grains");
+}
+
 double gamma_shade(double gamma, double gamma_c) {
   if (std::isnan(gamma)) return 0.0;
   return std::clamp((gamma - white_below) / (2.0 * gamma_c - white_below), 0.0, 1.0);
@@ -51,7 +55,8 @@ MapLayer gamma_layer(const MapFrame& of, const MapSettings& settings, const Scal
   const double gamma_c = gamma_c_of(settings);
   const Scale scale = stress_ratio_scale(gamma_c, choice);
   const auto free_grains = std::span(of.frame.gamma).first(static_cast<std::size_t>(of.statics.free_count));
-  return {"Stress ratio γ of each grain",
+  return {"Stress ratio γ of " + (settings.l_min > 0.0 ? "grains with their neighbours, " : std::string()) +
+              reading_text(settings),
           looks_of(scale, free_grains),
           {},
           {{stress_ratio_bar(scale, gamma_c, "γ = q/p")}, {}}};

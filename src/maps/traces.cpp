@@ -131,6 +131,7 @@ Trace make_trace(TraceKind kind, std::span<const double> tilts_rad, std::span<co
   const TraceEntry& entry = entry_of(kind);
   Trace trace;
   trace.title = entry.title;
+  if (trace_from_frames(kind)) trace.title += ", " + reading_text(settings);
   trace.x_title = "θ in °";
   for (const double tilt : tilts_rad) trace.x.push_back(degrees(tilt));
   for (const double value : values) trace.y.push_back(entry.factor * value);

@@ -36,8 +36,8 @@ bool trace_from_frames(TraceKind kind);
 /// Whether it depends on theta_c, or on the threshold.
 bool needs_theta_c(TraceKind kind);
 
-/// The value of a frame; NaN where nothing is carried, or overloaded. Throws Error(internal) where
-/// trace_from_frames is false.
+/// The value of a frame of mapped_frame; NaN where nothing is carried, or overloaded. Throws Error(internal)
+/// where trace_from_frames is false.
 double frame_value(TraceKind kind, const Frame& frame, const RunStatics& statics,
                    const MapSettings& settings);
 

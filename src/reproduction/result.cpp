@@ -35,11 +35,15 @@ void add_rows(std::string& text, const ReproducedRun& run, const std::string& an
 
 }  // namespace
 
+Spread spread_of(const ReproductionResult& result, std::size_t bed, PaperQuantity quantity) {
+  return spread_of(result, bed, quantity, {"", "", 0, 0, Population::carrying});
+}
+
 Spread spread_of(const ReproductionResult& result, std::size_t bed, PaperQuantity quantity,
-                 std::size_t factor) {
+                 const Reading& reading) {
   std::vector<Measured> values;
   for_each_outcome(result, bed, [&](const ReproducedOutcome& outcome) {
-    values.push_back(at(outcome.values.front()[factor], quantity));
+    values.push_back(at(outcome.values[reading.analysis][reading.factor], quantity));
   });
   return spread_of(values);
 }

@@ -26,9 +26,11 @@ struct ReproductionResult {
   std::vector<ReproducedOutcome> outcomes;  ///< in the order of the plan
 };
 
-/// The stored analysis of a bed, over its seeds.
+/// Of a bed, over its seeds, by the stored analysis.
+Spread spread_of(const ReproductionResult& result, std::size_t bed, PaperQuantity quantity);
+/// The same of a periodic bed under one of base_readings().
 Spread spread_of(const ReproductionResult& result, std::size_t bed, PaperQuantity quantity,
-                 std::size_t factor);
+                 const Reading& reading);
 
 /// Every preparation of the periodic bed under every reading, by preparation; preparations without a complete
 /// run are left out.

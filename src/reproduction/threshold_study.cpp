@@ -2,35 +2,59 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <string_view>
 
 #include "session/scenario_text.h"
 
 namespace talus {
 namespace {
 
-// Indices into the list of analyses.
-enum : std::size_t { stored, held, averaged, neighbours, together, cut, long_lengths, long_and_neighbours };
-
-const char* const thresholds[] = {"gamma >= Gamma_c", "gamma >= 2 Gamma_c"};
+// Indices into the list of analyses: of grains with their first neighbours, and of single grains.
+enum : std::size_t {
+  stored,
+  single,
+  single_held,
+  single_averaged,
+  single_neighbours,
+  single_together,
+  single_cut,
+  single_long_lengths,
+  single_long_and_neighbours,
+  averaged,
+  neighbours,
+  cut,
+  wider
+};
 
 std::vector<Reading> make_readings() {
   std::vector<Reading> all;
-  for (std::size_t f = 0; f < std::size(thresholds); ++f) {
-    const auto add = [&](const char* change, std::size_t analysis, Population population) {
-      all.push_back({thresholds[f], change, analysis, f, population});
-    };
-    add("", stored, Population::carrying);
-    add("p_o over all grains", stored, Population::all);
-    add("grains with 3 contacts or more", held, Population::carrying);
-    add("moments averaged over 1 deg", averaged, Population::carrying);
-    add("neighbours joined", neighbours, Population::carrying);
-    add("3 contacts, averaged and neighbours", together, Population::carrying);
-    add("l_c cut as in the paper", cut, Population::carrying);
+  const auto add = [&](std::string_view base, std::size_t factor, std::string_view change,
+                       std::size_t analysis, Population population = Population::carrying) {
+    all.push_back({std::string(base), std::string(change), analysis, factor, population});
+  };
+  const std::string_view of_single_grains[] = {"single grains, gamma >= Gamma_c",
+                                               "single grains, gamma >= 2 Gamma_c"};
+  for (std::size_t f = 0; f < std::size(of_single_grains); ++f) {
+    const std::string_view base = of_single_grains[f];
+    add(base, f, "", single);
+    add(base, f, "grains with 3 contacts or more", single_held);
+    add(base, f, "moments averaged over 1 deg", single_averaged);
+    add(base, f, "neighbours joined", single_neighbours);
+    add(base, f, "3 contacts, averaged and neighbours", single_together);
+    add(base, f, "l_c cut as in the paper", single_cut);
     if (f == 0) continue;  // l_c ends at Gamma_c already
-    add("l_c ends at Gamma_c", long_lengths, Population::carrying);
-    add("l_c ends at Gamma_c, neighbours joined", long_and_neighbours, Population::carrying);
+    add(base, f, "l_c ends at Gamma_c", single_long_lengths);
+    add(base, f, "l_c ends at Gamma_c, neighbours joined", single_long_and_neighbours);
   }
+  const std::string_view base = "grains with first neighbours, gamma >= Gamma_c";
+  add(base, 0, "", stored);
+  add(base, 0, "p_o over all grains", stored, Population::all);
+  add(base, 0, "moments averaged over 1 deg", averaged);
+  add(base, 0, "neighbours joined", neighbours);
+  add(base, 0, "l_c cut as in the paper", cut);
+  add(base, 0, "neighbourhoods from 4 D on", wider);
   return all;
 }
 
@@ -104,17 +128,38 @@ std::optional<StudyConclusion::Missed> missed(std::span<const ReadingResult> res
 
 std::vector<StudyAnalysis> study_analyses(double depth) {
   const std::string paper_cut = "lc_cut=" + short_text(paper_lc_cut / paper_depth * depth);
-  return {
-      {"", {}},
-      {"min_contacts=3", {"min_contacts=3"}},
-      {"averaging=1", {"averaging=1"}},
-      {"joining=neighbours", {"joining=neighbours"}},
-      {"min_contacts=3,averaging=1,joining=neighbours",
-       {"min_contacts=3", "averaging=1", "joining=neighbours"}},
-      {paper_cut, {paper_cut}},
-      {"lc_factor=1", {"lc_factor=1"}},
-      {"lc_factor=1,joining=neighbours", {"lc_factor=1", "joining=neighbours"}},
+  const std::vector<std::vector<std::string>> all = {
+      {},
+      {"l_min=0"},
+      {"l_min=0", "min_contacts=3"},
+      {"l_min=0", "averaging=1"},
+      {"l_min=0", "joining=neighbours"},
+      {"l_min=0", "min_contacts=3", "averaging=1", "joining=neighbours"},
+      {"l_min=0", paper_cut},
+      {"l_min=0", "lc_factor=1"},
+      {"l_min=0", "lc_factor=1", "joining=neighbours"},
+      {"averaging=1"},
+      {"joining=neighbours"},
+      {paper_cut},
+      {"l_min=4"},
   };
+  std::vector<StudyAnalysis> analyses;
+  for (const std::vector<std::string>& settings : all) {
+    std::string name;
+    for (const std::string& setting : settings) name += (name.empty() ? "" : ",") + setting;
+    analyses.push_back({name, settings});
+  }
+  return analyses;
+}
+
+std::span<const Reading> base_readings() {
+  static const std::vector<Reading> bases = [] {
+    std::vector<Reading> unchanged;
+    std::ranges::copy_if(readings(), std::back_inserter(unchanged),
+                         [](const Reading& reading) { return reading.change.empty(); });
+    return unchanged;
+  }();
+  return bases;
 }
 
 std::span<const Reading> readings() {

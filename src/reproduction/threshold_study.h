@@ -21,15 +21,18 @@ struct StudyAnalysis {
 /// For beds of a depth (D): the paper's cut of l_c is 3/4 of it. Their order does not depend on it.
 std::vector<StudyAnalysis> study_analyses(double depth);
 
-/// A way to read the paper's definitions.
+/// A way to read the paper's definitions: which grains are overloaded, and what follows from it.
 struct Reading {
-  std::string threshold;  ///< "gamma >= Gamma_c"
-  std::string change;  ///< the one factor that differs from the first reading of this threshold; empty: none
+  std::string base;          ///< "single grains, gamma >= Gamma_c"
+  std::string change;        ///< the one factor that differs from the first reading of this base; empty: none
   std::size_t analysis = 0;  ///< index into study_analyses()
   std::size_t factor = 0;    ///< index of the threshold
   Population population = Population::carrying;
 };
 std::span<const Reading> readings();
+/// The three with no change: single grains with the printed threshold and with twice it, and grains with
+/// their first neighbours.
+std::span<const Reading> base_readings();
 
 /// The chain of one preparation under one reading, each value over the seeds.
 struct ReadingResult {

@@ -15,6 +15,7 @@ MapSettings settings_of(const OverloadRule& rule) {
   settings.theta_c = rule.theta_c;
   settings.threshold_factor = rule.threshold_factor;
   settings.joined_by_neighbours = rule.joined_by_neighbours;
+  settings.l_min = rule.l_min;
   return settings;
 }
 
@@ -73,9 +74,11 @@ bool FrameSeries::take_in() {
   return true;
 }
 
-FrameSeries::Result FrameSeries::measure(const Frame& frame, const OverloadRule& rule, bool with_values,
+FrameSeries::Result FrameSeries::measure(const Frame& stored, const OverloadRule& rule, bool with_values,
                                          ClusterColours& tracker) const {
-  const Clusters clusters = overloaded_clusters(frame, statics_, settings_of(rule));
+  const MapSettings settings = settings_of(rule);
+  const Frame frame = mapped_frame(stored, statics_, settings);
+  const Clusters clusters = overloaded_clusters(frame, statics_, settings);
   Result result;
   result.extent = bed_extent(statics_);
   extend(result.extent, frame, statics_);

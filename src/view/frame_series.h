@@ -70,7 +70,7 @@ class FrameSeries {
   };
 
   void work(const std::stop_token& stop);
-  Result measure(const Frame& frame, const OverloadRule& rule, bool with_values,
+  Result measure(const Frame& stored, const OverloadRule& rule, bool with_values,
                  ClusterColours& tracker) const;
 
   RunStatics statics_;

@@ -17,17 +17,22 @@ bool is_near(double one, double other) { return std::abs(one - other) <= 1e-9 * 
 }  // namespace
 
 OverloadRule overload_rule(const MapSettings& settings) {
-  return {settings.theta_c, settings.threshold_factor, settings.joined_by_neighbours};
+  return {settings.theta_c, settings.threshold_factor, settings.joined_by_neighbours, settings.l_min};
 }
 
 double threshold_of(const OverloadRule& rule) { return rule.threshold_factor * sine(rule.theta_c); }
 
-double length_cut(const RunStatics& statics) { return std::min(statics.depth, 0.5 * statics.length); }
+double length_cut(const RunStatics& statics, double l_min) {
+  return std::max(l_min * statics.mean_diameter, std::min(statics.depth, 0.5 * statics.length));
+}
 
 FrameValues overload_values(const Frame& frame, const RunStatics& statics, const OverloadRule& rule) {
   const double threshold = threshold_of(rule);
-  const CoarseGraining lc = coarse_graining(
-      frame, statics, {.threshold = threshold, .end_ratio = threshold, .cut = length_cut(statics)});
+  const CoarseGraining lc = coarse_graining(frame, statics,
+                                            {.threshold = threshold,
+                                             .end_ratio = threshold,
+                                             .l_min = rule.l_min * statics.mean_diameter,
+                                             .cut = length_cut(statics, rule.l_min)});
   FrameValues values;
   values.tilt = frame.tilt;
   values.overloaded = count_overloaded(frame, statics, threshold).fraction();
@@ -42,14 +47,16 @@ std::optional<Analysis> read_usable_analysis(const std::string& path, const RunF
   if (!analysis) return std::nullopt;
   const AnalysisParameters parameters = from_facts(analysis->parameters);
   const bool single_frames = parameters.averaging == 0.0 && parameters.min_contacts == 1;
-  const bool same_cut = is_near(values<double>(*analysis, "lc/cut")[0], length_cut(run.header().statics));
+  const bool same_cut =
+      is_near(values<double>(*analysis, "lc/cut")[0], length_cut(run.header().statics, parameters.l_min));
   if (!single_frames || !same_cut || analysis->key != analysis_key(run, parameters)) return std::nullopt;
   return analysis;
 }
 
 std::optional<std::size_t> find_threshold(const Analysis& analysis, const OverloadRule& rule) {
-  const bool neighbours = from_facts(analysis.parameters).joining == Joining::neighbours;
-  if (neighbours != rule.joined_by_neighbours) return std::nullopt;
+  const AnalysisParameters parameters = from_facts(analysis.parameters);
+  const bool neighbours = parameters.joining == Joining::neighbours;
+  if (neighbours != rule.joined_by_neighbours || parameters.l_min != rule.l_min) return std::nullopt;
   const double wanted = threshold_of(rule);
   for (std::size_t f = 0; f < analysis.sizes.at('F'); ++f)
     if (is_near(values<double>(analysis, "threshold")[f], wanted) &&

@@ -48,8 +48,10 @@ std::vector<GrainContact> contacts_of(const Frame& frame, const RunStatics& stat
 
 /// l_c, as coarse_graining has it.
 double length_of(const NeighbourhoodCurve& curve, const InspectionRule& rule) {
-  for (std::size_t k = 0; k < curve.l.size() && curve.l[k] <= rule.cut; ++k)
-    if (curve.gamma[k] <= rule.threshold) return curve.l[k];
+  for (std::size_t k = 0; k < curve.l.size() && curve.l[k] <= rule.cut; ++k) {
+    const bool below = k + 1 < curve.l.size() && curve.l[k + 1] <= rule.l_min;
+    if (!below && curve.gamma[k] <= rule.threshold) return std::max(curve.l[k], rule.l_min);
+  }
   return rule.cut;
 }
 

@@ -29,8 +29,8 @@ struct Inspection {
   double x = 0.0, y = 0.0, vx = 0.0, vy = 0.0, omega = 0.0;
   std::vector<GrainContact> contacts;
   Tensor2 internal_moment;
-  StressState state;   ///< of the internal moment
-  double gamma = 0.0;  ///< as the frame has it
+  StressState state;   ///< of the internal moment: its ratio is the gamma of the grain alone
+  double gamma = 0.0;  ///< as the frame has it: of the neighbourhood of diameter l_min
   bool overloaded = false;
   Index cluster = -1;  ///< of the overloaded clusters; -1 for none
   Index cluster_size = 0;
@@ -43,12 +43,13 @@ struct Inspection {
 /// What it depends on beside the frame.
 struct InspectionRule {
   double threshold = 0.0;      ///< stress ratio from which on a grain is overloaded
+  double l_min = 0.0;          ///< m: that of the frame; the search for l_c begins at this diameter
   double cut = 0.0;            ///< m: the search for l_c ends at this diameter
   double neighbourhood = 0.0;  ///< m: diameter of neighbourhood_gamma
 };
 
-/// Of a grain, floor included; one of the floor has contacts, but no neighbourhoods. `clusters` are those of
-/// the overloaded grains of the frame.
+/// Of a grain of a frame of mapped_frame, floor included; one of the floor has contacts, but no
+/// neighbourhoods. `clusters` are those of the overloaded grains of the frame.
 Inspection inspect(const Frame& frame, const RunStatics& statics, const Clusters& clusters,
                    const InspectionRule& rule, Index grain);
 

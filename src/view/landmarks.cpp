@@ -24,14 +24,13 @@ std::optional<std::size_t> dilation_frame(std::span<const ObservableRow> rows,
   return nearest_frame(tilts, dilation_onset(row_tilts, strains, theta_c, radians(dilation_window)).tilt);
 }
 
-std::optional<std::size_t> length_jump_frame(std::span<const FrameValues> frames, const RunStatics& statics,
+std::optional<std::size_t> length_jump_frame(std::span<const FrameValues> frames, double cut,
                                              double theta_c) {
   std::vector<double> tilts, lengths;
   for (const FrameValues& frame : frames) {
     tilts.push_back(frame.tilt);
     lengths.push_back(frame.largest_length);
   }
-  const double cut = length_cut(statics) / statics.mean_diameter;
   return nearest_frame(tilts, length_jump(tilts, lengths, theta_c, cut).tilt);
 }
 

@@ -28,9 +28,8 @@ std::optional<std::size_t> dilation_frame(std::span<const ObservableRow> rows,
                                           const std::vector<double>& tilts, double theta_c);
 
 /// The frame after the largest jump of the largest l_c, up to theta_c (rad; NaN: not known) and to the first
-/// frame that reaches `cut` (m). All frames of the tilt are to be there.
-std::optional<std::size_t> length_jump_frame(std::span<const FrameValues> frames, const RunStatics& statics,
-                                             double theta_c);
+/// frame that reaches `cut` (D). All frames of the tilt are to be there.
+std::optional<std::size_t> length_jump_frame(std::span<const FrameValues> frames, double cut, double theta_c);
 
 /// The frame nearest to a tilt (rad), none for NaN.
 std::optional<std::size_t> nearest_frame(const std::vector<double>& tilts, double tilt);

@@ -45,6 +45,8 @@ std::string render_command_line(const RenderRequest& shown) {
   if (shown.in_flow) flag("--flow");
   const bool by_theta_c = any(layers, needs_theta_c);
   if (by_theta_c && settings.theta_c_assumed) add("--theta-c", number(degrees(settings.theta_c)));
+  if (any(layers, shows_gamma) && settings.l_min != MapSettings().l_min)
+    add("--l-min", number(settings.l_min));
   const bool by_threshold = draws(layers, MapKind::overloaded) || draws(layers, MapKind::clusters);
   if (by_threshold && settings.threshold_factor != 1.0) add("--threshold", number(settings.threshold_factor));
   if (draws(layers, MapKind::coarse) && settings.length != MapSettings().length)

@@ -129,8 +129,9 @@ bool is_same(const MapSettings& one, const MapSettings& other) {
   return one.layers == other.layers && one.colours == other.colours && one.range_low == other.range_low &&
          one.range_high == other.range_high && one.theta_c == other.theta_c &&
          one.theta_c_assumed == other.theta_c_assumed && one.threshold_factor == other.threshold_factor &&
-         one.length == other.length && one.joined_by_neighbours == other.joined_by_neighbours &&
-         one.turned == other.turned && one.tilt_max == other.tilt_max && one.furniture == other.furniture &&
+         one.l_min == other.l_min && one.length == other.length &&
+         one.joined_by_neighbours == other.joined_by_neighbours && one.turned == other.turned &&
+         one.tilt_max == other.tilt_max && one.furniture == other.furniture &&
          one.transparent == other.transparent;
 }
 

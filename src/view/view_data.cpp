@@ -85,12 +85,27 @@ void ViewModel::Data::show_replayed() {
 }
 
 void ViewModel::Data::show(std::shared_ptr<const Frame> next) {
-  if (next == frame) return;
-  frame = std::move(next);
-  if (frame->x.size() != statics.radius.size()) statics = arrived_statics(all_statics, frame->grain_count());
+  if (next == stored) return;
+  stored = std::move(next);
+  if (stored->x.size() != statics.radius.size())
+    statics = arrived_statics(all_statics, stored->grain_count());
   // While a bed falls together its top goes down: then only the frame shown counts.
   if (!replay) bed = series ? series->extent() : bed_extent(statics);
-  join(bed, extent_of(*frame, statics));
+  join(bed, extent_of(*stored, statics));
+  make_frame();
+}
+
+bool ViewModel::Data::read_with(double next_l_min) {
+  if (next_l_min == l_min) return false;
+  l_min = next_l_min;
+  make_frame();
+  return true;
+}
+
+void ViewModel::Data::make_frame() {
+  MapSettings settings;
+  settings.l_min = l_min;
+  frame = std::make_shared<const Frame>(mapped_frame(*stored, statics, settings));
   plot_gamma(*frame, statics, plots);
 }
 
@@ -98,7 +113,7 @@ bool ViewModel::Data::take_live() {
   auto next = live->frame();
   const LiveStatus status = live->status();
   theta_c = status.theta_c;
-  if (next == frame) return false;
+  if (next == stored) return false;
   recorded->add(live->recorded_frames(recorded->all().size()));
   series->set_counts(recorded->all().size(), recorded->all().size());
   const std::vector<ObservableRow> more = live->observables(rows.size());
@@ -143,7 +158,9 @@ std::optional<std::size_t> ViewModel::Data::place_of(Landmark landmark) const {
       return dilation;
     case Landmark::length_jump:
       if (!series->has_all_values()) return std::nullopt;
-      return length_jump_frame(series->values(), statics, theta_c.value_or(std::nan("")));
+      return length_jump_frame(series->values(),
+                               length_cut(statics, series->rule().l_min) / statics.mean_diameter,
+                               theta_c.value_or(std::nan("")));
   }
   return std::nullopt;
 }

@@ -34,9 +34,11 @@ struct ViewModel::Data {
   RunStatics all_statics;
   RunStatics statics;  ///< of the frame shown: while a bed is poured, of the grains that have arrived
   std::uint64_t seed = 0;
-  std::shared_ptr<const Frame> frame;  ///< that is shown
-  std::optional<double> theta_c;       ///< rad
-  MapExtent bed;                       ///< as far as its frames are known
+  std::shared_ptr<const Frame> stored;  ///< the frame that is shown, as it was read or computed
+  std::shared_ptr<const Frame> frame;   ///< the same with the gamma of neighbourhoods of l_min
+  double l_min = default_l_min;         ///< D
+  std::optional<double> theta_c;        ///< rad
+  MapExtent bed;                        ///< as far as its frames are known
   std::vector<ObservableRow> rows;
   std::vector<Plot> plots = empty_plots();
   std::string error;  ///< what has gone wrong since the last update
@@ -92,6 +94,9 @@ struct ViewModel::Data {
   void show_replayed();
   /// Another frame is shown.
   void show(std::shared_ptr<const Frame> next);
+  /// Neighbourhoods begin at another diameter (D): makes `frame` anew; true where it is another.
+  bool read_with(double next_l_min);
+  void make_frame();
   /// Takes over what a live run has made; true where its frame is another.
   bool take_live();
   /// Begins the series of frames anew where `rule` is another, and takes in what it has made; true where

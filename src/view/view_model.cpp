@@ -129,6 +129,7 @@ bool ViewModel::update(double seconds) {
     data.show_replayed();
     changed = true;
   }
+  changed = data.read_with(std::clamp(state.map.l_min, 0.0, 100.0)) || changed;
   changed = data.follow_frames(overload_rule(data.map_settings(state))) || changed;
   state.camera = centred(clamped(state.camera, data.bed, mean_diameter()), data.part(state, data.aspect));
   if (!data.error.empty()) state.message = std::exchange(data.error, {});

@@ -37,6 +37,7 @@ MapSettings ViewModel::Data::map_settings(const ViewState& asked) const {
   if (settings.layers.empty()) settings.layers = {MapKind::gamma};
   settings.theta_c = shown_theta_c();
   settings.theta_c_assumed = !theta_c;
+  settings.l_min = l_min;
   settings.length = std::clamp(settings.length, 1.0, statics.length / statics.mean_diameter);
   settings.furniture = true;
   settings.tilt_max = 0.0;
@@ -77,7 +78,11 @@ const Inspection* ViewModel::Data::inspect_selected(const ViewState& asked) {
     const double neighbourhood = std::clamp(asked.neighbourhood * statics.mean_diameter, 0.0, widest);
     inspection = {frame, rule, asked.neighbourhood,
                   inspect(*frame, statics, shown_clusters(by),
-                          {threshold_of(rule), length_cut(statics), neighbourhood}, *asked.selected)};
+                          {.threshold = threshold_of(rule),
+                           .l_min = l_min * statics.mean_diameter,
+                           .cut = length_cut(statics, l_min),
+                           .neighbourhood = neighbourhood},
+                          *asked.selected)};
   }
   return &inspection.of;
 }

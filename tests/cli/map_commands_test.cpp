@@ -59,6 +59,8 @@ TEST_F(MapCommands, refuse_what_makes_no_sense_before_they_look_for_the_run) {
       {{"--map", "gamma", "--joined", "neighbours"}, "clusters"},
       {{"--map", "clusters", "--joined", "glue"}, "neighbours"},
       {{"--map", "pressure", "--threshold", "2"}, "Gamma_c"},
+      {{"--map", "coarse", "--l-min", "0"}, "gamma of grains"},
+      {{"--map", "gamma", "--l-min", "-1"}, "--l-min"},
       {{"--map", "gamma", "--bare", "--trace", "overloaded"}, "--bare"},
       {{"--map", "gamma", "--width", "1000000"}, "--width"},
       {{"--map", "gamma", "--width", "20"}, "--width"},
@@ -155,6 +157,7 @@ TEST_F(MapCommands, pictures_that_are_right_are_kept_and_the_others_refused) {
   EXPECT_EQ(files("maps").size(), 4u);
 
   for (const Words& change : std::vector<Words>{{"--threshold", "2"},
+                                                {"--l-min", "0"},
                                                 {"--trace", "volume_strain"},
                                                 {"--turned"},
                                                 {"--bare"},

@@ -30,9 +30,10 @@ inline Packing row_of_grains(const std::vector<double>& gamma, bool periodic = f
   return packing;
 }
 
-/// Gamma_c = sin 30 deg = 0.5.
+/// Gamma_c = sin 30 deg = 0.5; gamma is that of single grains.
 inline MapSettings settings_of(const std::string& layers) {
   MapSettings settings;
+  settings.l_min = 0.0;
   settings.layers = map_layers(layers);
   settings.theta_c = radians(30.0);
   return settings;

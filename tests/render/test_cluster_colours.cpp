@@ -140,7 +140,7 @@ TEST(ClustersMap, ColoursClustersAndMarksThoseThatSpan) {
   EXPECT_EQ(view.discs[12].fill, gray(0.4)) << "three grains have no colour";
   EXPECT_EQ(view.discs[12].rim, black) << "but they span";
   EXPECT_EQ(view.discs[15].fill, white);
-  EXPECT_EQ(view.title, "2 clusters; the largest has 80 % of the overloaded grains");
+  EXPECT_EQ(view.title, "2 clusters, single grains; the largest has 80 % of the overloaded grains");
   EXPECT_EQ(view.legends[0].swatches[0].label, "spans floor to surface");
   EXPECT_EQ(view.legends[0].swatches[0].fill, gray(0.4));
 }
@@ -149,7 +149,7 @@ TEST(ClustersMap, SaysNothingOfSpanningWhereNoClusterSpans) {
   Packing packing = bed_with_clusters();
   packing.frame.gamma.assign(packing.frame.gamma.size(), 0.1);
   const FrameView view = map_of(packing, "clusters");
-  EXPECT_EQ(view.title, "No clusters of overloaded grains");
+  EXPECT_EQ(view.title, "No clusters of overloaded grains, single grains");
   for (const Swatch& swatch : view.legends[0].swatches)
     EXPECT_EQ(swatch.label.find("spans"), std::string::npos) << swatch.label;
 }

@@ -58,7 +58,10 @@ TEST(MapPictures, LookAsBefore) {
         "critical", "gamma+forces", "pressure+overloaded", "clusters+displacement"}) {
     MapSettings settings = test::settings_of(name);
     settings.length = 5.0;
-    const FrameView view = test::map_of(scene.packing, settings, &scene.before);
+    settings.l_min = default_l_min;
+    test::Packing packing = scene.packing;
+    packing.frame = mapped_frame(packing.frame, packing.statics, settings);
+    const FrameView view = test::map_of(packing, settings, &scene.before);
     test::expect_golden(renderer.draw(view, 500), std::string("map_").append(name));
   }
 }
@@ -73,6 +76,7 @@ TEST(MapPictures, HaveRoomForAllTheirTexts) {
       MapSettings settings = test::settings_of(lower == upper ? name : both);
       settings.length = 5.0;
       settings.theta_c_assumed = true;  // the longest caption
+      settings.l_min = 2.25;            // and the longest titles
       FrameView view = test::map_of(scene.packing, settings, &scene.before);
       for (const TraceKind trace : trace_kinds())
         view.traces.push_back(make_trace(trace, tilts, values, settings, 0.2));

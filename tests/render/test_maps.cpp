@@ -63,6 +63,21 @@ TEST(GammaMap, BarSaysWhatTheShadesMean) {
   EXPECT_EQ(view.caption, "θ = 11.46°, θ_c = 30.00°");
 }
 
+TEST(GammaMap, TakesGrainsWithTheirNeighboursAndSaysSo) {
+  Packing packing = row_of_grains({1.0, 1.0, nan, nan, 0.4});
+  packing.frame.internal_moment = {{1, 0, 0, 0}, {0, 0, 0, 1}, {0, 0, 0, 0}, {0, 0, 0, 0}, {0.7, 0, 0, 0.3}};
+  MapSettings settings = settings_of("gamma+overloaded");
+  settings.l_min = 2.5;
+  packing.frame = mapped_frame(packing.frame, packing.statics, settings);
+  const FrameView view = map_of(packing, settings);
+  EXPECT_EQ(view.discs[0].fill, white) << "two grains that are loaded across cancel their deviators";
+  EXPECT_EQ(view.discs[2].fill, white) << "carries nothing, whatever its neighbour carries";
+  EXPECT_EQ(view.discs[4].fill, gray(gamma_shade(0.4, gamma_c)));
+  EXPECT_EQ(view.title,
+            "Stress ratio γ of grains with their neighbours, l = 2.5 D; overloaded grains, l = 2.5 D, p_o = "
+            "0.000");
+}
+
 TEST(GammaMap, TakesOtherColoursAndAnotherRange) {
   MapSettings settings = settings_of("gamma");
   settings.colours = ColourMap::viridis;
@@ -84,7 +99,7 @@ TEST(OverloadedMap, IsBlackFromTheThresholdOn) {
   EXPECT_EQ(view.discs[0].fill, black);
   EXPECT_EQ(view.discs[1].fill, white);
   EXPECT_EQ(view.discs[2].fill, white);
-  EXPECT_EQ(view.title, "Overloaded grains, p_o = 0.667");
+  EXPECT_EQ(view.title, "Overloaded single grains, p_o = 0.667");
   EXPECT_EQ(view.legends[0].swatches[0].label, "γ ≥ Γ_c = sin θ_c = 0.50");
   EXPECT_EQ(view.legends[0].swatches[1].label, "γ < Γ_c");
 
@@ -219,7 +234,7 @@ TEST(TwoLayers, FillOverFillMarksTheInsideOfGrains) {
   EXPECT_FLOAT_EQ(view.discs[2].x, view.discs[1].x);
   EXPECT_FLOAT_EQ(view.discs[2].radius, 0.25f);
   EXPECT_EQ(view.legends.size(), 2u);
-  EXPECT_EQ(view.title, "Stress ratio γ of each grain; overloaded grains, p_o = 0.500");
+  EXPECT_EQ(view.title, "Stress ratio γ of single grains; overloaded single grains, p_o = 0.500");
 }
 
 TEST(TwoLayers, LinesAreDrawnOverFillsInEitherOrder) {

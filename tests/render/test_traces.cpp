@@ -41,7 +41,7 @@ TEST(Trace, IsTheCurveInDegreesWithRoundTicks) {
   EXPECT_NEAR(trace.mark, 12.0, 1e-12);
   EXPECT_NEAR(trace.event, 11.0, 1e-12);
   EXPECT_EQ(trace.event_label, "θ_c");
-  EXPECT_EQ(trace.title, "p_o, share of overloaded grains");
+  EXPECT_EQ(trace.title, "p_o, share of overloaded grains, l = 3 D");
   EXPECT_EQ(trace.x_title, "θ in °");
 }
 
@@ -49,6 +49,13 @@ TEST(Trace, ShowsFailureOnlyWhereItIsKnownAndInTheRange) {
   EXPECT_TRUE(std::isnan(trace_of({0.0, 0.2}, {0.3, 0.4}).event));
   EXPECT_TRUE(std::isnan(trace_of({0.0, 0.2}, {0.3, 0.4}, 0.3).event));
   EXPECT_FALSE(std::isnan(trace_of({0.0, 0.2}, {0.3, 0.4}, 0.1).event));
+}
+
+TEST(Trace, OfOverloadedGrainsSaysWhoseGammaItGoesBy) {
+  const MapSettings settings = settings_of("gamma");  // single grains
+  EXPECT_EQ(make_trace(TraceKind::overloaded, {}, {}, settings, 0.0).title,
+            "p_o, share of overloaded grains, single grains");
+  EXPECT_EQ(make_trace(TraceKind::volume_strain, {}, {}, settings, 0.0).title, "Volume strain ΔV/V in %");
 }
 
 TEST(Trace, VolumeStrainIsInPercent) {

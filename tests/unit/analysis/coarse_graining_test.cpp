@@ -124,6 +124,24 @@ TEST(CoarseGraining, gamma_of_neighbourhoods_of_three_grains) {
   EXPECT_TRUE(std::isnan(frame.gamma[2]));
 }
 
+TEST(CoarseGraining, overloaded_over_scale_counts_neighbourhoods) {
+  for (const bool periodic : {false, true}) {
+    Packing packing = test::random_packing(7, 200, 20.5, 12.0, periodic);
+    packing.frame.gamma[3] = std::nan("");
+    constexpr double threshold = 0.2;
+    const std::vector<double> scales = {0.0, 1.5, 3.0, 3.0, 9.0, 11.0};
+    std::vector<double> expected;
+    for (const double l : scales) {
+      int overloaded = 0;
+      for (Index i = 0; i < 200; ++i)
+        if (i != 3 && ratio_within(packing, i, l) >= threshold) ++overloaded;
+      expected.push_back(overloaded / 199.0);
+    }
+    EXPECT_NE(expected[2], expected[4]);
+    expect_same_bits(overloaded_over_scale(packing.frame, packing.statics, threshold, scales), expected);
+  }
+}
+
 TEST(CoarseGraining, of_the_map_equals_the_definition_to_the_last_bit) {
   for (const bool periodic : {false, true}) {
     const Packing packing = test::random_packing(2, 250, 20.5, 12.0, periodic);

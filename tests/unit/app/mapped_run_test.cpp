@@ -81,6 +81,7 @@ std::string example_run(const test::TemporaryFolder& folder, const Variation& va
 MapPlan plan_of(const std::string& map, MapOptions options = {}) {
   options.maps = {map};
   options.theta_c = 20.0;
+  if (map.starts_with("clusters") || map.starts_with("gamma")) options.l_min = options.l_min.value_or(0.0);
   options.joined = map.starts_with("clusters") ? std::optional<std::string>("neighbours") : std::nullopt;
   return plan_maps(options);
 }
@@ -189,6 +190,7 @@ TEST(MappedRun, keys_tell_frames_and_settings_apart) {
   add("coarse", [](MapOptions& o) { o.length = 4.0; });
   add("overloaded", [](MapOptions&) {});
   add("overloaded", [](MapOptions& o) { o.threshold = 2.0; });
+  add("overloaded", [](MapOptions& o) { o.l_min = 0.0; });
 }
 
 }  // namespace

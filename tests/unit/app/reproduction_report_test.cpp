@@ -86,15 +86,31 @@ TEST(ReproductionReport, tells_which_change_helps_and_which_result_is_nearest) {
   ReproductionResult result = like_the_paper(0.0);
   set_everywhere(result, PaperQuantity::overloaded_at_0, {0.8});
   for (ReproducedOutcome& outcome : result.outcomes)
-    if (result.plan.runs[outcome.run].bed == 1)  // deposition friction 0.15, three contacts, 2 Gamma_c
-      outcome.values[1][1][static_cast<std::size_t>(PaperQuantity::overloaded_at_0)] = {0.3};
+    if (result.plan.runs[outcome.run].bed == 1)  // deposition friction 0.15, single grains, three contacts
+      outcome.values[2][1][static_cast<std::size_t>(PaperQuantity::overloaded_at_0)] = {0.3};
   const auto conclusion = threshold_conclusion(result.plan, study_of(result));
   EXPECT_TRUE(
       holds(conclusion,
-            "Nearest to the paper's chain is `gamma >= 2 Gamma_c, grains with 3 contacts or more` with "
-            "deposition friction 0.15: 13 of 13"));
-  EXPECT_TRUE(holds(conclusion, "no change raises that of `gamma >= Gamma_c`"));
-  EXPECT_TRUE(holds(conclusion, "`grains with 3 contacts or more` raises that of `gamma >= 2 Gamma_c` most"));
+            "Nearest to the paper's chain is `single grains, gamma >= 2 Gamma_c, grains with 3 contacts or "
+            "more` with deposition friction 0.15: 13 of 13"));
+  EXPECT_TRUE(holds(conclusion, "no change raises that of `single grains, gamma >= Gamma_c`"));
+  EXPECT_TRUE(
+      holds(conclusion,
+            "`grains with 3 contacts or more` raises that of `single grains, gamma >= 2 Gamma_c` most"));
+}
+
+TEST(ReproductionReport, has_the_chain_in_three_readings) {
+  ReproductionResult result = like_the_paper(0.0);
+  const std::size_t analyses[] = {1, 1, 0}, factors[] = {0, 1, 0};
+  for (ReproducedOutcome& outcome : result.outcomes)
+    for (std::size_t r = 0; r < 3 && outcome.values.size() > 1; ++r)
+      outcome.values[analyses[r]][factors[r]][static_cast<std::size_t>(PaperQuantity::overloaded_at_0)] = {
+          0.81 + 0.01 * static_cast<double>(r)};
+  const std::string report = report_markdown(reproduction_report(result, {}));
+  for (const char* row :
+       {"single grains, gamma >= Gamma\\_c | 0.810", "single grains, gamma >= 2 Gamma\\_c | 0.820",
+        "grains with first neighbours, gamma >= Gamma\\_c | 0.830"})
+    EXPECT_NE(report.find(row), std::string::npos) << row << "\n" << report;
 }
 
 TEST(ReproductionReport, has_every_value_of_the_paper) {

@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "analysis/coarse_graining.h"
 #include "figures/catalogue.h"
 #include "figures/group_table.h"
 #include "figures/overload_figures.h"
 #include "figures/packing_stress_figures.h"
 #include "figures/volume_strain_figure.h"
 #include "figures/wall_figures.h"
+#include "stress/overload.h"
 #include "unit/figures/example_figure_run.h"
 
 namespace talus {
@@ -110,6 +112,38 @@ TEST_F(Curves, OfGammaAreThoseOfRunsThatStandAtTheAngle) {
   EXPECT_TRUE(std::isnan(column(gamma_density_figure(groups_)->tables[0], "density_10")[0]));
 }
 
+TEST_F(Curves, OverScaleAreOfFailedRunsAtTheAngles) {
+  const auto figure = overload_scale_figure(groups_);
+  ASSERT_TRUE(figure);
+  EXPECT_EQ(figure->runs.size(), 2u) << "those that have failed";
+  const Table& table = figure->tables[0];
+  const std::vector<double>& scales = column(table, "l");
+  EXPECT_EQ(scales.front(), 0.0) << "the grain alone";
+  const RunFile& run = groups_[0].runs[0].file;
+  const RunStatics& statics = run.header().statics;
+  for (std::size_t s = 0; s < scales.size(); ++s) {
+    const double l = std::max(scales[s], 1e-9) * statics.mean_diameter;  // of 0 the frame says itself
+    const Frame frame = with_gamma_of_neighbourhoods(run.frame(0), statics, l);
+    EXPECT_NEAR(column(table, "p_o_0")[s], count_overloaded(frame, statics, sine(radians(80.0))).fraction(),
+                1e-12)
+        << scales[s];
+    EXPECT_EQ(column(table, "p_o_0_error")[s], 0.0) << "both runs are the same";
+  }
+  EXPECT_EQ(column(table, "p_o_failure").size(), scales.size());
+  for (FigureRun& each : groups_[0].runs) values<double>(each.analysis, "theta_c")[0] = radians(5.0);
+  EXPECT_TRUE(std::isnan(column(overload_scale_figure(groups_)->tables[0], "p_o_15")[0])) << "none stands";
+}
+
+TEST_F(Curves, CaptionsSayWhoseGammaItIs) {
+  EXPECT_NE(overloaded_fraction_figure(groups_)->caption.find(
+                "its first neighbours, a neighbourhood of diameter 3 D"),
+            std::string::npos);
+  for (FigureRun& run : groups_[0].runs) run.analysis.parameters = {{"l_min", "0"}};
+  EXPECT_NE(overloaded_fraction_figure(groups_)->caption.find("gamma is that of single grains"),
+            std::string::npos);
+  EXPECT_NE(gamma_density_figure(groups_)->caption.find("gamma is that of single grains"), std::string::npos);
+}
+
 TEST_F(Curves, OfTheVolumeHaveThetaDByEachEstimator) {
   fill("theta_d/lc_jump", radians(10.0), radians(1.0));
   fill("theta_d/dilation", radians(5.0), 0.0);
@@ -128,7 +162,7 @@ TEST_F(Curves, OfTheVolumeHaveThetaDByEachEstimator) {
 TEST_F(Curves, AreCalledAsInTheCatalogue) {
   for (const std::string_view name :
        {"fig04-shear-stress", "fig05-stress-ratio", "fig08-stress-ratio-density", "fig09-overloaded-fraction",
-        "fig12-coarse-graining-length", "fig14-volume-strain"}) {
+        "fig12-coarse-graining-length", "fig14-volume-strain", "overloaded-over-scale"}) {
     const auto recipe = std::ranges::find(figure_catalogue(), name, &FigureRecipe::name);
     ASSERT_NE(recipe, figure_catalogue().end()) << name;
     const auto figure = recipe->make(groups_);

@@ -28,22 +28,39 @@ ReadingResult result_of(std::size_t preparation, std::size_t reading, const Meas
   return judge_reading(preparation, reading, std::span(&run, 1), depth);
 }
 
-TEST(Readings, change_one_factor_from_either_threshold) {
+TEST(Readings, are_of_single_grains_with_either_threshold_and_of_grains_with_first_neighbours) {
   const std::vector<StudyAnalysis> analyses = study_analyses(paper_depth);
-  int bases = 0;
-  for (const Reading& reading : readings()) {
-    const StudyAnalysis& analysis = analyses[reading.analysis];
-    const bool changed = !analysis.settings.empty() || reading.population == Population::all;
-    EXPECT_EQ(changed, !reading.change.empty()) << reading.change;
-    if (!changed) {
-      EXPECT_EQ(reading.factor, static_cast<std::size_t>(bases++));
-    }
-    EXPECT_NO_THROW(parse_analysis_settings(analysis.settings)) << analysis.name;
+  const std::pair<double, std::size_t> expected[] = {{0.0, 0}, {0.0, 1}, {3.0, 0}};  // l_min, factor
+  ASSERT_EQ(base_readings().size(), std::size(expected));
+  for (std::size_t b = 0; b < std::size(expected); ++b) {
+    const Reading& base = base_readings()[b];
+    const AnalysisParameters parameters = parse_analysis_settings(analyses[base.analysis].settings);
+    EXPECT_EQ(parameters.l_min, expected[b].first) << base.base;
+    EXPECT_EQ(base.factor, expected[b].second) << base.base;
+    AnalysisParameters defaults;
+    defaults.l_min = parameters.l_min;
+    EXPECT_EQ(as_facts(parameters), as_facts(defaults)) << "nothing else is changed";
   }
-  EXPECT_EQ(bases, 2);
-  EXPECT_EQ(readings().size(), 16u);
-  EXPECT_EQ(analyses[5].name, "lc_cut=30");
-  EXPECT_EQ(study_analyses(20.0)[5].name, "lc_cut=15") << "3/4 of the depth";
+  EXPECT_EQ(base_readings().back().analysis, 0u) << "that of the run file";
+}
+
+TEST(Readings, change_one_factor_from_their_base) {
+  const std::vector<StudyAnalysis> analyses = study_analyses(paper_depth);
+  const Reading* base = nullptr;
+  for (const Reading& reading : readings()) {
+    if (reading.change.empty()) base = &reading;
+    ASSERT_NE(base, nullptr);
+    EXPECT_EQ(reading.base, base->base);
+    EXPECT_EQ(reading.factor, base->factor);
+    const StudyAnalysis& analysis = analyses[reading.analysis];
+    const bool changed = reading.analysis != base->analysis || reading.population == Population::all;
+    EXPECT_EQ(changed, !reading.change.empty()) << reading.change;
+    EXPECT_EQ(parse_analysis_settings(analysis.settings).l_min == 0.0, base->base.starts_with("single"))
+        << analysis.name;
+  }
+  EXPECT_EQ(readings().size(), 20u);
+  EXPECT_EQ(analyses[6].name, "l_min=0,lc_cut=30");
+  EXPECT_EQ(study_analyses(20.0)[6].name, "l_min=0,lc_cut=15") << "3/4 of the depth";
 }
 
 TEST(Score, counts_what_agrees) {

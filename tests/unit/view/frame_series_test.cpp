@@ -17,7 +17,8 @@
 namespace talus {
 namespace {
 
-const OverloadRule rule{radians(20.0), 1.0, false};
+const OverloadRule rule{
+    .theta_c = radians(20.0), .threshold_factor = 1.0, .joined_by_neighbours = false, .l_min = 0.0};
 
 std::shared_ptr<const Frame> read_bed(std::size_t k) {
   return std::make_shared<const Frame>(
@@ -98,6 +99,25 @@ TEST(FrameSeries, begins_anew_with_another_rule) {
   ASSERT_EQ(series.values().size(), 6u);
   EXPECT_EQ(series.values()[5].overloaded, 0.0);
   EXPECT_EQ(series.rule(), other);
+}
+
+TEST(FrameSeries, takes_grains_with_their_neighbours) {
+  FrameSeries series(example::bed_statics(), read_bed);
+  series.set_counts(6, 6);
+  OverloadRule with_neighbours = rule;
+  with_neighbours.l_min = 3.0;
+  series.begin(with_neighbours, {});
+  wait_for(series, 6);
+  // In a neighbourhood of 6 or 9 grains, each with P = 2 or, overloaded, 1, the overloaded ones are all of Q.
+  // With four of them the lowest and the highest have 2 of 6 (Q/P = 2/10), below sin 20 deg; those between 3
+  // of 9.
+  ASSERT_EQ(series.values().size(), 6u);
+  EXPECT_EQ(series.values()[3].overloaded, 0.0);
+  with_neighbours.threshold_factor = 0.18 / sine(radians(20.0));
+  series.begin(with_neighbours, {});
+  wait_for(series, 6);
+  EXPECT_NEAR(series.values()[3].overloaded, 12.0 / 40.0, 1e-12) << "the column and those beside it";
+  EXPECT_GE(series.values()[3].mean_length, 3.0);
 }
 
 TEST(FrameSeries, goes_on_with_frames_that_come_later) {
@@ -182,8 +202,8 @@ TEST(Landmarks, are_the_frames_where_values_change) {
   series.begin(rule, {});
   wait_for(series, 6);
   EXPECT_EQ(percolation_frame(series.values()), 3u);
-  EXPECT_EQ(length_jump_frame(series.values(), example::bed_statics(), radians(20.0)), 3u);
-  EXPECT_FALSE(length_jump_frame(series.values(), example::bed_statics(), radians(12.0)).has_value())
+  EXPECT_EQ(length_jump_frame(series.values(), 4.0, radians(20.0)), 3u);
+  EXPECT_FALSE(length_jump_frame(series.values(), 4.0, radians(12.0)).has_value())
       << "up to 12 deg nothing jumps";
   EXPECT_FALSE(percolation_frame(std::span(series.values()).first(3)).has_value());
 }

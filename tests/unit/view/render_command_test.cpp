@@ -23,6 +23,7 @@ RenderRequest shown_with_all(const char* map) {
   RenderRequest of = shown(map);
   of.settings.theta_c_assumed = true;
   of.settings.threshold_factor = 2.0;
+  of.settings.l_min = 4.5;
   of.settings.length = 7.5;
   of.settings.joined_by_neighbours = true;
   of.settings.colours = ColourMap::viridis;
@@ -40,7 +41,8 @@ TEST(RenderCommand, has_each_setting_that_the_map_depends_on) {
   of.settings.turned = true;
   of.settings.transparent = true;
   EXPECT_EQ(render_command_line(of),
-            "talus render runs/a.h5 --map coarse+clusters --at 12.25 --theta-c 20 --threshold 2 --length 7.5 "
+            "talus render runs/a.h5 --map coarse+clusters --at 12.25 --theta-c 20 --l-min 4.5 --threshold 2 "
+            "--length 7.5 "
             "--joined neighbours --colours viridis --range 0.1,0.6 --turned --transparent");
 }
 

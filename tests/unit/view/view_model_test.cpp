@@ -24,7 +24,15 @@
 namespace talus {
 namespace {
 
-ViewModel opened(const std::string& path) { return ViewModel::open(path, {}, "", false, "talus view"); }
+/// By the gamma of single grains.
+ViewModel opened(const std::string& path) {
+  ViewModel model = ViewModel::open(path, {}, "", false, "talus view");
+  model.state.map.l_min = 0.0;
+  model.update(0.0);
+  return model;
+}
+
+const std::vector<std::string> single_grains = {"l_min=0"};  // settings of an analysis
 
 /// Updates until something holds.
 bool comes_true(ViewModel& model, const std::function<bool()>& holds) {
@@ -79,7 +87,8 @@ TEST_F(ViewOfRun, opens_at_its_first_frame_with_the_map_of_gamma) {
 
 TEST_F(ViewOfRun, goes_to_its_landmarks) {
   EXPECT_TRUE(model_->has(Landmark::theta_c));
-  EXPECT_FALSE(model_->has(Landmark::length_jump)) << "nothing was worked out yet";
+  EXPECT_FALSE(ViewModel::open(path_, {}, "", false, "talus view").has(Landmark::length_jump))
+      << "nothing was worked out yet";
   ASSERT_TRUE(wait_for_all());
   const std::pair<Landmark, std::size_t> places[] = {{Landmark::last, 7},
                                                      {Landmark::length_jump, 3},
@@ -127,7 +136,7 @@ TEST_F(ViewOfRun, works_out_curves_anew_for_another_threshold) {
 TEST_F(ViewOfRun, takes_curves_from_a_stored_analysis) {
   model_.reset();
   const RunFile run = RunFile::open(path_);
-  Analysis analysis = analyse_run(run, {}, 1, {});
+  Analysis analysis = analyse_run(run, parse_analysis_settings(single_grains), 1, {});
   values<double>(analysis, "overloaded/fraction")[2 * 3] = 0.75;  // frame 3, first threshold: told apart
   store_analysis(path_, analysis, hash_text(state_hash(run.checkpoint().world)));
   model_.emplace(opened(path_));
@@ -152,11 +161,12 @@ TEST_F(ViewOfRun, takes_no_lengths_that_end_elsewhere) {
   const double theta_c = model_->theta_c();
   model_.reset();
   const RunFile run = RunFile::open(path_);
-  AnalysisParameters parameters;
+  AnalysisParameters parameters = parse_analysis_settings(single_grains);
   parameters.lc_factor = 2.0;
   const Analysis analysis = analyse_run(run, parameters, 1, {});
-  EXPECT_FALSE(find_threshold(analysis, {theta_c, 1.0, false}).has_value());
-  EXPECT_EQ(find_threshold(analysis, {theta_c, 2.0, false}), 1u);
+  EXPECT_FALSE(find_threshold(analysis, {theta_c, 1.0, false, 0.0}).has_value());
+  EXPECT_EQ(find_threshold(analysis, {theta_c, 2.0, false, 0.0}), 1u);
+  EXPECT_FALSE(find_threshold(analysis, {theta_c, 2.0, false, 3.0}).has_value()) << "of single grains";
 }
 
 TEST_F(ViewOfRun, takes_no_analysis_of_means_over_frames) {
@@ -166,6 +176,28 @@ TEST_F(ViewOfRun, takes_no_analysis_of_means_over_frames) {
   parameters.averaging = 10.0;
   store_analysis(path_, analyse_run(run, parameters, 1, {}), hash_text(state_hash(run.checkpoint().world)));
   EXPECT_FALSE(read_usable_analysis(path_, RunFile::open(path_)).has_value());
+}
+
+TEST_F(ViewOfRun, takes_grains_with_their_first_neighbours_unless_told_otherwise) {
+  EXPECT_EQ(ViewModel::open(path_, {}, "", false, "talus view").state.map.l_min, 3.0);
+  model_->go_to(3);
+  model_->state.selected = 10;
+  EXPECT_EQ(model_->frame().gamma[10], 1.0);
+  EXPECT_NE(model_->render_command().find("--l-min 0"), std::string::npos);
+  const double density = plot(*model_, "gamma").series[0].y.back();
+  model_->state.map.l_min = 3.0;
+  EXPECT_TRUE(model_->update(0.0));
+  // Grain 10 has nine grains within 1.5 D, three of them overloaded: Q = 3, P = 15.
+  EXPECT_NEAR(model_->frame().gamma[10], 0.2, 1e-12);
+  EXPECT_NEAR(model_->inspection()->gamma, 0.2, 1e-12);
+  EXPECT_EQ(model_->inspection()->state.ratio, 1.0) << "the grain alone";
+  EXPECT_FALSE(model_->inspection()->overloaded);
+  EXPECT_NE(model_->furnished_map().title.find("l = 3 D"), std::string::npos);
+  EXPECT_LT(plot(*model_, "gamma").series[0].y.back(), density);
+  EXPECT_EQ(model_->render_command().find("--l-min"), std::string::npos);
+  model_->state.map.l_min = 0.0;
+  model_->update(0.0);
+  EXPECT_EQ(model_->frame().gamma[10], 1.0);
 }
 
 TEST_F(ViewOfRun, inspects_the_selected_grain) {
@@ -276,7 +308,7 @@ TEST_F(ViewOfRun, says_in_the_title_why_a_map_cannot_be_drawn) {
   model_->state.map.range_high = 0.1;
   EXPECT_GE(model_->map(2.0).discs.size(), 50u);
   EXPECT_FALSE(model_->furnished_map().title.empty());
-  EXPECT_NE(model_->furnished_map().title, "Stress ratio γ of each grain");
+  EXPECT_NE(model_->furnished_map().title, "Stress ratio γ of single grains");
 }
 
 TEST_F(ViewOfRun, tells_of_a_frame_that_cannot_be_read) {
@@ -316,7 +348,7 @@ TEST_F(ViewOfRun, turned_shows_all_frames_in_one_size) {
 
 TEST_F(ViewOfRun, asks_for_the_flow_where_it_shows_it) {
   model_->go_to(6);
-  EXPECT_EQ(model_->render_command(), "talus render " + path_ + " --map gamma --at 25 --flow");
+  EXPECT_EQ(model_->render_command(), "talus render " + path_ + " --map gamma --at 25 --flow --l-min 0");
 }
 
 TEST_F(ViewOfRun, takes_no_settings_of_a_scenario) {

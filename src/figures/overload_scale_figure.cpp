@@ -1,0 +1,99 @@
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/coarse_graining.h"
+#include "core/trigonometry.h"
+#include "figures/failed_group.h"
+#include "figures/overload_figures.h"
+#include "figures/run_means.h"
+#include "session/analysis_input.h"
+#include "session/scenario_text.h"
+#include "session/study_statistics.h"
+
+namespace talus {
+namespace {
+
+constexpr double angles[] = {0.0, 15.0};  // deg
+
+/// Diameters, D: the grain alone, then from the first neighbours on; not above `largest`.
+std::vector<double> scales_up_to(double largest) {
+  std::vector<double> scales;
+  for (const double l :
+       {0.0, 1.5, 2.0, 2.5, 3.0, 3.5, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0, 12.0, 14.0, 16.0, 18.0, 20.0})
+    if (l <= largest) scales.push_back(l);
+  return scales;
+}
+
+/// p_o of a frame at each diameter (D), with the printed threshold.
+std::vector<double> shares_of(const FigureRun& run, std::size_t k, std::vector<double> scales) {
+  const RunStatics& statics = run.file.header().statics;
+  AnalysisParameters parameters = from_facts(run.analysis.parameters);
+  parameters.l_min = 0.0;
+  for (double& l : scales) l *= statics.mean_diameter;
+  return overloaded_over_scale(analysed_frame(run.file, parameters, k), statics,
+                               values<double>(run.analysis, "gamma_c")[0], scales);
+}
+
+/// The mean over some runs, at one frame of each, and its error; none where fewer than half of `all` are
+/// left.
+std::vector<Column> mean_shares(const FramesAtAngle& at, std::size_t all, const std::vector<double>& scales,
+                                Column mean) {
+  Column error{mean.name + "_error", mean.unit, "its standard error over the runs", {}};
+  const bool enough = 2 * at.runs.size() >= all;
+  std::vector<std::vector<double>> shares;
+  for (std::size_t r = 0; r < at.runs.size() && enough; ++r)
+    shares.push_back(shares_of(*at.runs[r], at.frames[r], scales));
+  for (std::size_t s = 0; s < scales.size(); ++s) {
+    std::vector<double> each;
+    for (const std::vector<double>& of_run : shares) each.push_back(of_run[s]);
+    const MeanError result = mean_error(each);
+    mean.values.push_back(result.mean);
+    error.values.push_back(result.error);
+  }
+  return {std::move(mean), std::move(error)};
+}
+
+std::vector<Column> scale_columns(const RunChoice& runs) {
+  const RunStatics& statics = runs.front()->file.header().statics;
+  const std::vector<double> scales =
+      scales_up_to(std::min(statics.depth, 0.5 * statics.length) / statics.mean_diameter);
+  std::vector<Column> columns = {{"l", "D", "diameter of the neighbourhood; 0: the grain alone", scales}};
+  const auto add = [&](const FramesAtAngle& at, const std::string& name, const std::string& where) {
+    const std::string meaning = "share of the grains that carry something with gamma_l >= Gamma_c " + where;
+    for (Column& column : mean_shares(at, runs.size(), scales,
+                                      {"p_o_" + name, "1", meaning + ", " + runs_text(at.runs.size()), {}}))
+      columns.push_back(std::move(column));
+  };
+  for (const double angle : angles)
+    add(frames_at_angle(runs, radians(angle)), short_text(angle), "at " + short_text(angle) + " deg");
+  FramesAtAngle failure{runs, {}};
+  for (const FigureRun* run : runs) failure.frames.push_back(repose_frame(*run));
+  add(failure, "failure", "in the last frame before failure");
+  return columns;
+}
+
+}  // namespace
+
+std::optional<Figure> overload_scale_figure(std::span<const RunGroup> groups) {
+  Figure figure;
+  figure.name = "overloaded-over-scale";
+  figure.title = "Overloaded fraction over the size of neighbourhoods";
+  figure.caption =
+      "Fraction p_o of the grains whose neighbourhood of diameter l has a stress ratio gamma_l of at least "
+      "Gamma_c = sin(theta_c), over l, among the grains that carry something: the grain alone at l = 0, with "
+      "its first neighbours from about 2 D on; periodic beds at theta = 0 and 15 deg and in the last frame "
+      "before failure. Dashed line: the paper's p_o at theta_c, 0.60. Means over the runs of a bed that have "
+      "failed, of which at least half stand at an angle that is shown; error bars are standard errors over "
+      "the runs, none for a single run.";
+  for (const RunGroup& group : groups) {
+    const RunChoice runs = failed_runs(group);
+    if (!group.periodic() || runs.empty()) continue;
+    add_group_table(figure, group, runs, scale_columns(runs));
+  }
+  if (figure.tables.empty()) return std::nullopt;
+  figure.height_over_width = 0.7 * static_cast<double>(figure.tables.size());
+  set_key(figure, std::size(angles) + 1, 16);
+  return figure;
+}
+
+}  // namespace talus
