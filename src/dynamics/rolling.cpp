@@ -125,16 +125,26 @@ class Path {
     const Stop stop{{along.x * cosine - along.y * sine, along.y * cosine + along.x * sine},
                     disc,
                     roll.side * (to_disc.x - roll.reach * (along.x * cosine - along.y * sine)) > 0.0};
-    const bool ahead = stop.direction.y >= 0.0 && roll.side * stop.direction.x >= 0.0 &&
-                       is_before(roll.direction, stop.direction, roll.side);
-    return ahead || is_touched_already(roll, to_disc, other) ? std::optional(stop) : std::nullopt;
+    return is_ahead(roll, stop.direction) || is_touching(roll, to_disc, other, stop.direction)
+               ? std::optional(stop)
+               : std::nullopt;
   }
 
-  /// Whether the grain touches, to round-off, a disc towards which it rolls.
-  static bool is_touched_already(const Roll& roll, Vec2 to_disc, double other) {
-    const Vec2 apart{to_disc.x - roll.reach * roll.direction.x, to_disc.y - roll.reach * roll.direction.y};
-    const double towards = roll.side * (roll.direction.y * to_disc.x - roll.direction.x * to_disc.y);
-    return square(apart) < other * other && towards > 0.0;
+  static bool is_ahead(const Roll& roll, Vec2 direction) {
+    return direction.y >= 0.0 && roll.side * direction.x >= 0.0 &&
+           is_before(roll.direction, direction, roll.side);
+  }
+
+  /// Whether the grain touches a disc already, towards which it rolls: where to meet it, `meeting`, is then
+  /// here or behind by round-off, which grows to its root where circles graze.
+  static bool is_touching(const Roll& roll, Vec2 to_disc, double other, Vec2 meeting) {
+    constexpr double round_off = 1e-8;
+    const Vec2 here = roll.direction;
+    const Vec2 apart{to_disc.x - roll.reach * here.x, to_disc.y - roll.reach * here.y};
+    const bool towards = roll.side * (here.y * to_disc.x - here.x * to_disc.y) > 0.0;
+    const bool at_meeting = std::fabs(here.x * meeting.y - here.y * meeting.x) < round_off &&
+                            here.x * meeting.x + here.y * meeting.y > 0.0;
+    return towards && (at_meeting || square(apart) < other * other);
   }
 
   std::optional<Stop> stop_at_wall(const Roll& roll, const Plane& wall) const {
