@@ -21,7 +21,7 @@ void DiscGrid::add(const Disc& disc) {
   discs_.push_back(disc);
 }
 
-DiscGrid::Touch DiscGrid::first_touch(double x, double radius, double from, Index left) const {
+DiscGrid::Touch DiscGrid::first_touch(double x, double radius, double from) const {
   Touch touch;
   for (const Plane& plane : boundary_.planes)
     if (!plane.wall) touch.height = plane.offset + radius;
@@ -29,7 +29,7 @@ DiscGrid::Touch DiscGrid::first_touch(double x, double radius, double from, Inde
   const auto meet = [&](Index i) {
     const Disc& disc = discs_[static_cast<std::size_t>(i)];
     const double across = std::fabs(separation(disc.x, x)), distance = radius + disc.radius;
-    if (i == left || disc.y >= from || across >= distance) return;
+    if (disc.y >= from || across >= distance) return;
     const double height = disc.y + std::sqrt((distance - across) * (distance + across));
     if (height > touch.height) touch = {height, i};
   };

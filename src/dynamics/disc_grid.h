@@ -40,9 +40,8 @@ class DiscGrid {
     return boundary_.periodic ? std::remainder(to - from, boundary_.length) : to - from;
   }
 
-  /// What a grain that falls along x from the height `from` touches first; `left` is the disc that it has
-  /// just rolled off, which it does not meet again.
-  Touch first_touch(double x, double radius, double from, Index left) const;
+  /// What a grain that falls along x from the height `from` touches first, of the discs with a lower centre.
+  Touch first_touch(double x, double radius, double from) const;
 
   /// Calls visit(disc) for each disc with its centre in a rectangle, and for some that lie near it.
   template <typename Visit>

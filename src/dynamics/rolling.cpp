@@ -59,7 +59,7 @@ class Path {
   }
 
   std::optional<Vec2> fall() {
-    const DiscGrid::Touch touch = bed_.first_touch(x_, grain_.radius, height_, left_);
+    const DiscGrid::Touch touch = bed_.first_touch(x_, grain_.radius, height_);
     if (touch.disc == DiscGrid::none) return Vec2{x_, touch.height};
     const double across = bed_.separation(bed_[touch.disc].x, x_) / reach(touch.disc);
     const Vec2 direction{across, component(across)};
@@ -76,7 +76,6 @@ class Path {
       const Vec2 equator = place(roll.on, {roll.side, 0.0});
       x_ = equator.x;
       height_ = equator.y;
-      left_ = roll.on;
       roll_.reset();
       return std::nullopt;
     }
@@ -125,16 +124,23 @@ class Path {
     const Stop stop{{along.x * cosine - along.y * sine, along.y * cosine + along.x * sine},
                     disc,
                     roll.side * (to_disc.x - roll.reach * (along.x * cosine - along.y * sine)) > 0.0};
-    const bool ahead = stop.direction.y >= 0.0 && roll.side * stop.direction.x >= 0.0 &&
-                       is_before(roll.direction, stop.direction, roll.side);
-    return ahead || is_touched_already(roll, to_disc, other) ? std::optional(stop) : std::nullopt;
+    return is_ahead(roll, stop.direction) || is_touching(roll, to_disc, stop.direction) ? std::optional(stop)
+                                                                                        : std::nullopt;
   }
 
-  /// Whether the grain touches, to round-off, a disc towards which it rolls.
-  static bool is_touched_already(const Roll& roll, Vec2 to_disc, double other) {
-    const Vec2 apart{to_disc.x - roll.reach * roll.direction.x, to_disc.y - roll.reach * roll.direction.y};
-    const double towards = roll.side * (roll.direction.y * to_disc.x - roll.direction.x * to_disc.y);
-    return square(apart) < other * other && towards > 0.0;
+  static bool is_ahead(const Roll& roll, Vec2 direction) {
+    return direction.y >= 0.0 && roll.side * direction.x >= 0.0 &&
+           is_before(roll.direction, direction, roll.side);
+  }
+
+  /// Whether the grain touches a disc already, towards which it rolls: it should have stopped where they
+  /// meet, and has gone past by round-off, which grows to its root where circles graze.
+  static bool is_touching(const Roll& roll, Vec2 to_disc, Vec2 meeting) {
+    constexpr double round_off = 1e-5;
+    const Vec2 here = roll.direction;
+    const bool towards = roll.side * (here.y * to_disc.x - here.x * to_disc.y) > 0.0;
+    return towards && std::fabs(here.x * meeting.y - here.y * meeting.x) < round_off &&
+           here.x * meeting.x + here.y * meeting.y > 0.0;
   }
 
   std::optional<Stop> stop_at_wall(const Roll& roll, const Plane& wall) const {
@@ -155,7 +161,6 @@ class Path {
   const FallingGrain& grain_;
   double x_;                                                 ///< m, where the grain falls
   double height_ = std::numeric_limits<double>::infinity();  ///< m, from where
-  Index left_ = DiscGrid::none;                              ///< the disc that it has rolled off
   std::optional<Roll> roll_;                                 ///< none while it falls
 };
 

@@ -25,6 +25,7 @@ const std::vector<std::string> of_a_run = {
     "src/stress/free_surface",
     "src/stress/internal_moment",
     "src/session/command",
+    "src/session/deposition",
     "src/session/drop",
     "src/session/guards",
     "src/session/measure",

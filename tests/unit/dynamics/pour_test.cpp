@@ -1,0 +1,218 @@
+#include "dynamics/pour.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "dynamics/step.h"
+#include "support/scenes.h"
+
+namespace talus {
+namespace {
+
+constexpr PourRule rule{.speed = 2.0, .interval = 0.01, .density = 2500.0};
+constexpr double h = 1e-3;
+
+BedPlan plan_of(bool periodic, bool rough, Index count = 100) {
+  BedPlan plan;
+  plan.length = 10.0 * plan.mean_diameter;
+  plan.grain_count = count;
+  plan.periodic = periodic;
+  plan.rough_floor = rough;
+  return plan;
+}
+
+World bare_floor(const BedPlan& plan) {
+  World world = empty_bed(plan);
+  add_floor(plan, world);
+  return world;
+}
+
+/// Smallest gap between a free grain and what it can fall on, through the periodic images too, m.
+double smallest_gap(const World& world, Index grain) {
+  const Grains& g = world.grains;
+  double smallest = std::numeric_limits<double>::infinity();
+  for (Index other = 0; other < g.count(); ++other)
+    for (const double image : {-world.boundary.length, 0.0, world.boundary.length}) {
+      if (other == grain || (image != 0.0 && !world.boundary.periodic)) continue;
+      const double dx = g.x[other] + image - g.x[grain], dy = g.y[other] - g.y[grain];
+      smallest = std::min(smallest, std::sqrt(dx * dx + dy * dy) - g.radius[grain] - g.radius[other]);
+    }
+  for (const Plane& plane : world.boundary.planes)
+    if (!plane.wall) smallest = std::min(smallest, g.y[grain] - plane.offset - g.radius[grain]);
+  return smallest;
+}
+
+TEST(PourArrivals, have_sizes_and_places_in_range_all_along_the_bed) {
+  for (const bool periodic : {true, false}) {
+    const BedPlan plan = plan_of(periodic, true, 2000);
+    const std::vector<Arrival> arrivals = pour_arrivals(plan);
+    ASSERT_EQ(arrivals.size(), 2000u);
+    double low = plan.length, high = 0.0, small = 1.0, large = 0.0;
+    for (const auto& [radius, x] : arrivals) {
+      const double margin = periodic ? 0.0 : radius;
+      EXPECT_GE(x, margin);
+      EXPECT_LE(x, plan.length - margin);
+      low = std::min(low, x - margin);
+      high = std::max(high, x + margin);
+      small = std::min(small, 2.0 * radius);
+      large = std::max(large, 2.0 * radius);
+    }
+    EXPECT_LT(low, 0.01 * plan.length);
+    EXPECT_GT(high, 0.99 * plan.length);
+    EXPECT_GE(small, smallest_diameter(plan));
+    EXPECT_LT(small, 1.01 * smallest_diameter(plan));
+    EXPECT_LE(large, largest_diameter(plan));
+    EXPECT_GT(large, 0.99 * largest_diameter(plan));
+  }
+}
+
+TEST(PourArrivals, are_the_same_for_the_same_plan_and_others_for_another_seed) {
+  const BedPlan plan = plan_of(true, true);
+  BedPlan other = plan;
+  other.seed = 2;
+  const auto x_of = [](const BedPlan& p, std::size_t i) { return pour_arrivals(p)[i].x; };
+  for (const std::size_t i : {0u, 50u, 99u}) {
+    EXPECT_EQ(x_of(plan, i), x_of(plan, i));
+    EXPECT_NE(x_of(plan, i), x_of(other, i));
+  }
+}
+
+TEST(ArrivedBy, counts_the_first_grain_at_time_0_and_one_more_after_each_interval) {
+  const PourRule quarter{.speed = 0.0, .interval = 0.25, .density = 1.0};
+  EXPECT_EQ(arrived_by(0.0, quarter, 10), 1);
+  EXPECT_EQ(arrived_by(0.2499, quarter, 10), 1);
+  EXPECT_EQ(arrived_by(0.25, quarter, 10), 2);
+  EXPECT_EQ(arrived_by(2.2499, quarter, 10), 9);
+  EXPECT_EQ(arrived_by(2.25, quarter, 10), 10);
+  EXPECT_EQ(arrived_by(1e300, quarter, 10), 10);
+  EXPECT_EQ(arrived_by(0.0, quarter, 0), 0);
+}
+
+// A grain that goes on down by the half step's fall touches something, and nothing before: so the heights of
+// all are those of the first body on their vertical lines.
+TEST(LetArrive, a_grain_stands_half_a_step_of_its_fall_above_what_it_touches_first) {
+  for (const bool periodic : {true, false})
+    for (const bool rough : {true, false}) {
+      const BedPlan plan = plan_of(periodic, rough, 60);
+      const std::vector<Arrival> arrivals = pour_arrivals(plan);
+      World world = bare_floor(plan);
+      for (Index i = 0; i < plan.grain_count; ++i) {
+        world.time = (i + 0.5) * rule.interval;
+        let_arrive(arrivals, rule, h, world);
+        ASSERT_EQ(world.grains.free_count, i + 1);
+        EXPECT_EQ(world.grains.x[i], arrivals[static_cast<std::size_t>(i)].x);
+        EXPECT_EQ(world.grains.radius[i], arrivals[static_cast<std::size_t>(i)].radius);
+        EXPECT_EQ(world.grains.vy[i], -rule.speed);
+        EXPECT_EQ(world.grains.vx[i], 0.0);
+        EXPECT_GE(smallest_gap(world, i), -1e-16);
+        world.grains.y[i] -= 0.5 * h * rule.speed;
+        EXPECT_NEAR(smallest_gap(world, i), 0.0, 1e-15) << "grain " << i;
+      }
+    }
+}
+
+TEST(LetArrive, those_that_are_due_together_do_not_overlap) {
+  const BedPlan plan = plan_of(true, true, 60);
+  const std::vector<Arrival> arrivals = pour_arrivals(plan);
+  World world = bare_floor(plan);
+  world.time = 59.5 * rule.interval;
+  let_arrive(arrivals, rule, h, world);
+  ASSERT_EQ(world.grains.free_count, 60);
+  for (Index i = 0; i < 60; ++i) EXPECT_GE(smallest_gap(world, i), -1e-16);
+}
+
+TEST(LetArrive, does_nothing_before_the_next_is_due_and_after_the_last) {
+  const BedPlan plan = plan_of(true, true, 2);
+  const std::vector<Arrival> arrivals = pour_arrivals(plan);
+  World world = bare_floor(plan);
+  let_arrive(arrivals, rule, h, world);
+  const std::uint64_t with_one = state_hash(world);
+  let_arrive(arrivals, rule, h, world);
+  EXPECT_EQ(state_hash(world), with_one);
+  world.time = 1.0;
+  let_arrive(arrivals, rule, h, world);
+  world.time = 2.0;
+  let_arrive(arrivals, rule, h, world);
+  EXPECT_EQ(world.grains.free_count, 2);
+}
+
+TEST(LetArrive, ids_of_floor_and_planes_move_up_and_forces_stay) {
+  const BedPlan plan = plan_of(false, true, 3);  // 10 floor grains, planes 10 and 11 behind them
+  const std::vector<Arrival> arrivals = pour_arrivals(plan);
+  World world = bare_floor(plan);
+  let_arrive(arrivals, rule, h, world);
+  world.contacts.resize(3);  // the first grain on a floor grain, and at each wall
+  world.contacts.a = {0, 0, 0};
+  world.contacts.b = {4, 11, 12};
+  world.contacts.fn = {3.0, 1.0, 2.0};
+  world.contacts.ft = {0.5, -0.5, 0.25};
+  const double floor_x = world.grains.x[4];
+  world.time = 1.0;
+  let_arrive(arrivals, rule, h, world);
+  EXPECT_EQ(world.grains.free_count, 3);
+  EXPECT_EQ(world.contacts.a, (std::vector<Index>{0, 0, 0}));
+  EXPECT_EQ(world.contacts.b, (std::vector<Index>{6, 13, 14}));
+  EXPECT_EQ(world.contacts.fn, (std::vector<double>{3.0, 1.0, 2.0}));
+  EXPECT_EQ(world.contacts.ft, (std::vector<double>{0.5, -0.5, 0.25}));
+  EXPECT_EQ(world.grains.x[6], floor_x);
+  EXPECT_EQ(world.grains.inverse_mass[6], 0.0);
+  EXPECT_GT(world.grains.inverse_mass[2], 0.0);
+}
+
+TEST(WithAllArrivals, lists_those_on_their_way_behind_the_free_grains) {
+  const BedPlan plan = plan_of(true, true, 5);
+  const std::vector<Arrival> arrivals = pour_arrivals(plan);
+  World world = bare_floor(plan);
+  world.time = 1.5 * rule.interval;
+  let_arrive(arrivals, rule, h, world);
+  const Grains all = with_all_arrivals(world.grains, arrivals, rule.density);
+  EXPECT_EQ(world.grains.free_count, 2);
+  EXPECT_EQ(all.free_count, 5);
+  EXPECT_EQ(all.count(), 15);
+  for (Index i = 0; i < 5; ++i) EXPECT_EQ(all.radius[i], arrivals[static_cast<std::size_t>(i)].radius);
+  EXPECT_EQ(all.mass[1], world.grains.mass[1]);
+  EXPECT_EQ(all.x[5], world.grains.x[2]);
+  EXPECT_EQ(with_all_arrivals(world.grains, {}, rule.density).count(), 12);  // of a bed that is not poured
+}
+
+void pour_steps(const std::vector<Arrival>& arrivals, int steps, World& world, StepWorkspace& workspace) {
+  const StepSettings settings = test::bed_step(1e-4);
+  for (int k = 0; k < steps; ++k) {
+    let_arrive(arrivals, {.speed = 1.0, .interval = 1.1e-3, .density = 2500.0}, settings.h, world);
+    step(world, settings, workspace);
+  }
+}
+
+// The workspace of a copy is a new one; nothing of a poured bed is in it.
+TEST(Pour, a_copied_bed_goes_on_with_the_same_bits) {
+  for (const bool periodic : {true, false}) {
+    const BedPlan plan = plan_of(periodic, true);
+    const std::vector<Arrival> arrivals = pour_arrivals(plan);
+    World world = bare_floor(plan);
+    StepWorkspace workspace, fresh;
+    pour_steps(arrivals, 51, world, workspace);
+    World copy = world;
+    pour_steps(arrivals, 60, world, workspace);
+    pour_steps(arrivals, 60, copy, fresh);
+    EXPECT_EQ(copy.grains.free_count, 100);
+    EXPECT_EQ(state_hash(copy), state_hash(world));
+  }
+}
+
+// A step finds it touching at its midpoint: the plane takes its speed at once, and it stays on the plane.
+TEST(Pour, a_grain_that_arrives_touches_in_its_first_step) {
+  const BedPlan plan = plan_of(true, false, 1);
+  const std::vector<Arrival> arrivals = pour_arrivals(plan);
+  World world = bare_floor(plan);
+  StepWorkspace workspace;
+  let_arrive(arrivals, rule, 1e-3, world);
+  step(world, test::exact_step(SolverKind::accelerated), workspace);
+  EXPECT_NEAR(world.grains.vy[0], 0.0, 1e-9);
+  EXPECT_NEAR(world.grains.y[0], world.grains.radius[0], 1e-9);
+}
+
+}  // namespace
+}  // namespace talus
