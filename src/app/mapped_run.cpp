@@ -23,7 +23,11 @@ std::string formatted(const char* pattern, double a, double b = 0.0, double c = 
 
 MappedRun::MappedRun(const std::string& path, const MapPlan& plan,
                      const std::function<void(std::size_t, std::size_t)>& progress)
-    : path_(path), file_(RunFile::open(path)), plan_(plan), extent_(bed_extent(file_.header().statics)) {
+    : path_(path),
+      file_(RunFile::open(path)),
+      asked_(plan),
+      plan_(plan),
+      extent_(bed_extent(file_.header().statics)) {
   if (file_.frame_count() == 0)
     throw Error(ExitCode::bad_data, path + " has no frames yet: nothing is drawn before the tilt begins");
   take_theta_c();

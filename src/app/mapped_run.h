@@ -44,6 +44,9 @@ class MappedRun {
   /// A hash of all that the picture `view(k, map)` depends on.
   std::string key(std::size_t k, std::size_t map) const;
 
+  /// What was asked for, before theta_c of the run was known.
+  const MapPlan& asked() const { return asked_; }
+
  private:
   struct Series {
     std::vector<double> tilts, values;
@@ -58,7 +61,7 @@ class MappedRun {
 
   std::string path_;
   RunFile file_;
-  MapPlan plan_;
+  MapPlan asked_, plan_;
   MapExtent extent_;
   std::vector<FrameInstant> instants_;
   std::vector<std::vector<ClusterColour>> cluster_colours_;  ///< of each frame; empty where not drawn
