@@ -9,6 +9,7 @@
 #include "core/errors.h"
 #include "core/trigonometry.h"
 #include "maps/cluster_frame.h"
+#include "maps/motion.h"
 
 namespace talus {
 namespace {
@@ -128,6 +129,16 @@ void MappedRun::load(std::size_t k) {
 }
 
 const Frame* MappedRun::reference() const { return before_ && *before_ < *current_ ? &reference_ : nullptr; }
+
+void MappedRun::fit_motion(std::span<const std::size_t> frames) {
+  if (!any_layer(plan_, needs_reference)) return;
+  MotionSample sample;
+  for (const std::size_t k : frames) {
+    load(k);
+    sample.add({frame_, file_.header().statics, reference(), !since_, {}});
+  }
+  for (MapSettings& map : plan_.maps) map.motion = sample.ranges();
+}
 
 FrameView MappedRun::view(std::size_t k, std::size_t map) {
   load(k);

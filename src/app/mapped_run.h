@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,10 @@ class MappedRun {
   /// Of all frames, those of a flow after failure included; the first file().frame_count() of them are the
   /// tilt.
   const std::vector<FrameInstant>& instants() const { return instants_; }
+
+  /// Of the maps `displacement` and `rotation`: the ranges that fit what is drawn, of all these frames.
+  /// Before the first view or key; without, the ranges are fixed.
+  void fit_motion(std::span<const std::size_t> frames);
 
   /// Map `map` of the plan at frame k, with its traces. Frames are fastest in ascending order, all maps of
   /// one after another.

@@ -110,6 +110,7 @@ void make_panel(const PanelArguments& arguments) {
   const MapPlan plan = plan_panel(arguments);
   MappedRun run = open_mapped_run(arguments.run, plan, arguments.quiet);
   const FrameChoice choice = frames_at(run.file().frame_tilts(), arguments.at, run.theta_c());
+  run.fit_motion(choice);
   const PictureMarks marks = {panel_key(run, choice), panel_request(run, arguments)};
   const bool drawn = is_drawn(arguments.output, marks, arguments.overwrite);
   if (!drawn) {

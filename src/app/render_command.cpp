@@ -61,12 +61,13 @@ struct Picture {
 };
 
 /// In the order of drawing: all maps of a frame, then the next frame.
-std::vector<Picture> plan_pictures(const RenderArguments& arguments, const MappedRun& run,
+std::vector<Picture> plan_pictures(const RenderArguments& arguments, MappedRun& run,
                                    const std::string& folder) {
   FrameChoice choice = choose_frames(arguments, run);
   const std::size_t rising = choice.size();
   if (arguments.flow)
     for (std::size_t k = run.file().frame_count(); k < run.instants().size(); ++k) choice.push_back(k);
+  run.fit_motion(choice);
   std::vector<std::vector<std::string>> names;
   for (const MapSettings& map : run.plan().maps)
     names.push_back(picture_names(run, choice, rising, layers_name(map.layers)));
