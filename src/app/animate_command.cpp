@@ -88,11 +88,20 @@ void make_movie(MappedRun& run, const std::vector<MovieFrame>& frames, const Ani
   if (*stop == 0) movie.finish();
 }
 
+/// One range for all frames, each of which counts once however long it is shown.
+void fit_motion(MappedRun& run, const std::vector<MovieFrame>& frames) {
+  std::vector<std::size_t> shown;
+  for (const MovieFrame& frame : frames)
+    if (shown.empty() || shown.back() != frame.frame) shown.push_back(frame.frame);
+  run.fit_motion(shown);
+}
+
 void animate(const AnimateArguments& arguments) {
   const MapPlan plan = plan_movie(arguments);
   refuse_existing(arguments.output, arguments.overwrite);
   MappedRun run = open_mapped_run(arguments.run, plan, arguments.quiet);
   const std::vector<MovieFrame> frames = movie_frames(clock_tilts(run), arguments.timing);
+  fit_motion(run, frames);
   const volatile std::sig_atomic_t* stop = catch_stop_signals();
   try {
     make_movie(run, frames, arguments, stop);

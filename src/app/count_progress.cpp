@@ -4,7 +4,7 @@
 
 #include <cstdio>
 
-#include "app/progress.h"
+#include "app/progress_text.h"
 
 namespace talus {
 

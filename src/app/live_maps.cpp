@@ -127,11 +127,12 @@ void LiveMaps::draw(Frame frame) {
   if (draws_clusters(plan_))
     cluster_colours = colours_.next(overloaded_clusters(frame, statics, plan_.maps[0]));
   for (const MapSettings& map : plan_.maps) {
-    const std::string path = name_of(frame, map.layers), key = key_of(frame, map);
-    if (is_drawn(path, key, overwrite_)) continue;
+    const std::string path = name_of(frame, map.layers);
+    const PictureMarks marks = {key_of(frame, map), picture_request("run", path_, plan_, {&map, 1}, path)};
+    if (is_drawn(path, marks, overwrite_)) continue;
     const MapFrame of{frame, statics, before_ ? &*before_ : nullptr, true, cluster_colours};
     write_png(path, renderer_->draw(make_map(of, map, *extent_), plan_.width),
-              picture_texts(key, picture_source(path_, frame.tilt, map.layers)));
+              picture_texts(marks, picture_source(path_, frame.tilt, map.layers)));
   }
   before_ = std::move(frame);
 }

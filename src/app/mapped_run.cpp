@@ -10,6 +10,7 @@
 #include "core/errors.h"
 #include "core/trigonometry.h"
 #include "maps/cluster_frame.h"
+#include "maps/motion.h"
 
 namespace talus {
 namespace {
@@ -24,7 +25,11 @@ std::string formatted(const char* pattern, double a, double b = 0.0, double c = 
 
 MappedRun::MappedRun(const std::string& path, const MapPlan& plan,
                      const std::function<void(std::size_t, std::size_t)>& progress)
-    : path_(path), file_(RunFile::open(path)), plan_(plan), extent_(bed_extent(file_.header().statics)) {
+    : path_(path),
+      file_(RunFile::open(path)),
+      asked_(plan),
+      plan_(plan),
+      extent_(bed_extent(file_.header().statics)) {
   if (file_.frame_count() == 0)
     throw Error(ExitCode::bad_data, path + " has no frames yet: nothing is drawn before the tilt begins");
   take_theta_c();
@@ -130,6 +135,16 @@ Frame MappedRun::as_mapped(Frame frame) const {
 }
 
 const Frame* MappedRun::reference() const { return before_ && *before_ < *current_ ? &reference_ : nullptr; }
+
+void MappedRun::fit_motion(std::span<const std::size_t> frames) {
+  if (!any_layer(plan_, needs_reference)) return;
+  MotionSample sample;
+  for (const std::size_t k : frames) {
+    load(k);
+    sample.add({frame_, file_.header().statics, reference(), !since_, {}});
+  }
+  for (MapSettings& map : plan_.maps) map.motion = sample.ranges();
+}
 
 FrameView MappedRun::view(std::size_t k, std::size_t map) {
   load(k);

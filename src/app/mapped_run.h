@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -37,12 +38,19 @@ class MappedRun {
   /// tilt.
   const std::vector<FrameInstant>& instants() const { return instants_; }
 
+  /// Of the maps `displacement` and `rotation`: the ranges that fit what is drawn, of all these frames.
+  /// Before the first view or key; without, the ranges are fixed.
+  void fit_motion(std::span<const std::size_t> frames);
+
   /// Map `map` of the plan at frame k, with its traces. Frames are fastest in ascending order, all maps of
   /// one after another.
   FrameView view(std::size_t k, std::size_t map);
 
   /// A hash of all that the picture `view(k, map)` depends on.
   std::string key(std::size_t k, std::size_t map) const;
+
+  /// What was asked for, before theta_c of the run was known.
+  const MapPlan& asked() const { return asked_; }
 
  private:
   struct Series {
@@ -59,7 +67,7 @@ class MappedRun {
 
   std::string path_;
   RunFile file_;
-  MapPlan plan_;
+  MapPlan asked_, plan_;
   MapExtent extent_;
   std::vector<FrameInstant> instants_;
   std::vector<std::vector<ClusterColour>> cluster_colours_;  ///< of each frame; empty where not drawn

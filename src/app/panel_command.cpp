@@ -91,6 +91,12 @@ std::string panel_key(const MappedRun& run, const FrameChoice& choice) {
   return key.text();
 }
 
+std::string panel_request(const MappedRun& run, const PanelArguments& arguments) {
+  std::string command = "panel";
+  for (const std::string& angle : arguments.at) command += " " + angle;
+  return picture_request(command, run.path(), run.asked(), run.asked().maps, arguments.output);
+}
+
 /// "v_1.h5, frames at 0.000, 15.000 deg, gamma overloaded".
 std::string panel_source(const MappedRun& run, const FrameChoice& choice) {
   std::string angles, maps;
@@ -104,12 +110,13 @@ void make_panel(const PanelArguments& arguments) {
   const MapPlan plan = plan_panel(arguments);
   MappedRun run = open_mapped_run(arguments.run, plan, arguments.quiet);
   const FrameChoice choice = frames_at(run.file().frame_tilts(), arguments.at, run.theta_c());
-  const std::string key = panel_key(run, choice);
-  const bool drawn = is_drawn(arguments.output, key, arguments.overwrite);
+  run.fit_motion(choice);
+  const PictureMarks marks = {panel_key(run, choice), panel_request(run, arguments)};
+  const bool drawn = is_drawn(arguments.output, marks, arguments.overwrite);
   if (!drawn) {
     std::vector<std::vector<FrameView>> rows = panel_views(run, choice);
     const Image image = draw_panel(rows, plan);
-    write_png(arguments.output, image, picture_texts(key, panel_source(run, choice)));
+    write_png(arguments.output, image, picture_texts(marks, panel_source(run, choice)));
   }
   if (!arguments.quiet)
     std::printf("%s: %zu angle%s%s\n", arguments.output.c_str(), choice.size(), choice.size() == 1 ? "" : "s",

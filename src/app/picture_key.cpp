@@ -10,11 +10,21 @@
 namespace talus {
 namespace {
 
-constexpr const char* keyword = "talus:key";
+constexpr const char* key_word = "talus:key";
+constexpr const char* request_word = "talus:request";
+
+/// The run file, as seen from the folder of the picture: both may move together. A run that is under way has
+/// the name that it will have.
+std::string seen_from(const std::filesystem::path& picture, std::filesystem::path run) {
+  namespace fs = std::filesystem;
+  if (!run.has_filename()) run = run.parent_path();  // RUN.h5.run/
+  if (run.extension() == ".run") run.replace_extension();
+  // Absolute first: that of a relative path of which nothing exists yet would stay relative.
+  const fs::path folder = fs::weakly_canonical(fs::absolute(picture).parent_path());
+  return fs::weakly_canonical(fs::absolute(run)).lexically_relative(folder).string();
+}
 
 }  // namespace
-
-PictureKey::PictureKey() { add("talus", version_text()); }
 
 void PictureKey::add(const std::string& name, const std::string& value) {
   hasher_.add_array(name);
@@ -34,6 +44,7 @@ void PictureKey::add(const std::string& name, const std::vector<double>& values)
 std::string PictureKey::text() const { return hash_text(hasher_.value()); }
 
 void add_run(PictureKey& key, const RunHeader& header) {
+  key.add("talus", version_text());
   key.add("scenario", header.scenario_resolved);
   key.add("seed", std::to_string(header.seed));
   for (const auto& [name, value] : header.provenance)
@@ -45,6 +56,9 @@ void add_settings(PictureKey& key, const MapSettings& settings, int width, const
   key.add("colours", settings.colours ? std::string(colour_map_name(*settings.colours)) : "");
   key.add("range_low", settings.range_low ? std::vector{*settings.range_low} : std::vector<double>{});
   key.add("range_high", settings.range_high ? std::vector{*settings.range_high} : std::vector<double>{});
+  for (const auto& ranges : {settings.motion.displacement, settings.motion.rotation})
+    for (const std::optional<ScaleRange>& range : ranges)
+      key.add("motion", range ? std::vector{range->low, range->high} : std::vector<double>{});
   key.add("theta_c", settings.theta_c);
   key.add("theta_c_assumed", settings.theta_c_assumed);
   key.add("threshold_factor", settings.threshold_factor);
@@ -64,8 +78,21 @@ void add_frame(PictureKey& key, std::int64_t step, double tilt) {
   key.add("tilt", tilt);
 }
 
-PngTexts picture_texts(const std::string& key, const std::string& source) {
-  return {{"Software", version_text()}, {"Source", source}, {keyword, key}};
+std::string picture_request(const std::string& command, const std::string& run, const MapPlan& plan,
+                            std::span<const MapSettings> maps, const std::string& picture) {
+  PictureKey request;
+  request.add("command", command);
+  request.add("run", seen_from(picture, run));
+  for (const MapSettings& map : maps) add_settings(request, map, plan.width, {});
+  for (const TraceKind trace : plan.traces) request.add("trace", std::string(trace_name(trace)));
+  if (plan.crop) request.add("crop", std::vector{plan.crop->x0, plan.crop->y0, plan.crop->x1, plan.crop->y1});
+  if (plan.since) request.add("since", *plan.since);
+  return request.text();
+}
+
+PngTexts picture_texts(const PictureMarks& marks, const std::string& source) {
+  return {
+      {"Software", version_text()}, {"Source", source}, {key_word, marks.key}, {request_word, marks.request}};
 }
 
 std::string picture_source(const std::string& run, double tilt, const MapLayers& layers) {
@@ -85,14 +112,15 @@ std::string tilt_text(double tilt) {
   return text;
 }
 
-bool is_drawn(const std::string& path, const std::string& key, bool overwrite) {
+bool is_drawn(const std::string& path, const PictureMarks& marks, bool overwrite) {
   if (!std::filesystem::exists(path)) return false;
-  if (png_text(path, keyword) == key) return true;
-  if (overwrite) return false;
-  throw Error(ExitCode::cannot_create,
-              path +
-                  " exists, and is not the picture that is asked for (another run, other settings, or not "
-                  "made by this version); give --overwrite to replace it, or choose another output");
+  if (png_text(path, key_word) == marks.key) return true;
+  if (overwrite || png_text(path, request_word) == marks.request) return false;
+  throw Error(
+      ExitCode::cannot_create,
+      path +
+          " exists, and is not the picture that is asked for (of another run file, with other "
+          "options, or not drawn by Talus); give --overwrite to replace it, or choose another output");
 }
 
 }  // namespace talus

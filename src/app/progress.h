@@ -1,14 +1,10 @@
 #pragma once
 /// Progress of a run: one line that is rewritten on a terminal, plain lines now and then in a log.
 
-#include <string>
-
+#include "app/progress_text.h"
 #include "session/run.h"
 
 namespace talus {
-
-/// "8 s", "2 min 05 s", "3 h 10 min".
-std::string duration_text(double seconds);
 
 class ProgressLine {
  public:
@@ -19,6 +15,8 @@ class ProgressLine {
   void finish();
 
  private:
+  RunShown shown(const RunProgress& progress);
+
   bool quiet_;
   bool terminal_;
   bool open_ = false;

@@ -57,24 +57,28 @@ struct Picture {
   std::size_t frame = 0;
   std::size_t map = 0;  ///< of the plan
   std::string path;
-  std::string key;
+  PictureMarks marks;
 };
 
 /// In the order of drawing: all maps of a frame, then the next frame.
-std::vector<Picture> plan_pictures(const RenderArguments& arguments, const MappedRun& run,
+std::vector<Picture> plan_pictures(const RenderArguments& arguments, MappedRun& run,
                                    const std::string& folder) {
   FrameChoice choice = choose_frames(arguments, run);
   const std::size_t rising = choice.size();
   if (arguments.flow)
     for (std::size_t k = run.file().frame_count(); k < run.instants().size(); ++k) choice.push_back(k);
+  run.fit_motion(choice);
   std::vector<std::vector<std::string>> names;
   for (const MapSettings& map : run.plan().maps)
     names.push_back(picture_names(run, choice, rising, layers_name(map.layers)));
   std::vector<Picture> pictures;
   for (std::size_t k = 0; k < choice.size(); ++k)
-    for (std::size_t map = 0; map < names.size(); ++map)
-      pictures.push_back({choice[k], map, (std::filesystem::path(folder) / names[map][k]).string(),
-                          run.key(choice[k], map)});
+    for (std::size_t map = 0; map < names.size(); ++map) {
+      const std::string path = (std::filesystem::path(folder) / names[map][k]).string();
+      const std::string request =
+          picture_request("render", run.path(), run.asked(), {&run.asked().maps[map], 1}, path);
+      pictures.push_back({choice[k], map, path, {run.key(choice[k], map), request}});
+    }
   return pictures;
 }
 
@@ -100,9 +104,8 @@ void draw_pictures(MappedRun& run, const std::vector<Picture>& pictures, const s
     if (k == 0) create_folder(folder);  // only once there is something to put there
     const std::string source =
         picture_source(run.path(), run.instants()[picture.frame].tilt, run.plan().maps[picture.map].layers);
-    writer.post([path = picture.path, drawn = std::move(image), texts = picture_texts(picture.key, source)] {
-      write_png(path, drawn, texts);
-    });
+    writer.post([path = picture.path, drawn = std::move(image),
+                 texts = picture_texts(picture.marks, source)] { write_png(path, drawn, texts); });
     progress.show(k + 1);
   }
   writer.finish();
@@ -119,7 +122,7 @@ void render(const RenderArguments& arguments) {
   std::vector<Picture> pictures = plan_pictures(arguments, run, folder);
   const std::size_t count = pictures.size();
   std::erase_if(pictures, [&](const Picture& picture) {
-    return is_drawn(picture.path, picture.key, arguments.overwrite);
+    return is_drawn(picture.path, picture.marks, arguments.overwrite);
   });
   const std::size_t kept = count - pictures.size();
   if (!pictures.empty()) draw_pictures(run, pictures, folder, arguments.quiet);
@@ -152,7 +155,7 @@ void add_render_command(CLI::App& app) {
   command->add_option("-o,--output", arguments->folder,
                       "Folder of the pictures, made where missing [RUN-maps]");
   command->add_flag("--overwrite", arguments->overwrite,
-                    "Replace pictures of other runs or settings; those that are right are kept anyway");
+                    "Replace pictures of other runs or options; those that are right are kept anyway");
   command->add_flag("-q,--quiet", arguments->quiet, "Print errors and warnings only");
   add_map_options(*command, arguments->maps, MapOptionSet::all);
   command->callback([arguments] { render(*arguments); });

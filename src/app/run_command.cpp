@@ -11,6 +11,7 @@
 #include "app/live_maps.h"
 #include "app/open_run.h"
 #include "app/progress.h"
+#include "app/unconverged_steps.h"
 #include "app/wall_time.h"
 #include "core/errors.h"
 #include "core/hash.h"
@@ -88,17 +89,9 @@ void print_rest(const Session& session) {
 }
 
 void print_end(const RunArguments& arguments, const Session& session) {
-  const SolverRecord& record = session.solver_record();
-  if (record.unconverged_deposition + record.unconverged_tilt + record.unconverged_flow > 0)
-    std::fprintf(stderr,
-                 "talus: warning: %lld steps of the deposition, %lld of the tilt and %lld after failure did "
-                 "not reach their tolerance "
-                 "(largest residual at rest %.2g, while moving %.2g); one or two in a hundred are usual "
-                 "(docs/solver.md), solver.max_iterations gives them more passes\n",
-                 static_cast<long long>(record.unconverged_deposition),
-                 static_cast<long long>(record.unconverged_tilt),
-                 static_cast<long long>(record.unconverged_flow), record.residual_max_rest,
-                 record.residual_max_moving);
+  const StepRemark remark = remark_on(session.solver_record(), session.world().step);
+  if (!remark.text.empty() && !(remark.usual && arguments.quiet))
+    std::fprintf(stderr, "talus: %s: %s\n", remark.usual ? "note" : "warning", remark.text.c_str());
   for (std::size_t k = 0; k < guard_count; ++k)
     if (const std::int64_t steps = session.guard_warnings().steps[k]; steps > 0)
       std::fprintf(stderr, "talus: warning: guards.%s was broken in %lld steps, first in step %lld\n",

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "app/progress.h"
+#include "app/progress_text.h"
 
 namespace talus {
 namespace {
@@ -42,7 +42,7 @@ void RunsProgress::end(std::size_t run, int exit_code) {
   if (terminal_) return;
   const std::string how = exit_code == 0 ? "done" : "ended with exit code " + std::to_string(exit_code);
   std::fprintf(stderr, "%s %s after %s; %s\n", awaited_[run].name.c_str(), how.c_str(),
-               duration_text(seconds).c_str(), text().c_str());
+               duration_text(seconds).c_str(), fitted_line(fields(), std::nullopt).c_str());
 }
 
 /// Runs that ended tell how far the estimates are off; those under way count with what is left of them.
@@ -58,14 +58,19 @@ double RunsProgress::seconds_left() const {
   return std::max(left / at_once_, longest);
 }
 
-std::string RunsProgress::text() const {
-  return std::to_string(complete_ + ended_) + " of " + std::to_string(complete_ + awaited_.size()) + " " +
-         words_.counted + " done, " + std::to_string(running_.size()) + " under way  ETA " +
-         duration_text(seconds_left()) + "  (" + duration_text(seconds_since(begin_)) + ")";
+std::vector<ProgressField> RunsProgress::fields() const {
+  return {{std::to_string(complete_ + ended_) + " of " + std::to_string(complete_ + awaited_.size()) + " " +
+               words_.counted + " done, " + std::to_string(running_.size()) + " under way",
+           0},
+          {std::string("ETA ").append(duration_text(seconds_left())), 1},
+          {std::string("(").append(duration_text(seconds_since(begin_))).append(")"), 2}};
 }
 
 void RunsProgress::show() const {
-  if (terminal_) std::fprintf(stderr, "\r\033[K%s  %s", words_.label.c_str(), text().c_str());
+  if (!terminal_) return;
+  std::vector<ProgressField> line = fields();
+  line.insert(line.begin(), {words_.label, 0});
+  std::fprintf(stderr, "\r\033[K%s", fitted_line(line, terminal_columns()).c_str());
 }
 
 void RunsProgress::finish() const {

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "app/progress_text.h"
+
 namespace talus {
 
 /// A run, or an analysis, that has still to be computed.
@@ -36,7 +38,7 @@ class RunsProgress {
  private:
   using Clock = std::chrono::steady_clock;
   double seconds_left() const;
-  std::string text() const;
+  std::vector<ProgressField> fields() const;
 
   ProgressWords words_;
   std::vector<AwaitedRun> awaited_;

@@ -28,15 +28,16 @@ MapLayer overloaded_layer(const MapFrame& of, const MapSettings& settings, bool 
 MapLayer clusters_layer(const MapFrame& of, const MapSettings& settings, bool over_grains);
 
 // motion_layers.cpp
-MapLayer displacement_layer(const MapFrame& of, const ScaleChoice& choice);
-MapLayer rotation_layer(const MapFrame& of, const ScaleChoice& choice);
+MapLayer displacement_layer(const MapFrame& of, const MotionRanges& motion, const ScaleChoice& choice);
+MapLayer rotation_layer(const MapFrame& of, const MotionRanges& motion, const ScaleChoice& choice);
 
 /// The colour of lines over grains that another layer fills; none where they are outlines.
 using OverColour = std::optional<Colour>;
 
 /// Of every free grain; or of one in each square of `spacing` (m) where that is more than D, and longer by
 /// it.
-MapLayer displacement_arrows(const MapFrame& of, const OverColour& over, double spacing);
+MapLayer displacement_arrows(const MapFrame& of, const MotionRanges& motion, const OverColour& over,
+                             double spacing);
 
 // contact_layers.cpp
 MapLayer forces_layer(const MapFrame& of, const OverColour& over);

@@ -58,10 +58,11 @@ MapLayer make_layer(const MapFrame& of, const MapSettings& settings, const MapEx
     case MapKind::pressure:
       return pressure_layer(of, choice);
     case MapKind::displacement:
-      return k == 0 ? displacement_layer(of, choice)
-                    : displacement_arrows(of, over, (extent.x_max - extent.x_min) / arrows_across);
+      return k == 0 ? displacement_layer(of, settings.motion, choice)
+                    : displacement_arrows(of, settings.motion, over,
+                                          (extent.x_max - extent.x_min) / arrows_across);
     case MapKind::rotation:
-      return rotation_layer(of, choice);
+      return rotation_layer(of, settings.motion, choice);
     case MapKind::forces:
       return forces_layer(of, over);
     case MapKind::critical:

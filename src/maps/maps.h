@@ -1,6 +1,7 @@
 #pragma once
 /// Maps of the bed: from a frame of a run to what the renderer draws.
 
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
@@ -15,12 +16,33 @@
 
 namespace talus {
 
+/// Ends of a scale.
+struct ScaleRange {
+  double low = 0.0, high = 1.0;
+};
+
+/// Ranges that fit how far grains have moved and turned in the frames that are drawn (MotionSample in
+/// motion.h). Two of each, as the units differ: in all, and per degree of tilt. None where nothing moved.
+struct MotionRanges {
+  std::array<std::optional<ScaleRange>, 2> displacement, rotation;
+};
+
+/// What lies within them: the shares of grains below the ends of the scale of displacement, and that of
+/// grains which have turned less than the ends of the scale of rotation.
+inline constexpr struct { double low, high; } displacement_shares = {0.05, 0.99};
+inline constexpr double rotation_share = 0.95;
+
+/// The range of `displacement` or `rotation` where no other fits or is chosen: from the creep of a bed at
+/// rest to an avalanche.
+ScaleRange fixed_motion_range(MapKind kind, bool per_degree);
+
 /// How the maps of a run are drawn; the same for all of its frames.
 struct MapSettings {
   MapLayers layers;                  ///< one map, or two: the second is drawn over the first
   std::optional<ColourMap> colours;  ///< of the first layer that has a bar; without a value: its own
   std::optional<double> range_low;   ///< of the bar of that layer, in the unit of its title
   std::optional<double> range_high;
+  MotionRanges motion;            ///< of `displacement` and `rotation` where no range is chosen
   double theta_c = 0.0;           ///< rad, angle of repose: Gamma_c = sin(theta_c)
   bool theta_c_assumed = false;   ///< the caption says so
   double threshold_factor = 1.0;  ///< grains are overloaded from this times Gamma_c on

@@ -3,49 +3,35 @@
 #include <set>
 #include <utility>
 
-#include "core/trigonometry.h"
 #include "maps/layers.h"
+#include "maps/motion.h"
 #include "maps/texts.h"
 
 namespace talus {
 namespace {
 
-/// What displacements and rotations are measured over.
-struct Span {
-  bool per_degree = false;
-  double degrees = 1.0;  ///< what they are divided by
-  std::string title;     ///< " since 5.00°"
-  std::string unit;      ///< " per degree"
-};
-
-Span span_of(const MapFrame& of) {
-  const double begin = of.reference != nullptr ? of.reference->tilt : of.frame.tilt;
-  const double tilted = degrees(of.frame.tilt - begin);
-  // Where the bed flows after failure it is not tilted any more: there is nothing to divide by.
-  const bool moved = of.reference != nullptr && of.reference->step != of.frame.step;
-  if (of.per_degree && (tilted > 0.0 || !moved))
-    return {true, tilted > 0.0 ? tilted : 1.0, " per degree of tilt", " per degree"};
-  return {false, 1.0, " since " + fixed_text(degrees(begin), 2) + "°", ""};
+ScaleRange range_of(const std::array<std::optional<ScaleRange>, 2>& fitting, MapKind kind,
+                    const MotionSpan& span) {
+  return fitting[span.per_degree].value_or(fixed_motion_range(kind, span.per_degree));
 }
 
-/// In D, or D per degree, of each free grain.
-std::vector<Vec2> displacements(const MapFrame& of, const Span& span) {
-  const RunStatics& statics = of.statics;
-  std::vector<Vec2> moved(static_cast<std::size_t>(statics.free_count));
-  if (of.reference == nullptr) return moved;
-  const Frame& before = *of.reference;
-  const double unit = statics.mean_diameter * span.degrees;
-  for (Index i = 0; i < statics.free_count; ++i) {
-    const double periods = statics.periodic ? of.frame.image[i] - before.image[i] : 0;
-    moved[i] = {(of.frame.x[i] - before.x[i] + periods * statics.length) / unit,
-                (of.frame.y[i] - before.y[i]) / unit};
-  }
-  return moved;
+Scale displacement_scale(const MotionRanges& motion, const MotionSpan& span, const ScaleChoice& choice) {
+  const ScaleRange range = range_of(motion.displacement, MapKind::displacement, span);
+  return chosen({ColourMap::viridis, range.low, range.high, true}, choice);
 }
 
-/// From the creep of a bed at rest to an avalanche.
-Scale displacement_scale(const Span& span, const ScaleChoice& choice) {
-  return chosen({ColourMap::viridis, span.per_degree ? 1e-4 : 1e-3, 10.0, true}, choice);
+/// ", 5 to 99 % of grains" where the range is one that fits them.
+std::string displacement_share_text(const MotionRanges& motion, const MotionSpan& span,
+                                    const ScaleChoice& choice) {
+  if (choice.low || !motion.displacement[span.per_degree]) return "";
+  return ", " + brief_text(100.0 * displacement_shares.low) + " to " +
+         brief_text(100.0 * displacement_shares.high) + " % of grains";
+}
+
+std::string rotation_share_text(const MotionRanges& motion, const MotionSpan& span,
+                                const ScaleChoice& choice) {
+  if (choice.low || !motion.rotation[span.per_degree]) return "";
+  return ", " + brief_text(100.0 * rotation_share) + " % of grains";
 }
 
 /// All free grains; or, where `spacing` is more than D, that with the smallest id in each square of that
@@ -77,20 +63,27 @@ void add_arrow(std::vector<Line>& lines, double x, double y, Vec2 along, double 
 
 }  // namespace
 
-MapLayer displacement_layer(const MapFrame& of, const ScaleChoice& choice) {
-  const Span span = span_of(of);
-  const Scale scale = displacement_scale(span, choice);
-  std::vector<double> values;
-  for (const Vec2& moved : displacements(of, span)) values.push_back(std::hypot(moved.x, moved.y));
-  return {
-      "Displacement" + span.title, looks_of(scale, values), {}, {{bar_of(scale, "in D" + span.unit)}, {}}};
+ScaleRange fixed_motion_range(MapKind kind, bool per_degree) {
+  if (kind == MapKind::displacement) return {per_degree ? 1e-4 : 1e-3, 10.0};
+  const double largest = per_degree ? 10.0 : 30.0;
+  return {-largest, largest};
 }
 
-MapLayer displacement_arrows(const MapFrame& of, const OverColour& over, double spacing) {
+MapLayer displacement_layer(const MapFrame& of, const MotionRanges& motion, const ScaleChoice& choice) {
+  const MotionSpan span = motion_span(of);
+  const Scale scale = displacement_scale(motion, span, choice);
+  std::vector<double> values;
+  for (const Vec2& moved : displacements(of, span)) values.push_back(std::hypot(moved.x, moved.y));
+  const std::string title = "in D" + span.unit + displacement_share_text(motion, span, choice);
+  return {"Displacement" + span.title, looks_of(scale, values), {}, {{bar_of(scale, title)}, {}}};
+}
+
+MapLayer displacement_arrows(const MapFrame& of, const MotionRanges& motion, const OverColour& over,
+                             double spacing) {
   constexpr double longest = 1.6, half_width = 0.04;  // D, or spacing
   const Colour colour = over.value_or(Colour{0, 90, 180});
-  const Span span = span_of(of);
-  const Scale scale = displacement_scale(span, {});
+  const MotionSpan span = motion_span(of);
+  const Scale scale = displacement_scale(motion, span, {});
   const double unit = std::max(spacing, of.statics.mean_diameter);
   MapLayer layer;
   layer.title = "Displacement" + span.title;
@@ -103,23 +96,19 @@ MapLayer displacement_arrows(const MapFrame& of, const OverColour& over, double 
               half_width * unit, colour);
   }
   const std::string label = "length logarithmic, from " + brief_text(scale.low) + " to " +
-                            brief_text(scale.high) + " D" + span.unit;
+                            brief_text(scale.high) + " D" + span.unit +
+                            displacement_share_text(motion, span, {});
   layer.legend.swatches = {{Swatch::Kind::line, colour, colour, 0.15, label}};
   return layer;
 }
 
-MapLayer rotation_layer(const MapFrame& of, const ScaleChoice& choice) {
-  const Span span = span_of(of);
-  const double largest = span.per_degree ? 10.0 : 30.0;  // degrees
-  const Scale scale = chosen({ColourMap::diverging, -largest, largest}, choice);
-  std::vector<double> values(static_cast<std::size_t>(of.statics.free_count), 0.0);
-  if (of.reference != nullptr)
-    for (std::size_t i = 0; i < values.size(); ++i)
-      values[i] = degrees(of.frame.angle[i] - of.reference->angle[i]) / span.degrees;
-  return {"Rotation" + span.title,
-          looks_of(scale, values),
-          {},
-          {{bar_of(scale, "in °" + span.unit + ", counter-clockwise positive")}, {}}};
+MapLayer rotation_layer(const MapFrame& of, const MotionRanges& motion, const ScaleChoice& choice) {
+  const MotionSpan span = motion_span(of);
+  const ScaleRange range = range_of(motion.rotation, MapKind::rotation, span);
+  const Scale scale = chosen({ColourMap::diverging, range.low, range.high}, choice);
+  const std::string title =
+      "in °" + span.unit + ", counter-clockwise positive" + rotation_share_text(motion, span, choice);
+  return {"Rotation" + span.title, looks_of(scale, rotations(of, span)), {}, {{bar_of(scale, title)}, {}}};
 }
 
 }  // namespace talus

@@ -15,14 +15,18 @@ constexpr int most_steps = 5;          // between ticks of a bar
 
 std::uint8_t darkened(std::uint8_t channel) { return static_cast<std::uint8_t>(rim_darkness * channel); }
 
-std::vector<BarTick> decades(const Scale& scale) {
+/// These multiples of the powers of ten between the ends.
+std::vector<BarTick> decades(const Scale& scale, std::initializer_list<double> factors) {
+  constexpr double hair = 1e-9;  // so that rounding loses no tick at an end
   std::vector<BarTick> ticks;
-  const auto first = static_cast<int>(std::ceil(std::log10(scale.low) - 1e-9));
-  const auto last = static_cast<int>(std::floor(std::log10(scale.high) + 1e-9));
-  for (int k = first; k <= last; ++k) {
-    const double value = std::pow(10.0, k);
-    ticks.push_back({std::clamp(share_of(scale, value), 0.0, 1.0), brief_text(value)});
-  }
+  const auto first = static_cast<int>(std::floor(std::log10(scale.low)));
+  const auto last = static_cast<int>(std::ceil(std::log10(scale.high)));
+  for (int k = first; k <= last; ++k)
+    for (const double factor : factors) {
+      const double value = factor * std::pow(10.0, k), share = share_of(scale, value);
+      if (share >= -hair && share <= 1.0 + hair)
+        ticks.push_back({std::clamp(share, 0.0, 1.0), brief_text(value)});
+    }
   return ticks;
 }
 
@@ -73,9 +77,11 @@ std::vector<GrainLook> looks_of(const Scale& scale, std::span<const double> valu
 }
 
 Bar bar_of(const Scale& scale, const std::string& title) {
-  std::vector<BarTick> ticks = scale.logarithmic ? decades(scale) : std::vector<BarTick>();
-  // Within one decade round numbers say more.
-  if (ticks.size() < 2) ticks = round_shares(scale);
+  constexpr std::size_t few = 3;
+  std::vector<BarTick> ticks = scale.logarithmic ? decades(scale, {1.0}) : std::vector<BarTick>();
+  // Over few decades their halves and fifths are wanted too, and within one round numbers say more.
+  if (scale.logarithmic && ticks.size() < few) ticks = decades(scale, {1.0, 2.0, 5.0});
+  if (ticks.size() < few) ticks = round_shares(scale);
   return {title, colour_ramp(scale.colours), std::move(ticks)};
 }
 

@@ -10,20 +10,18 @@
 namespace talus {
 namespace {
 
-/// From white_below to 2 Gamma_c, the scale of the paper's Fig. 10.
-Scale stress_ratio_scale(double gamma_c, const ScaleChoice& choice) {
-  return chosen({ColourMap::gray, white_below, 2.0 * gamma_c}, choice);
-}
+/// Where grains are black, over Gamma_c. Of gamma as in the paper's Fig. 10; neighbourhoods average much of
+/// it away, and are to differ in shade about Gamma_c.
+constexpr double black_gamma = 2.0, black_coarse = 1.5;
 
 /// With ticks at the ends and at Gamma_c.
-Bar stress_ratio_bar(const Scale& scale, double gamma_c, const std::string& title) {
+Bar stress_ratio_bar(const Scale& scale, double gamma_c, const std::string& title, const std::string& end) {
   constexpr double clear_of_ends = 0.2;  // of the bar, for the labels
   Bar bar{title, colour_ramp(scale.colours), {{0.0, brief_text(scale.low)}}};
   const double share = share_of(scale, gamma_c);
   if (share > clear_of_ends && share < 1.0 - clear_of_ends)
     bar.ticks.push_back({share, "Γ_c = " + fixed_text(gamma_c, 2)});
-  const bool own_end = scale.high == 2.0 * gamma_c;
-  bar.ticks.push_back({1.0, own_end ? "2Γ_c = " + fixed_text(scale.high, 2) : brief_text(scale.high)});
+  bar.ticks.push_back({1.0, end});
   return bar;
 }
 
@@ -48,18 +46,19 @@ std::string reading_text(const MapSettings& settings) {
 
 double gamma_shade(double gamma, double gamma_c) {
   if (std::isnan(gamma)) return 0.0;
-  return std::clamp((gamma - white_below) / (2.0 * gamma_c - white_below), 0.0, 1.0);
+  return std::clamp((gamma - white_below) / (black_gamma * gamma_c - white_below), 0.0, 1.0);
 }
 
 MapLayer gamma_layer(const MapFrame& of, const MapSettings& settings, const ScaleChoice& choice) {
   const double gamma_c = gamma_c_of(settings);
-  const Scale scale = stress_ratio_scale(gamma_c, choice);
+  const Scale scale = chosen({ColourMap::gray, white_below, black_gamma * gamma_c}, choice);
+  const std::string end = choice.high ? brief_text(scale.high) : "2Γ_c = " + fixed_text(scale.high, 2);
   const auto free_grains = std::span(of.frame.gamma).first(static_cast<std::size_t>(of.statics.free_count));
   return {"Stress ratio γ of " + (settings.l_min > 0.0 ? "grains with their neighbours, " : std::string()) +
               reading_text(settings),
           looks_of(scale, free_grains),
           {},
-          {{stress_ratio_bar(scale, gamma_c, "γ = q/p")}, {}}};
+          {{stress_ratio_bar(scale, gamma_c, "γ = q/p", end)}, {}}};
 }
 
 MapLayer coarse_layer(const MapFrame& of, const MapSettings& settings, const ScaleChoice& choice) {
@@ -69,11 +68,12 @@ MapLayer coarse_layer(const MapFrame& of, const MapSettings& settings, const Sca
                                      " D: expected a diameter above 0, up to the length of the bed, " +
                                      brief_text(of.statics.length / of.statics.mean_diameter) + " D");
   const double gamma_c = gamma_c_of(settings);
-  const Scale scale = stress_ratio_scale(gamma_c, choice);
+  const Scale scale = chosen({ColourMap::gray, 0.0, black_coarse * gamma_c}, choice);
+  const std::string end = choice.high ? brief_text(scale.high) : fixed_text(scale.high, 2);
   return {"Stress ratio γ_l of neighbourhoods, l = " + brief_text(settings.length) + " D",
           looks_of(scale, coarse_stress_ratio(of.frame, of.statics, length)),
           {},
-          {{stress_ratio_bar(scale, gamma_c, "γ_l")}, {}}};
+          {{stress_ratio_bar(scale, gamma_c, "γ_l", end)}, {}}};
 }
 
 MapLayer pressure_layer(const MapFrame& of, const ScaleChoice& choice) {

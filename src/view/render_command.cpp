@@ -30,6 +30,17 @@ std::string crop_text(const MapExtent& part, double diameter) {
   return up(part.x_min) + "," + up(part.y_min) + "," + down(part.x_max) + "," + down(part.y_max);
 }
 
+/// The range that is not the one that `talus render` finds by itself: one that was chosen, or, of motion, the
+/// fixed one of the window.
+std::optional<ScaleRange> range_of(const RenderRequest& shown) {
+  const MapSettings& settings = shown.settings;
+  if (!has_bar(settings.layers)) return std::nullopt;
+  if (settings.range_low && settings.range_high) return ScaleRange{*settings.range_low, *settings.range_high};
+  const auto bar = std::ranges::find_if(settings.layers, [](MapKind kind) { return has_bar({kind}); });
+  if (!needs_reference(*bar)) return std::nullopt;
+  return fixed_motion_range(*bar, !shown.since && !shown.in_flow);
+}
+
 }  // namespace
 
 std::string render_command_line(const RenderRequest& shown) {
@@ -54,8 +65,8 @@ std::string render_command_line(const RenderRequest& shown) {
   if (shown.since && any(layers, needs_reference)) add("--since", number(degrees(*shown.since)));
   if (settings.joined_by_neighbours && draws(layers, MapKind::clusters)) add("--joined", "neighbours");
   if (has_bar(layers) && settings.colours) add("--colours", std::string(colour_map_name(*settings.colours)));
-  if (has_bar(layers) && settings.range_low && settings.range_high)
-    add("--range", number(*settings.range_low) + "," + number(*settings.range_high));
+  if (const std::optional<ScaleRange> range = range_of(shown))
+    add("--range", number(range->low) + "," + number(range->high));
   if (shown.part) add("--crop", crop_text(*shown.part, shown.mean_diameter));
   if (settings.turned) flag("--turned");
   if (settings.transparent) flag("--transparent");

@@ -173,12 +173,39 @@ TEST_F(MapCommands, pictures_that_are_right_are_kept_and_the_others_refused) {
   EXPECT_EQ(render(first + Words{"--turned"}).exit_code, 0) << "those are kept now";
 }
 
+TEST_F(MapCommands, pictures_of_a_run_that_was_made_again_are_drawn_again_by_the_same_command) {
+  make_run();
+  const Words map = {"render", "bed.h5", "--map", "pressure", "--at", "1", "-o", "maps"};
+  const Words panel = {"panel", "bed.h5", "--map", "pressure", "--at", "0,1", "-o", "panel.png"};
+  const auto pixels = [this](const char* name) { return pixels_of(folder_.path() / name); };
+  ASSERT_EQ(talus(map).exit_code, 0);
+  ASSERT_EQ(talus(panel).exit_code, 0);
+  const std::string old_map = pixels("maps/pressure_001.00.png"), old_panel = pixels("panel.png");
+  ASSERT_EQ(talus({"run", "bed.toml", "-o", "bed.h5", "--overwrite", "--seed", "4"}).exit_code, 0);
+  for (const Words& other : std::vector<Words>{{"--width", "800"}, {"--range", "0,5"}, {"--bare"}}) {
+    EXPECT_EQ(talus(map + other).exit_code, 73) << other[0];
+    EXPECT_EQ(talus(panel + other).exit_code, 73) << other[0];
+  }
+  const auto unchanged = [&] {
+    return std::pair(pixels("maps/pressure_001.00.png") == old_map, pixels("panel.png") == old_panel);
+  };
+  EXPECT_EQ(unchanged(), std::pair(true, true));
+  EXPECT_EQ(talus(map).exit_code, 0);
+  EXPECT_EQ(talus(panel).exit_code, 0);
+  EXPECT_EQ(unchanged(), std::pair(false, false));
+}
+
 TEST_F(MapCommands, pictures_of_another_run_are_not_taken_for_those_of_this_one) {
   make_run();
-  const Words drawn = {"--map", "pressure", "--at", "1", "-o", "maps"};
-  ASSERT_EQ(render(drawn).exit_code, 0);
-  ASSERT_EQ(talus({"run", "bed.toml", "-o", "bed.h5", "--overwrite", "--seed", "4"}).exit_code, 0);
-  EXPECT_EQ(render(drawn).exit_code, 73);
+  const auto draw = [this](const char* run) {
+    return talus({"render", run, "--map", "pressure", "--at", "1", "-o", "maps"}).exit_code;
+  };
+  ASSERT_EQ(draw("bed.h5"), 0);
+  ASSERT_EQ(talus({"run", "bed.toml", "-o", "other.h5", "--seed", "4"}).exit_code, 0);
+  EXPECT_EQ(draw("other.h5"), 73);
+  fs::create_directory(folder_.path() / "elsewhere");
+  fs::rename(folder_.path() / "other.h5", folder_.path() / "elsewhere/bed.h5");
+  EXPECT_EQ(draw("elsewhere/bed.h5"), 73) << "a file of the same name elsewhere is another";
 }
 
 TEST_F(MapCommands, a_foreign_file_is_refused_before_anything_is_drawn) {

@@ -61,6 +61,21 @@ TEST(CoarseMap, SumsTheMomentsOfNeighbourhoods) {
   EXPECT_THROW(map_of(packing, settings), Error);
 }
 
+TEST(CoarseMap, IsWhiteAtZeroAndBlackAtOneAndAHalfGammaC) {
+  Packing packing = row_of_grains({0.1, 0.1});
+  packing.frame.internal_moment = {{0.75, 0, 0, 0.25}, {0.875, 0, 0, 0.125}};  // ratios 0.5, 0.75
+  MapSettings settings = settings_of("coarse");
+  settings.length = 1.0;
+  const FrameView view = map_of(packing, settings);
+  EXPECT_EQ(view.discs[0].fill, gray(0.5 / 0.75)) << "Gamma_c";
+  EXPECT_EQ(view.discs[1].fill, black);
+  const std::vector<BarTick>& ticks = view.legends[0].bars[0].ticks;
+  ASSERT_EQ(ticks.size(), 3u);
+  EXPECT_EQ(ticks[0].label, "0");
+  EXPECT_EQ(ticks[1].label, "Γ_c = 0.50");
+  EXPECT_EQ(ticks[2].label, "0.75");
+}
+
 /// A bed, and how it was 2 degrees earlier.
 struct Moved {
   Packing before, now;

@@ -91,6 +91,10 @@ TEST(Bar, OfAScaleHasRoundNumbersOrDecadesWhereTheyAre) {
   EXPECT_EQ(decades.ticks[0].label, "0.001");
   EXPECT_EQ(decades.ticks[4].label, "10");
   EXPECT_NEAR(decades.ticks[1].share, 0.25, 1e-12);
+  const Bar few = bar_of({ColourMap::gray, 0.03, 1.0, true}, "");
+  ASSERT_EQ(few.ticks.size(), 5u) << "two decades say too little";
+  EXPECT_EQ(few.ticks[0].label, "0.05");
+  EXPECT_EQ(few.ticks[4].label, "1");
   const Bar within = bar_of({ColourMap::gray, 2.0, 8.0, true}, "");
   EXPECT_GE(within.ticks.size(), 3u) << "no decade in it";
   for (const BarTick& tick : within.ticks)

@@ -131,6 +131,27 @@ TEST(MappedRun, what_moves_is_measured_from_the_frame_before_or_from_that_asked_
   EXPECT_EQ(fill_of(since.view(0, 0), 5), still) << "before it nothing has moved";
 }
 
+TEST(MappedRun, ranges_of_motion_fit_the_frames_that_are_drawn) {
+  const test::TemporaryFolder folder;
+  const std::string path = example_run(folder);
+  const auto ends = [&path](const std::vector<std::size_t>& frames) {
+    MapOptions options;
+    options.since = 0.0;
+    MappedRun run(path, plan_of("displacement", options), {});
+    run.fit_motion(frames);
+    const ScaleRange range = run.plan().maps[0].motion.displacement[0].value_or(ScaleRange{0.0, 0.0});
+    return std::pair(std::lround(1000.0 * range.low), std::lround(1000.0 * range.high));
+  };
+  // In thousandths of D. All grains have moved by 0.1 D at 1 deg, and 0.2 D at 2 deg.
+  EXPECT_EQ(ends({1}), std::pair(51L, 100L)) << "half of the upper end, where all move alike";
+  EXPECT_EQ(ends({1, 2}), std::pair(100L, 200L));
+  EXPECT_EQ(ends({0}), std::pair(0L, 0L)) << "nothing has moved: the fixed range stays";
+  MappedRun fixed(path, plan_of("displacement"), {}), fitted(path, plan_of("displacement"), {});
+  fitted.fit_motion(std::vector<std::size_t>{0, 1, 2});
+  EXPECT_NE(fixed.key(1, 0), fitted.key(1, 0));
+  EXPECT_EQ(fitted.view(2, 0).legends[0].bars[0].title, "in D per degree, 5 to 99 % of grains");
+}
+
 TEST(MappedRun, traces_are_those_of_the_tilt) {
   const test::TemporaryFolder folder;
   MapOptions options;

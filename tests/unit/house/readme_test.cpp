@@ -90,7 +90,7 @@ TEST(MapsPage, commands_and_options_exist) {
 TEST(ViewPage, commands_and_options_exist) {
   ASSERT_GT(commands("docs/view.md").size(), 3u);
   EXPECT_GT(check_page("docs/view.md", {"view_command", "replay_command", "info_command", "render_command",
-                                        "analyze_command"}),
+                                        "map_options", "analyze_command"}),
             2);
 }
 

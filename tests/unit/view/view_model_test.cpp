@@ -300,7 +300,7 @@ TEST_F(ViewOfRun, measures_displacements_from_the_frame_before_or_since_an_angle
   model_->state.since = radians(6.0);
   EXPECT_NE(model_->furnished_map().title.find("since 5.00"), std::string::npos)
       << model_->furnished_map().title;
-  EXPECT_EQ(model_->render_command(), "talus render " + path_ + " --map displacement --at 15 --since 6");
+  EXPECT_EQ(model_->render_command(), "talus render " + path_ + " --map displacement --at 15 --since 6 --range 0.001,10");
 }
 
 TEST_F(ViewOfRun, says_in_the_title_why_a_map_cannot_be_drawn) {

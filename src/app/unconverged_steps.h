@@ -1,0 +1,21 @@
+#pragma once
+/// What a run says of the steps that did not reach their tolerance.
+
+#include <cstdint>
+#include <string>
+
+#include "session/session.h"
+
+namespace talus {
+
+/// Up to this share of all steps is usual: docs/solver.md.
+inline constexpr double usual_unconverged_share = 0.02;
+
+struct StepRemark {
+  bool usual = true;  ///< a note; else a warning
+  std::string text;   ///< empty where all steps converged
+};
+/// `steps`: of all the run.
+StepRemark remark_on(const SolverRecord& record, std::int64_t steps);
+
+}  // namespace talus

@@ -1,0 +1,100 @@
+/// Ranges that fit how far grains have moved and turned.
+
+#include <gtest/gtest.h>
+
+#include "maps/motion.h"
+#include "render/map_bed.h"
+
+namespace talus {
+namespace {
+
+using test::Packing;
+using test::row_of_grains;
+
+/// A hundred grains; grain i has moved by i + 1 thousandths of D and turned by as many degrees, to the left
+/// and to the right in turn.
+struct Moved {
+  Moved() : now(row_of_grains(std::vector<double>(100, 0.1))), before(now.frame) {
+    for (Index i = 0; i < 100; ++i) {
+      now.frame.x[i] += 0.001 * (i + 1);
+      now.frame.angle[i] += radians(i % 2 == 0 ? i + 1.0 : -i - 1.0);
+    }
+    now.frame.tilt = radians(2.0);
+    now.frame.step = before.step + 10;
+  }
+  MapFrame frame(bool per_degree) const { return {now.frame, now.statics, &before, per_degree, {}}; }
+
+  Packing now;
+  Frame before;
+};
+
+TEST(LogHistogram, FindsQuantilesToTwoPercent) {
+  LogHistogram histogram;
+  EXPECT_EQ(histogram.quantile(0.5), 0.0) << "of nothing";
+  for (int k = 1; k <= 1000; ++k) histogram.add(1e-5 * k);
+  for (const double share : {0.05, 0.5, 0.99}) {
+    EXPECT_GE(histogram.quantile(share), 0.01 * share);
+    EXPECT_LE(histogram.quantile(share), 0.01 * share * 1.024);
+  }
+  for (int k = 0; k < 1000; ++k) histogram.add(0.0);
+  EXPECT_EQ(histogram.quantile(0.5), 0.0);
+  EXPECT_GT(histogram.quantile(0.51), 0.0);
+  histogram.add(1e300);
+  EXPECT_GT(histogram.quantile(1.0), 1e8) << "beyond the last class";
+}
+
+TEST(MotionSample, RangesLeaveOutFewGrains) {
+  const Moved moved;
+  MotionSample sample;
+  sample.add(moved.frame(false));
+  const MotionRanges ranges = sample.ranges();
+  ASSERT_TRUE(ranges.displacement[0] && ranges.rotation[0]);
+  EXPECT_NEAR(ranges.displacement[0]->low, 0.005, 0.0002);
+  EXPECT_NEAR(ranges.displacement[0]->high, 0.099, 0.002);
+  EXPECT_NEAR(ranges.rotation[0]->high, 95.0, 2.5);
+  EXPECT_EQ(ranges.rotation[0]->low, -ranges.rotation[0]->high);
+  EXPECT_FALSE(ranges.displacement[1] || ranges.rotation[1]) << "nothing was measured per degree";
+}
+
+TEST(MotionSample, PerDegreeIsApart) {
+  const Moved moved;
+  MotionSample sample;
+  sample.add(moved.frame(true));
+  const MotionRanges ranges = sample.ranges();
+  ASSERT_TRUE(ranges.displacement[1].has_value());
+  EXPECT_NEAR(ranges.displacement[1]->high, 0.0495, 0.001) << "over two degrees";
+  EXPECT_FALSE(ranges.displacement[0].has_value());
+}
+
+TEST(MotionSample, HasNoRangeWhereNothingMovedAndANarrowOneWhereAllMovedAlike) {
+  Moved moved;
+  MotionSample still;
+  still.add({moved.now.frame, moved.now.statics, nullptr, false, {}});
+  still.add({moved.before, moved.now.statics, &moved.before, false, {}});
+  EXPECT_FALSE(still.ranges().displacement[0] || still.ranges().rotation[0]);
+  for (Index i = 0; i < 100; ++i) moved.now.frame.x[i] = moved.before.x[i] + 0.4;
+  MotionSample alike;
+  alike.add(moved.frame(false));
+  EXPECT_NEAR(alike.ranges().displacement[0]->high, 0.4, 0.015);
+  EXPECT_NEAR(alike.ranges().displacement[0]->low, 0.2, 0.01);
+}
+
+TEST(MotionSample, BarSaysHowManyGrainsARangeHolds) {
+  const Moved moved;
+  MotionSample sample;
+  sample.add(moved.frame(false));
+  const auto title = [&](const char* map, bool fitted, bool chosen) {
+    MapSettings settings = test::settings_of(map);
+    if (fitted) settings.motion = sample.ranges();
+    if (chosen) settings.range_low = 0.1, settings.range_high = 1.0;
+    return test::map_of(moved.now, settings, &moved.before, false).legends[0].bars[0].title;
+  };
+  EXPECT_EQ(title("displacement", true, false), "in D, 5 to 99 % of grains");
+  EXPECT_EQ(title("displacement", false, false), "in D");
+  EXPECT_EQ(title("displacement", true, true), "in D");
+  EXPECT_EQ(title("rotation", true, false), "in °, counter-clockwise positive, 95 % of grains");
+  EXPECT_EQ(title("rotation", false, false), "in °, counter-clockwise positive");
+}
+
+}  // namespace
+}  // namespace talus
