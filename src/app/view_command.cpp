@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <thread>
 #include <utility>
 
@@ -14,6 +15,7 @@
 #include "core/errors.h"
 #include "gui/offscreen.h"
 #include "gui/window.h"
+#include "maps/map_kind.h"
 #include "render/output_file.h"
 #include "render/png.h"
 
@@ -25,6 +27,9 @@ struct ViewArguments {
   std::string output;
   std::vector<std::string> settings;  ///< "key=value", the seed among them
   bool overwrite = false;
+  std::string at;            ///< angle, or "repose"; empty: the first frame
+  std::string map;           ///< empty: that of the window
+  std::optional<int> grain;  ///< selected
   std::string screenshot;
   std::string size = "1400x900";
   double scale = 1.0;
@@ -44,6 +49,16 @@ std::pair<int, int> parse_size(const std::string& text) {
   return {width, height};
 }
 
+/// What is shown first.
+void show_first(ViewModel& model, const ViewArguments& arguments) {
+  if (!arguments.map.empty()) model.state.map.layers = map_layers(arguments.map);
+  if (!arguments.at.empty()) model.go_to_angle(arguments.at);
+  if (arguments.grain && *arguments.grain >= model.statics().free_count)
+    throw Error(ExitCode::usage, "--grain " + std::to_string(*arguments.grain) + ": the grains are 0 to " +
+                                     std::to_string(model.statics().free_count - 1));
+  model.state.selected = arguments.grain;
+}
+
 /// Draws once what works in the background has come in: nothing new for half a second.
 void take_screenshot(const ViewArguments& arguments) {
   using namespace std::chrono_literals;
@@ -51,6 +66,7 @@ void take_screenshot(const ViewArguments& arguments) {
   const std::optional<ContextKind> kind = context_kind(arguments.context);
   refuse_existing(arguments.screenshot, arguments.overwrite);
   ViewModel model = ViewModel::open(arguments.file, arguments.settings, "", false, command_line());
+  show_first(model, arguments);
   OffscreenGui gui(model, width, height, static_cast<float>(arguments.scale), kind);
   for (int quiet = 0; quiet < 25; std::this_thread::sleep_for(20ms))
     quiet = model.update(0.0) ? 0 : quiet + 1;
@@ -142,6 +158,7 @@ void view(const ViewArguments& arguments) {
   GuiWindow window(width, height);  // not shown yet: without a display no run is begun
   ViewModel model = ViewModel::open(arguments.file, arguments.settings, arguments.output, arguments.overwrite,
                                     command_line());
+  show_first(model, arguments);
   if (model.is_live() && arguments.output.empty())
     std::printf("Nothing is kept of this run until it is saved; talus view %s -o RUN.h5 records it.\n",
                 arguments.file.c_str());
@@ -169,6 +186,11 @@ void add_view_command(CLI::App& app) {
       ->allow_extra_args(false);
   CLI::Option* seed_option = command->add_option("--seed", *seed, "Seed of the random deposition");
   command->add_flag("--overwrite", arguments->overwrite, "Replace a run, or screenshot, of this name");
+  command->add_option("--at", arguments->at,
+                      "Begin a replay at this angle in degrees, or at repose, the last frame before failure");
+  command->add_option("--map", arguments->map, "Begin with this map, or two overlaid as in gamma+forces");
+  command->add_option("--grain", arguments->grain, "Select this grain, by its number")
+      ->check(CLI::NonNegativeNumber);
   command->add_option("--size", arguments->size, "Width and height of the window, px")->capture_default_str();
   CLI::Option* screenshot =
       command

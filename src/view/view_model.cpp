@@ -1,10 +1,12 @@
 #include "view/view_model.h"
 
 #include <filesystem>
+#include <limits>
 
 #include "core/errors.h"
 #include "io/run_file.h"
 #include "maps/bed_view.h"
+#include "maps/frame_choice.h"
 #include "view/camera.h"
 #include "view/view_data.h"
 
@@ -100,6 +102,13 @@ void ViewModel::go_to(std::size_t frame) {
   if (!data_->replay) return;
   data_->replay->go_to(frame);
   data_->show_replayed();
+}
+
+void ViewModel::go_to_angle(const std::string& angle) {
+  if (!data_->replay)
+    throw Error(ExitCode::usage, path() + ": a run that is computed has no frames to go to");
+  const double theta_c = data_->theta_c.value_or(std::numeric_limits<double>::quiet_NaN());
+  go_to(frames_at(data_->frames->file().frame_tilts(), {angle}, theta_c).front());
 }
 
 void ViewModel::go_to(Landmark landmark) {

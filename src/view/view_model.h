@@ -59,6 +59,9 @@ class ViewModel {
   std::size_t frame_count() const;  ///< 0 for a live run
   std::size_t frame_index() const;
   void go_to(std::size_t frame);
+  /// The frame nearest to an angle in degrees, or "repose": as frames_at, which says what is thrown. Throws
+  /// Error(usage) for a live run.
+  void go_to_angle(const std::string& angle);
   void go_to(Landmark landmark);  ///< does nothing where the run has no such place
   bool has(Landmark landmark) const;
   bool playing() const;

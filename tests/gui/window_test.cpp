@@ -39,6 +39,22 @@ TEST(View, takes_a_picture_of_itself_without_a_display) {
   EXPECT_EQ(run_talus(command, folder.path()).exit_code, 73) << "it is there already";
 }
 
+TEST(View, refuses_a_beginning_that_is_none) {
+  const TemporaryFolder folder;
+  write_file(folder, "bed.toml", small_bed);
+  const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
+      {{"--at", "repose"}, "no frames"},
+      {{"--map", "gamm"}, "expected one of"},
+      {{"--grain", "100000"}, "0 to"}};
+  for (const auto& [words, part] : cases) {
+    std::vector<std::string> command = {"view", "bed.toml", "--screenshot", "view.png"};
+    command.insert(command.end(), words.begin(), words.end());
+    const Outcome outcome = run_talus(command, folder.path());
+    EXPECT_EQ(outcome.exit_code, 64) << words[0];
+    EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err;
+  }
+}
+
 TEST(View, refuses_sizes_that_are_none) {
   const TemporaryFolder folder;
   write_file(folder, "bed.toml", small_bed);

@@ -62,7 +62,18 @@ TEST(RenderCommand, of_gamma_has_no_threshold) {
 TEST(RenderCommand, measures_displacements_since_an_angle) {
   RenderRequest of = shown("displacement");
   of.since = radians(5.0);
-  EXPECT_EQ(render_command_line(of), "talus render runs/a.h5 --map displacement --at 12.25 --since 5");
+  EXPECT_EQ(render_command_line(of),
+            "talus render runs/a.h5 --map displacement --at 12.25 --since 5 --range 0.001,10");
+}
+
+TEST(RenderCommand, has_the_fixed_range_of_motion) {
+  RenderRequest of = shown("displacement");
+  EXPECT_TRUE(render_command_line(of).ends_with("--at 12.25 --range 0.0001,10"));
+  of.in_flow = true;
+  EXPECT_TRUE(render_command_line(of).ends_with("--flow --range 0.001,10"));
+  EXPECT_TRUE(render_command_line(shown("forces+rotation")).ends_with("--range -10,10"));
+  EXPECT_EQ(render_command_line(shown("gamma+displacement")).find("--range"), std::string::npos)
+      << "arrows have no bar";
 }
 
 TEST(RenderCommand, asks_for_the_flow) {

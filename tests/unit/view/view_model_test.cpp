@@ -293,6 +293,14 @@ TEST_F(ViewOfRun, crops_to_the_camera) {
       << model_->render_command();
 }
 
+TEST_F(ViewOfRun, begins_at_an_angle_that_is_asked_for) {
+  model_->go_to_angle("15");
+  EXPECT_NEAR(degrees(model_->frame().tilt), 15.0, 1e-6);
+  model_->go_to_angle("repose");
+  EXPECT_NEAR(degrees(model_->frame().tilt), 20.0, 1e-6);
+  EXPECT_THROW(model_->go_to_angle("80"), Error);
+}
+
 TEST_F(ViewOfRun, measures_displacements_from_the_frame_before_or_since_an_angle) {
   model_->state.map.layers = {MapKind::displacement};
   model_->go_to(3);
@@ -300,7 +308,8 @@ TEST_F(ViewOfRun, measures_displacements_from_the_frame_before_or_since_an_angle
   model_->state.since = radians(6.0);
   EXPECT_NE(model_->furnished_map().title.find("since 5.00"), std::string::npos)
       << model_->furnished_map().title;
-  EXPECT_EQ(model_->render_command(), "talus render " + path_ + " --map displacement --at 15 --since 6 --range 0.001,10");
+  EXPECT_EQ(model_->render_command(),
+            "talus render " + path_ + " --map displacement --at 15 --since 6 --range 0.001,10");
 }
 
 TEST_F(ViewOfRun, says_in_the_title_why_a_map_cannot_be_drawn) {

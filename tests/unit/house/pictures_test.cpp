@@ -1,0 +1,105 @@
+/// Every picture of README and docs is made by docs/images/make, by commands that are printed on its page.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "unit/house/source_tree.h"
+
+namespace talus::house {
+namespace {
+
+namespace fs = std::filesystem;
+
+using Commands = std::vector<std::string>;
+
+std::string trimmed(const std::string& line) {
+  const std::size_t begin = line.find_first_not_of(' ');
+  return begin == std::string::npos ? "" : line.substr(begin);
+}
+
+/// The script, and the text between a line that ends with <<'SH' and the line SH.
+const TextFile& script(const std::vector<TextFile>& docs) {
+  return *std::ranges::find(docs, "docs/images/make", &TextFile::path);
+}
+
+/// Of each picture: its commands, and those that make what it is drawn from.
+std::map<std::string, Commands> pictures_of(const TextFile& script) {
+  std::map<std::string, Commands> pictures;
+  Commands needed;
+  Commands* taking = nullptr;
+  for (const std::string& line : script.lines) {
+    if (taking != nullptr) {
+      if (line == "SH")
+        taking = nullptr;
+      else
+        taking->push_back(trimmed(line));
+    } else if (line.starts_with("needs ")) {
+      needed.clear();
+      if (line.ends_with("<<'SH'")) taking = &needed;
+    } else if (line.starts_with("picture ")) {
+      const std::string name = line.substr(8, line.find(' ', 8) - 8);
+      taking = &(pictures[name] = needed);
+    }
+  }
+  return pictures;
+}
+
+/// The names of the pictures that a page shows.
+std::vector<std::string> shown_on(const TextFile& page) {
+  const std::string folder = "images/";
+  std::vector<std::string> names;
+  for (const std::string& line : page.lines) {
+    if (line.find("![") == std::string::npos) continue;
+    const std::size_t begin = line.find(folder, line.find("](")) + folder.size();
+    names.push_back(line.substr(begin, line.find(".png", begin) - begin));
+  }
+  return names;
+}
+
+bool prints(const TextFile& page, const std::string& command) {
+  return std::ranges::any_of(page.lines, [&](const std::string& line) {
+    return line.starts_with("    ") && trimmed(line) == command;
+  });
+}
+
+TEST(Pictures, are_made_by_the_commands_beside_them) {
+  const std::vector<TextFile> docs = read_texts({"docs", "."});
+  const std::map<std::string, Commands> pictures = pictures_of(script(docs));
+  ASSERT_GT(pictures.size(), 4u);
+  std::set<std::string> shown;
+  for (const TextFile& page : docs) {
+    if (!page.path.ends_with(".md")) continue;
+    for (const std::string& name : shown_on(page)) {
+      shown.insert(name);
+      ASSERT_TRUE(pictures.contains(name)) << page.path << " shows " << name << ", which the script lacks";
+      // The run of the paper is made on the first page only.
+      for (const std::string& command : pictures.at(name))
+        if (!command.ends_with("paper-pbc.toml -o runs/paper.h5")) {
+          EXPECT_TRUE(prints(page, command)) << page.path << " shows " << name << " without: " << command;
+        }
+    }
+  }
+  for (const auto& [name, commands] : pictures) {
+    EXPECT_FALSE(commands.empty()) << name;
+    EXPECT_TRUE(shown.contains(name)) << "no page shows " << name;
+  }
+  for (const auto& file : fs::directory_iterator(fs::path(TALUS_SOURCE_DIR) / "docs/images"))
+    if (file.path().extension() == ".png") {
+      EXPECT_TRUE(shown.contains(file.path().stem().string())) << "no page shows " << file.path().filename();
+    }
+}
+
+TEST(Pictures, run_of_the_paper_is_made_as_the_readme_says) {
+  const std::vector<TextFile> docs = read_texts({"docs", "."});
+  const Commands commands = pictures_of(script(docs)).at("failure");
+  EXPECT_TRUE(prints(*std::ranges::find(docs, "README.md", &TextFile::path), commands.front()));
+}
+
+}  // namespace
+}  // namespace talus::house
