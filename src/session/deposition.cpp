@@ -5,6 +5,7 @@
 #include "core/trigonometry.h"
 #include "dynamics/collapse.h"
 #include "dynamics/geometric.h"
+#include "session/bed_file.h"
 
 namespace talus {
 namespace {
@@ -38,7 +39,14 @@ World initial_bed(const Scenario& scenario) {
   if (deposition.method == DepositionMethod::geometric)
     return make_geometric_bed(
         plan, {.critical_angle = radians(deposition.critical_angle), .sites = deposition.sites});
+  if (deposition.method == DepositionMethod::file)
+    return bed_of_file(deposition.file, static_cast<std::size_t>(deposition.frame), plan);
   return bed_without_grains(plan);
+}
+
+Index grain_count(const Scenario& scenario) {
+  if (scenario.deposition.method == DepositionMethod::file) return initial_bed(scenario).grains.free_count;
+  return bed_plan(scenario).grain_count;
 }
 
 std::vector<Arrival> arrivals_of(const Scenario& scenario) {

@@ -8,8 +8,12 @@
 
 namespace talus {
 
-/// The bed before its first step: all grains, or where they are poured none, above or on the floor.
+/// The bed before its first step: all grains, or where they are poured none, above or on the floor. Throws as
+/// bed_of_file does where they are those of a file.
 World initial_bed(const Scenario& scenario);
+
+/// How many grains the bed will have. Reads and checks a file, and throws as bed_of_file does.
+Index grain_count(const Scenario& scenario);
 
 /// The grains that are poured, in the order of their arrival; none for other methods.
 std::vector<Arrival> arrivals_of(const Scenario& scenario);

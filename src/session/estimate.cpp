@@ -62,7 +62,7 @@ double estimated_file(const Estimate& sizes) {
 
 Estimate estimate(const Scenario& scenario) {
   Estimate result;
-  result.grains = static_cast<Index>(std::lround(scenario.bed.length * scenario.bed.depth));
+  result.grains = grain_count(scenario);
   if (scenario.bed.floor == BedFloor::rough) result.floor_grains = static_cast<Index>(scenario.bed.length);
   result.contacts = static_cast<Index>(std::lround(contacts_per_grain * result.grains));
   result.time_step = time_step(scenario);

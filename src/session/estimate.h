@@ -1,5 +1,5 @@
 #pragma once
-/// What a run will take, from its scenario alone.
+/// What a run will take, from its scenario, and from the file of its bed if it has one.
 
 #include <cstdint>
 
@@ -27,6 +27,7 @@ struct Estimate {
   double disk = 0.0;     ///< bytes of the run file; twice that while it is packed
 };
 
+/// Throws as grain_count does.
 Estimate estimate(const Scenario& scenario);
 
 }  // namespace talus

@@ -51,6 +51,8 @@ struct Scenario {
     double rate = 0.25;           ///< pour: layers of L / D grains that arrive in sqrt(D / g)
     double critical_angle = 0.0;  ///< geometric: deg, up to which a grain stays where it has fallen
     int sites = 1;                ///< geometric: places tried for a grain, of which the lowest is kept
+    std::string file;             ///< file: path of a run or of a table; empty for other methods
+    int frame = 0;                ///< file: frame of the run
     double initial_solid_fraction = 0.5;  ///< collapse: of the loose arrangement the grains fall from
     /// Between grains, and with side walls, while the bed is deposited and comes to rest; without a value
     /// ("contact"): as in the tilt.

@@ -63,6 +63,17 @@ ScenarioKey integer(std::string section, std::string name, IntegerRange range, s
 }
 
 template <typename Field>
+ScenarioKey text(std::string section, std::string name, TextRange range, std::string help, Field field) {
+  return {section,
+          name,
+          {},
+          range,
+          help,
+          [field](const Scenario& s) { return ScenarioValue(field(s)); },
+          [field](Scenario& s, const ScenarioValue& value) { field(s) = std::get<std::string>(value); }};
+}
+
+template <typename Field>
 ScenarioKey choice(std::string section, std::string name, Choices choices, std::string help, Field field) {
   const std::vector<std::string> names = choices.names;
   return {section,
@@ -150,6 +161,14 @@ void add_deposition_keys(Keys& keys) {
   keys.push_back(integer(
       "deposition", "sites", {1, 1000}, "geometric: places tried for each grain, of which the lowest is kept",
       [](auto& s) -> auto& { return s.deposition.sites; }));
+  keys.push_back(text(
+      "deposition", "file", {"the path of a file", 4095},
+      "file: a run, or a table with x, y and radius of a grain in each line, in D; relative to the working "
+      "directory",
+      [](auto& s) -> auto& { return s.deposition.file; }));
+  keys.push_back(integer(
+      "deposition", "frame", {0, 1'000'000'000}, "file: number of the frame of a run, from 0",
+      [](auto& s) -> auto& { return s.deposition.frame; }));
   keys.push_back(number(
       "deposition", "initial_solid_fraction", "", from_to(0.1, 0.7),
       "collapse: solid fraction of the loose arrangement; less where the size ratio needs room",
@@ -280,6 +299,8 @@ std::string text_of(const Choices& choices) {
   return text;
 }
 
+std::string text_of(const TextRange& range) { return range.what + " in quotes, or \"\" for none"; }
+
 std::optional<ScenarioValue> admitted_by(const NumberRange& range, const ScenarioValue& value) {
   if (const std::string* word = std::get_if<std::string>(&value))
     return !range.word.empty() && *word == range.word ? std::optional(value) : std::nullopt;
@@ -300,6 +321,13 @@ std::optional<ScenarioValue> admitted_by(const Choices& choices, const ScenarioV
   for (const std::string& name : choices.names)
     if (value == ScenarioValue(name)) return value;
   return std::nullopt;
+}
+
+std::optional<ScenarioValue> admitted_by(const TextRange& range, const ScenarioValue& value) {
+  const std::string* text = std::get_if<std::string>(&value);
+  return text != nullptr && text->size() <= range.longest && text->find('\0') == std::string::npos
+             ? std::optional(value)
+             : std::nullopt;
 }
 
 }  // namespace

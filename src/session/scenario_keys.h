@@ -35,11 +35,17 @@ struct Choices {
   std::vector<std::string> names;
 };
 
+/// Any string without a zero byte, of at most so many bytes; the empty one stands for none.
+struct TextRange {
+  std::string what;  ///< "the path of a file"
+  std::size_t longest = 0;
+};
+
 struct ScenarioKey {
   std::string section;  ///< empty for a key above the first section
   std::string name;
   std::string unit;  ///< empty for a number without one
-  std::variant<NumberRange, IntegerRange, Choices> range;
+  std::variant<NumberRange, IntegerRange, Choices, TextRange> range;
   std::string help;
   std::function<ScenarioValue(const Scenario&)> get;
   /// Takes what admitted() returned.

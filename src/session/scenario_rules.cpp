@@ -21,10 +21,17 @@ std::vector<BrokenRule> broken_rules(const Scenario& scenario) {
                       "a time step h = tilt.step / tilt.rate in [" + short_text(shortest_time_step) + ", " +
                           short_text(longest_time_step) + "] s; it is " + short_text(h) + " s"});
   const double grains = scenario.bed.length * scenario.bed.depth;
-  if (grains > most_grains)
+  const bool from_file = scenario.deposition.method == DepositionMethod::file;
+  if (grains > most_grains && !from_file)
     broken.push_back({{"bed.length", "bed.depth"},
                       "at most " + short_text(most_grains) + " grains, bed.length * bed.depth; they are " +
                           short_text(grains)});
+  if (from_file && scenario.deposition.file.empty())
+    broken.push_back({{"deposition.method", "deposition.file"},
+                      "with it deposition.file, the path of a run or of a table; it is not given"});
+  if (!from_file && !scenario.deposition.file.empty())
+    broken.push_back(
+        {{"deposition.file", "deposition.method"}, "deposition.method = \"file\" with it, or no file"});
   if (scenario.tilt.end_angle && *scenario.tilt.end_angle < scenario.tilt.step)
     broken.push_back({{"tilt.end_angle", "tilt.step"},
                       "tilt.end_angle >= tilt.step; they are " + short_text(*scenario.tilt.end_angle) +

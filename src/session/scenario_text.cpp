@@ -9,6 +9,19 @@
 namespace talus {
 namespace {
 
+/// A basic string of TOML.
+std::string quoted(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    std::array<char, 8> escape = {c};
+    if (c == '"' || c == '\\') std::snprintf(escape.data(), escape.size(), "\\%c", c);
+    if (byte < 0x20 || byte == 0x7f) std::snprintf(escape.data(), escape.size(), "\\u%04x", byte);
+    result += escape.data();
+  }
+  return result + "\"";
+}
+
 std::string comment(const ScenarioKey& key) {
   return "# " + (key.unit.empty() ? "" : key.unit + "; ") + key.help;
 }
@@ -42,7 +55,7 @@ std::string short_text(double value) {
 
 std::string toml_text(const ScenarioValue& value) {
   if (const auto* whole = std::get_if<std::int64_t>(&value)) return std::to_string(*whole);
-  if (const auto* text = std::get_if<std::string>(&value)) return "\"" + *text + "\"";
+  if (const auto* text = std::get_if<std::string>(&value)) return quoted(*text);
   // Without a point or an exponent (and for nan and inf, which have an "n") TOML would read an integer.
   const std::string digits = short_text(std::get<double>(value));
   return digits.find_first_of(".en") == std::string::npos ? digits + ".0" : digits;

@@ -117,7 +117,8 @@ std::string shown(const toml::node& node) {
 }
 
 bool is_of_expected_kind(const ScenarioKey& key, const toml::node& node) {
-  if (std::holds_alternative<Choices>(key.range)) return node.is_string();
+  if (std::holds_alternative<Choices>(key.range) || std::holds_alternative<TextRange>(key.range))
+    return node.is_string();
   if (std::holds_alternative<IntegerRange>(key.range)) return node.is_integer();
   return node.is_number() || (node.is_string() && !std::get<NumberRange>(key.range).word.empty());
 }
@@ -220,15 +221,17 @@ std::uint32_t line_too_deep(std::string_view text) {
   }
 }
 
-/// The value of a setting: TOML, or a bare word that stands for a string. One entry, named "value"; nothing
-/// where it is neither.
-std::optional<toml::table> parse_setting(const std::string& value) {
+/// The value of a setting: TOML, or a bare word that stands for a string; of a key that takes any text, also
+/// what is no TOML (`--set deposition.file=beds/dense.csv`). One entry, named "value"; nothing where it is
+/// none of these.
+std::optional<toml::table> parse_setting(const ScenarioKey& key, const std::string& value) {
   if (line_too_deep(value) != 0) return std::nullopt;
   try {
     toml::table table = parse_toml("value = " + value);
     if (table.size() == 1) return table;
   } catch (const toml::parse_error&) {
-    if (is_bare_word(value)) return toml::table{{"value", value}};
+    if (is_bare_word(value) || std::holds_alternative<TextRange>(key.range))
+      return toml::table{{"value", value}};
   }
   return std::nullopt;
 }
@@ -251,7 +254,7 @@ void take_override(Reading& reading, const std::string& setting) {
   }
   if (reading.given.contains(key))
     return reading.complain(place, "key '" + name + "' is set twice on the command line; expected it once");
-  if (const auto table = parse_setting(setting.substr(equals + 1)))
+  if (const auto table = parse_setting(*key, setting.substr(equals + 1)))
     return take_value(reading, *key, *table->get("value"), place);
   reading.given[key] = {place, false};
   reading.complain(place, "key '" + name + "': expected " + expectation(*key) + ", found no value of TOML");

@@ -1,0 +1,186 @@
+#include "session/bed_file.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <filesystem>
+#include <numeric>
+
+#include "contact/detection.h"
+#include "core/errors.h"
+#include "io/durable_file.h"
+#include "io/run_file.h"
+#include "session/bed_table.h"
+#include "session/scenario_text.h"
+
+namespace talus {
+namespace {
+
+constexpr std::size_t most_grains = 2'000'000;
+constexpr std::uintmax_t largest_table = std::uintmax_t{1} << 30;  // bytes
+
+/// Two lengths of a run that are the same, but for the single precision in which a file may store them.
+constexpr double same_length = 1e-6;
+
+/// Grains as they were read, and where each of them stands.
+struct FileGrains {
+  std::string path;
+  std::size_t frame = 0;           ///< of a run
+  std::vector<std::size_t> lines;  ///< of a table
+  std::vector<Vec2> centres;       ///< m
+  std::vector<double> radii;       ///< m
+
+  bool is_table() const { return !lines.empty(); }
+
+  std::string name_of(Index grain) const {
+    return is_table() ? "the grain in line " + std::to_string(lines[static_cast<std::size_t>(grain)])
+                      : "grain " + std::to_string(grain);
+  }
+
+  /// `message` goes on after "the grain": "overlaps ...".
+  [[noreturn]] void refuse(Index grain, const std::string& message) const {
+    if (is_table())
+      throw LocatedError(ExitCode::bad_data, path + ":" +
+                                                 std::to_string(lines[static_cast<std::size_t>(grain)]) +
+                                                 ":1: error: the grain " + message);
+    throw Error(ExitCode::bad_data,
+                path + ": frame " + std::to_string(frame) + ": " + name_of(grain) + " " + message);
+  }
+};
+
+[[noreturn]] void refuse(const std::string& path, const std::string& message) {
+  throw Error(ExitCode::bad_data, path + ": " + message);
+}
+
+/// A length of a run against that of the scenario.
+void compare(const std::string& path, const std::string& what, double found, const std::string& key,
+             double expected) {
+  if (std::fabs(found - expected) > same_length * expected)
+    refuse(path, what + " of the run is " + short_text(found) + " m, but " + key + " makes it " +
+                     short_text(expected) + " m; give the scenario the values of the run (talus info)");
+}
+
+FileGrains read_run(const std::string& path, std::size_t frame, const BedPlan& plan) {
+  const RunFile run = RunFile::open(path);
+  const RunStatics& statics = run.header().statics;
+  if (statics.periodic != plan.periodic)
+    refuse(path, std::string("the run has ") + (statics.periodic ? "a periodic bed" : "side walls") +
+                     ": expected bed.boundary = " + (statics.periodic ? "\"periodic\"" : "\"walls\""));
+  compare(path, "the mean diameter", statics.mean_diameter, "grains.mean_diameter", plan.mean_diameter);
+  compare(path, plan.periodic ? "the period" : "the distance between the walls", statics.length, "bed.length",
+          plan.length);
+  const std::size_t frames = run.all_frame_tilts().size();
+  if (frame >= frames)
+    refuse(path, "there is no frame " + std::to_string(frame) + ": expected deposition.frame below " +
+                     std::to_string(frames) + ", the number of its frames");
+  const Frame bed = run.positions(frame);
+  if (bed.x.size() != statics.radius.size())
+    refuse(path, "not all grains have arrived in frame " + std::to_string(frame) + ": choose a later one");
+  FileGrains grains{.path = path, .frame = frame, .lines = {}, .centres = {}, .radii = {}};
+  for (std::size_t i = 0; i < static_cast<std::size_t>(statics.free_count); ++i) {
+    // In single precision the period itself can be reached.
+    const double x = plan.periodic && bed.x[i] >= plan.length ? bed.x[i] - plan.length : bed.x[i];
+    grains.centres.push_back({x, bed.y[i]});
+    grains.radii.push_back(statics.radius[i]);
+  }
+  return grains;
+}
+
+/// The text of a table. A run replays from its scenario, so the message says what the file is needed for.
+std::string table_text(const std::string& path) {
+  const auto unreadable = [&](const std::string& reason) {
+    return Error(ExitCode::missing_input,
+                 path + ": " + reason +
+                     "; deposition.file is relative to the working directory, and is read " +
+                     "where a run begins or is replayed (not where it is resumed)");
+  };
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(path, error);
+  if (error || !std::filesystem::exists(status)) throw unreadable("there is no such file");
+  if (!std::filesystem::is_regular_file(status)) throw unreadable("this is not a file");
+  if (std::filesystem::file_size(path) > largest_table)
+    refuse(path, "the table is too large: expected at most " + std::to_string(largest_table) + " bytes");
+  const std::vector<std::byte> bytes = read_file(path);
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+FileGrains read_table(const std::string& path, std::size_t frame, const BedPlan& plan) {
+  const std::string text = table_text(path);
+  if (frame > 0) refuse(path, "a table has no frames: expected deposition.frame = 0");
+  FileGrains grains{.path = path, .frame = 0, .lines = {}, .centres = {}, .radii = {}};
+  for (const TableGrain& grain : parse_bed_table(text, path)) {
+    grains.lines.push_back(grain.line);
+    grains.centres.push_back({grain.x * plan.mean_diameter, grain.y * plan.mean_diameter});
+    grains.radii.push_back(grain.radius * plan.mean_diameter);
+  }
+  return grains;
+}
+
+void check_sizes(const FileGrains& grains, const BedPlan& plan) {
+  const std::size_t count = grains.radii.size();
+  if (count == 0) refuse(grains.path, "there is no grain: expected lines with x, y and radius");
+  if (count > most_grains)
+    refuse(grains.path, std::to_string(count) + " grains: expected at most " + std::to_string(most_grains));
+  const double mean = 2.0 * std::accumulate(grains.radii.begin(), grains.radii.end(), 0.0) /
+                      (static_cast<double>(count) * plan.mean_diameter);
+  if (!(std::fabs(mean - 1.0) <= mean_diameter_tolerance))
+    refuse(grains.path, "the mean diameter of its grains is " + short_text(mean) +
+                            " D: expected 1 D within " + short_text(100.0 * mean_diameter_tolerance) +
+                            " %, with D = " + short_text(plan.mean_diameter) + " m (grains.mean_diameter)" +
+                            (grains.is_table() ? "; all lengths of a table are in D" : ""));
+}
+
+void check_places(const FileGrains& grains, const BedPlan& plan) {
+  for (std::size_t i = 0; i < grains.centres.size(); ++i) {
+    const double x = grains.centres[i].x / plan.mean_diameter, y = grains.centres[i].y / plan.mean_diameter;
+    const double length = plan.length / plan.mean_diameter;
+    const auto grain = static_cast<Index>(i);
+    if (plan.periodic && !(grains.centres[i].x >= 0.0 && grains.centres[i].x < plan.length))
+      grains.refuse(grain, "is outside the period: x = " + short_text(x) + " D, expected a number in [0, " +
+                               short_text(length) + ")");
+    if (plan.rough_floor && !(y >= -0.5))
+      grains.refuse(grain, "is below the floor: y = " + short_text(y) +
+                               " D, expected a place above that of the floor grains, whose tops are at 0");
+  }
+}
+
+/// What a grain overlaps with.
+std::string body_name(const FileGrains& grains, const World& world, Index body) {
+  if (body < world.grains.free_count) return grains.name_of(body);
+  if (body < world.grains.count()) return "a grain of the floor";
+  const Plane& plane = world.boundary.planes[static_cast<std::size_t>(body - world.grains.count())];
+  if (!plane.wall) return "the floor";
+  return plane.normal.x > 0.0 ? "the wall at x = 0" : "the wall at x = bed.length";
+}
+
+void check_overlaps(const FileGrains& grains, const BedPlan& plan, const World& world) {
+  NeighbourList list;
+  Contacts contacts;
+  detect_contacts(list, world.grains, world.boundary, 0.0, contacts);
+  const auto deepest = std::ranges::min_element(contacts.gap);
+  if (deepest == contacts.gap.end() || *deepest >= -largest_file_overlap * plan.mean_diameter) return;
+  const auto c = static_cast<std::size_t>(deepest - contacts.gap.begin());
+  const bool of_two = contacts.b[c] < world.grains.free_count;
+  grains.refuse(
+      of_two ? std::max(contacts.a[c], contacts.b[c]) : contacts.a[c],
+      "overlaps with " +
+          body_name(grains, world, of_two ? std::min(contacts.a[c], contacts.b[c]) : contacts.b[c]) + " by " +
+          short_text(-*deepest / plan.mean_diameter) + " D: expected at most " +
+          short_text(largest_file_overlap) + " D");
+}
+
+}  // namespace
+
+World bed_of_file(const std::string& path, std::size_t frame, const BedPlan& plan) {
+  const FileGrains grains = is_run(path) ? read_run(path, frame, plan) : read_table(path, frame, plan);
+  check_sizes(grains, plan);
+  check_places(grains, plan);
+  World world = empty_bed(plan);
+  for (std::size_t i = 0; i < grains.centres.size(); ++i)
+    add_disk(world.grains, grains.centres[i], grains.radii[i], plan.density, false);
+  add_floor(plan, world);
+  check_overlaps(grains, plan, world);
+  return world;
+}
+
+}  // namespace talus
