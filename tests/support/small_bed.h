@@ -5,11 +5,12 @@
 
 namespace talus::test {
 
-/// 30 grains on a rough floor, soon called at rest; what differs from test to test is the tilt.
+/// 30 grains that collapse onto a rough floor, soon called at rest; what differs from test to test is the tilt.
 inline Scenario small_bed() {
   Scenario scenario;
   scenario.bed.length = 10.0;
   scenario.bed.depth = 3.0;
+  scenario.deposition.method = DepositionMethod::collapse;
   scenario.deposition.rest_velocity = 0.1;
   return scenario;
 }
