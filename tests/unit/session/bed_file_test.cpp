@@ -69,6 +69,7 @@ TEST(BedOfTable, has_its_grains_at_rest_between_floor_and_walls_of_the_plan) {
 
 TEST(BedOfTable, may_overlap_by_a_hundredth_of_a_diameter) {
   EXPECT_EQ(message_of("3,2,0.5\n3.991,2,0.5\n"), "accepted");
+  EXPECT_NE(message_of("3,2,0.5\n3.989,2,0.5\n"), "accepted");
   EXPECT_TRUE(message_of("3,2,0.5\n6,2,0.5\n\n3.75,2,0.5\n")
                   .starts_with("bed.csv:4:1: error: the grain overlaps with the grain in line 1 by 0.25"));
   EXPECT_TRUE(message_of("9.75,2,0.5\n0.5,2,0.5\n")
@@ -144,6 +145,7 @@ struct StoredRun {
       world.step = k;
       world.tilt = 0.01 * k;
       world.grains.y[29 - k] += 0.05;
+      world.grains.x[29 - k] = 0.1 - 1e-12;  // the period itself in single precision
       segment.frames.push_back(make_frame(world, session.law()));
     }
     store.commit(segment, session.checkpoint(0.0));
