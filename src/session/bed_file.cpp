@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <numeric>
 
@@ -11,7 +12,6 @@
 #include "io/durable_file.h"
 #include "io/run_file.h"
 #include "session/bed_table.h"
-#include "session/scenario_text.h"
 
 namespace talus {
 namespace {
@@ -21,6 +21,13 @@ constexpr std::uintmax_t largest_table = std::uintmax_t{1} << 30;  // bytes
 
 /// Two lengths of a run that are the same, but for the single precision in which a file may store them.
 constexpr double same_length = 1e-6;
+
+/// Six digits, as many as a message needs.
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", value);
+  return text;
+}
 
 /// Grains as they were read, and where each of them stands.
 struct FileGrains {
@@ -52,16 +59,34 @@ struct FileGrains {
   throw Error(ExitCode::bad_data, path + ": " + message);
 }
 
+/// Where there is no such file: a run is replayed from its scenario, so the message says what it is needed
+/// for.
+[[noreturn]] void refuse_missing(const std::string& message) {
+  throw Error(ExitCode::missing_input,
+              message +
+                  "; the scenario takes its bed from this file (deposition.file, relative to the working "
+                  "directory), which is needed to begin a run or to replay it, not to resume it");
+}
+
 /// A length of a run against that of the scenario.
 void compare(const std::string& path, const std::string& what, double found, const std::string& key,
              double expected) {
   if (std::fabs(found - expected) > same_length * expected)
-    refuse(path, what + " of the run is " + short_text(found) + " m, but " + key + " makes it " +
-                     short_text(expected) + " m; give the scenario the values of the run (talus info)");
+    refuse(path, what + " of the run is " + number(found) + " m, but " + key + " makes it " +
+                     number(expected) + " m; give the scenario the values of the run (talus info)");
+}
+
+RunFile open_run(const std::string& path) {
+  try {
+    return RunFile::open(path);
+  } catch (const Error& error) {
+    if (error.code() == ExitCode::missing_input) refuse_missing(error.what());
+    throw;
+  }
 }
 
 FileGrains read_run(const std::string& path, std::size_t frame, const BedPlan& plan) {
-  const RunFile run = RunFile::open(path);
+  const RunFile run = open_run(path);
   const RunStatics& statics = run.header().statics;
   if (statics.periodic != plan.periodic)
     refuse(path, std::string("the run has ") + (statics.periodic ? "a periodic bed" : "side walls") +
@@ -86,18 +111,11 @@ FileGrains read_run(const std::string& path, std::size_t frame, const BedPlan& p
   return grains;
 }
 
-/// The text of a table. A run replays from its scenario, so the message says what the file is needed for.
 std::string table_text(const std::string& path) {
-  const auto unreadable = [&](const std::string& reason) {
-    return Error(ExitCode::missing_input,
-                 path + ": " + reason +
-                     "; deposition.file is relative to the working directory, and is read " +
-                     "where a run begins or is replayed (not where it is resumed)");
-  };
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(path, error);
-  if (error || !std::filesystem::exists(status)) throw unreadable("there is no such file");
-  if (!std::filesystem::is_regular_file(status)) throw unreadable("this is not a file");
+  if (error || !std::filesystem::exists(status)) refuse_missing(path + ": there is no such file");
+  if (!std::filesystem::is_regular_file(status)) refuse_missing(path + ": this is not a file");
   if (std::filesystem::file_size(path) > largest_table)
     refuse(path, "the table is too large: expected at most " + std::to_string(largest_table) + " bytes");
   const std::vector<std::byte> bytes = read_file(path);
@@ -124,9 +142,9 @@ void check_sizes(const FileGrains& grains, const BedPlan& plan) {
   const double mean = 2.0 * std::accumulate(grains.radii.begin(), grains.radii.end(), 0.0) /
                       (static_cast<double>(count) * plan.mean_diameter);
   if (!(std::fabs(mean - 1.0) <= mean_diameter_tolerance))
-    refuse(grains.path, "the mean diameter of its grains is " + short_text(mean) +
-                            " D: expected 1 D within " + short_text(100.0 * mean_diameter_tolerance) +
-                            " %, with D = " + short_text(plan.mean_diameter) + " m (grains.mean_diameter)" +
+    refuse(grains.path, "the mean diameter of its grains is " + number(mean) + " D: expected 1 D within " +
+                            number(100.0 * mean_diameter_tolerance) +
+                            " %, with D = " + number(plan.mean_diameter) + " m (grains.mean_diameter)" +
                             (grains.is_table() ? "; all lengths of a table are in D" : ""));
 }
 
@@ -136,10 +154,10 @@ void check_places(const FileGrains& grains, const BedPlan& plan) {
     const double length = plan.length / plan.mean_diameter;
     const auto grain = static_cast<Index>(i);
     if (plan.periodic && !(grains.centres[i].x >= 0.0 && grains.centres[i].x < plan.length))
-      grains.refuse(grain, "is outside the period: x = " + short_text(x) + " D, expected a number in [0, " +
-                               short_text(length) + ")");
+      grains.refuse(grain, "is outside the period: x = " + number(x) + " D, expected a number in [0, " +
+                               number(length) + ")");
     if (plan.rough_floor && !(y >= -0.5))
-      grains.refuse(grain, "is below the floor: y = " + short_text(y) +
+      grains.refuse(grain, "is below the floor: y = " + number(y) +
                                " D, expected a place above that of the floor grains, whose tops are at 0");
   }
 }
@@ -165,8 +183,8 @@ void check_overlaps(const FileGrains& grains, const BedPlan& plan, const World& 
       of_two ? std::max(contacts.a[c], contacts.b[c]) : contacts.a[c],
       "overlaps with " +
           body_name(grains, world, of_two ? std::min(contacts.a[c], contacts.b[c]) : contacts.b[c]) + " by " +
-          short_text(-*deepest / plan.mean_diameter) + " D: expected at most " +
-          short_text(largest_file_overlap) + " D");
+          number(-*deepest / plan.mean_diameter) + " D: expected at most " + number(largest_file_overlap) +
+          " D");
 }
 
 }  // namespace

@@ -299,7 +299,10 @@ std::string text_of(const Choices& choices) {
   return text;
 }
 
-std::string text_of(const TextRange& range) { return range.what + " in quotes, or \"\" for none"; }
+std::string text_of(const TextRange& range) {
+  return range.what + " in quotes (at most " + std::to_string(range.longest) +
+         " bytes, none of them zero), or \"\" for none";
+}
 
 std::optional<ScenarioValue> admitted_by(const NumberRange& range, const ScenarioValue& value) {
   if (const std::string* word = std::get_if<std::string>(&value))

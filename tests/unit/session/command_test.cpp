@@ -249,11 +249,12 @@ TEST(Friction, holds_from_the_next_step_on) {
 TEST(Friction, holds_in_the_deposition_and_after_it) {
   Scenario scenario = small_bed();
   scenario.deposition.friction = 0.1;
+  scenario.deposition.wall_friction = 0.2;
   Session session(scenario);
   EXPECT_EQ(session.law().friction, 0.1);
   session.apply({0, CommandKind::friction, -1, 0.3, 0.0});
   EXPECT_EQ(session.law().friction, 0.3);
-  EXPECT_EQ(session.law().wall_friction, 0.1);
+  EXPECT_EQ(session.law().wall_friction, 0.2);
   while (session.phase() == Phase::deposition) session.advance();
   EXPECT_EQ(session.law().friction, 0.3);
   EXPECT_EQ(session.law().wall_friction, 0.5);

@@ -18,6 +18,7 @@ Scenario read_back(const Scenario& scenario) { return parse_scenario(resolved_to
 ScenarioValue other_value(const ScenarioKey& key) {
   if (const auto* choices = std::get_if<Choices>(&key.range)) return choices->names.back();
   if (std::holds_alternative<IntegerRange>(key.range)) return std::int64_t{3};
+  if (std::holds_alternative<TextRange>(key.range)) return std::string("beds/dense.csv");
   const auto& range = std::get<NumberRange>(key.range);
   const double high = std::isinf(range.high) ? 5.0 : range.high;
   return range.low + (high - range.low) / 3.0;
@@ -64,9 +65,18 @@ Scenario all_fields_changed() {
   length = 123456.7 / 1e2;
   depth = 17.0;
   floor = BedFloor::smooth;
-  auto& [fraction, deposition_friction, rest_velocity, max_time] = deposition;
+  auto& [method, arrival_speed, deposition_rate, critical_angle, sites, file, deposition_frame, fraction,
+         deposition_friction, deposition_wall_friction, rest_velocity, max_time] = deposition;
+  method = DepositionMethod::file;
+  arrival_speed = 0.1;
+  deposition_rate = 10.0 / 3.0;
+  critical_angle = std::nextafter(90.0, 0.0);
+  sites = 1000;
+  file = "a \"quoted\" name\\with\ttab, \n line, \x1b and \x7f, \xc3\xa9 # [x] = 'y'";
+  deposition_frame = 1'000'000'000;
   fraction = 0.123456789012345678;
   deposition_friction = -0.0;
+  deposition_wall_friction = 0.0;
   rest_velocity = DBL_MIN;
   max_time = 3600.0;
   auto& [rate, step, end_angle, after_failure, lowering_rate] = tilt;
@@ -100,7 +110,7 @@ TEST(ResolvedScenario, reads_back_extreme_values) {
   const Scenario scenario = all_fields_changed();
   const Scenario again = read_back(scenario);
   EXPECT_EQ(again, scenario);
-  EXPECT_TRUE(std::signbit(again.deposition.friction));
+  EXPECT_TRUE(std::signbit(*again.deposition.friction));
   for (const ScenarioKey& key : scenario_keys())
     EXPECT_NE(key.get(again), key.get(Scenario{})) << full_name(key) << " sets no field of its own";
 }
@@ -121,6 +131,13 @@ TEST(TomlText, of_a_number_is_no_integer) {
   EXPECT_EQ(toml_text(-0.0), "-0.0");
   EXPECT_EQ(toml_text(std::int64_t{7}), "7");
   EXPECT_EQ(toml_text(std::string("walls")), "\"walls\"");
+}
+
+TEST(TomlText, of_text_has_its_escapes) {
+  EXPECT_EQ(toml_text(std::string()), "\"\"");
+  EXPECT_EQ(toml_text(std::string("a \"b\" \\c")), R"("a \"b\" \\c")");
+  EXPECT_EQ(toml_text(std::string("\t\n\x1f\x7f")), R"("\u0009\u000a\u001f\u007f")");
+  EXPECT_EQ(toml_text(std::string("caf\xc3\xa9 #1")), "\"caf\xc3\xa9 #1\"");
 }
 
 TEST(Printable, shortens_and_escapes) {

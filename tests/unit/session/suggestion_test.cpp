@@ -26,7 +26,7 @@ TEST(Suggestion, of_a_key_prefers_its_own_section) {
 
 TEST(Suggestion, of_a_key_looks_at_other_sections_too) {
   EXPECT_EQ(suggest_key("bed", "mean_diametre"), "; did you mean 'grains.mean_diameter'?");
-  EXPECT_EQ(suggest_key("bed", "rate"), "; 'rate' belongs to [tilt]");
+  EXPECT_EQ(suggest_key("bed", "rate"), "; 'rate' belongs to [deposition] or [tilt]");
   EXPECT_EQ(suggest_key("", "friction"), "; 'friction' belongs to [contact] or [deposition]");
   EXPECT_EQ(suggest_key("bed", "seed"), "; 'seed' belongs to the top of the file, above the first section");
 }

@@ -1,0 +1,227 @@
+/// Beds from files: tables and frames of runs.
+
+#include "session/bed_file.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "core/errors.h"
+#include "io/run_file.h"
+#include "session/estimate.h"
+#include "session/run_header.h"
+#include "support/small_bed.h"
+#include "support/temporary_folder.h"
+
+namespace talus {
+namespace {
+
+BedPlan plan_of(bool periodic = true, bool rough = true) {
+  BedPlan plan;
+  plan.length = 10.0 * plan.mean_diameter;
+  plan.periodic = periodic;
+  plan.rough_floor = rough;
+  return plan;
+}
+
+/// A table in a folder of its own.
+struct Table {
+  explicit Table(const std::string& text) : path(folder.path("bed.csv")) { std::ofstream(path) << text; }
+  test::TemporaryFolder folder;
+  std::string path;
+};
+
+/// The message without the name of the folder.
+std::string message_of(const std::string& path, std::size_t frame, const BedPlan& plan, ExitCode code) {
+  try {
+    bed_of_file(path, frame, plan);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), code);
+    const std::string message = error.what();
+    const std::string folder = std::filesystem::path(path).parent_path().string() + "/";
+    return message.starts_with(folder) ? message.substr(folder.size()) : message;
+  }
+  return "accepted";
+}
+
+std::string message_of(const std::string& table, const BedPlan& plan = plan_of()) {
+  return message_of(Table(table).path, 0, plan, ExitCode::bad_data);
+}
+
+TEST(BedOfTable, has_its_grains_at_rest_between_floor_and_walls_of_the_plan) {
+  const Table table("x,y,radius\n0.6,0.5,0.5\n5,1,0.6\n");
+  for (const bool periodic : {true, false}) {
+    const BedPlan plan = plan_of(periodic);
+    const World world = bed_of_file(table.path, 0, plan);
+    ASSERT_EQ(world.grains.free_count, 2);
+    EXPECT_EQ(world.grains.count(), 12);
+    EXPECT_EQ(world.boundary.planes.size(), periodic ? 0u : 2u);
+    EXPECT_EQ(world.grains.x[1], 5.0 * plan.mean_diameter);
+    EXPECT_EQ(world.grains.y[1], 1.0 * plan.mean_diameter);
+    EXPECT_EQ(world.grains.radius[1], 0.6 * plan.mean_diameter);
+    EXPECT_GT(world.grains.inverse_mass[1], 0.0);
+    EXPECT_EQ(kinetic_energy(world.grains), 0.0);
+    EXPECT_EQ(world.contacts.count(), 0);
+  }
+}
+
+TEST(BedOfTable, may_overlap_by_a_hundredth_of_a_diameter) {
+  EXPECT_EQ(message_of("3,2,0.5\n3.991,2,0.5\n"), "accepted");
+  EXPECT_NE(message_of("3,2,0.5\n3.989,2,0.5\n"), "accepted");
+  EXPECT_TRUE(message_of("3,2,0.5\n6,2,0.5\n\n3.75,2,0.5\n")
+                  .starts_with("bed.csv:4:1: error: the grain overlaps with the grain in line 1 by 0.25"));
+  EXPECT_TRUE(message_of("9.75,2,0.5\n0.5,2,0.5\n")
+                  .starts_with("bed.csv:2:1: error: the grain overlaps with the grain in line 1 by 0.25"))
+      << "through the periodic edge";
+  EXPECT_EQ(message_of("9.75,2,0.5\n0.5,2,0.5\n", plan_of(false)).find("line 1 by"), std::string::npos);
+}
+
+TEST(BedOfTable, tells_the_deepest_overlap) {
+  EXPECT_TRUE(message_of("3,2,0.5\n3.9,2,0.5\n6,2,0.5\n6.5,2,0.5\n")
+                  .starts_with("bed.csv:4:1: error: the grain overlaps with the grain in line 3 by 0.5"));
+}
+
+TEST(BedOfTable, stays_within_walls_and_above_the_floor) {
+  EXPECT_EQ(message_of("0.495,2,0.5\n9.505,2,0.5\n", plan_of(false)), "accepted");
+  EXPECT_TRUE(message_of("0.25,2,0.5\n", plan_of(false))
+                  .starts_with("bed.csv:1:1: error: the grain overlaps with the wall at x = 0 by 0.25"));
+  EXPECT_TRUE(
+      message_of("12,2,0.5\n", plan_of(false))
+          .starts_with("bed.csv:1:1: error: the grain overlaps with the wall at x = bed.length by 2.5"));
+  EXPECT_TRUE(message_of("5,0.25,0.5\n", plan_of(true, false))
+                  .starts_with("bed.csv:1:1: error: the grain overlaps with the floor by 0.25"));
+  EXPECT_TRUE(message_of("5.5,0.25,0.5\n")
+                  .starts_with("bed.csv:1:1: error: the grain overlaps with a grain of the floor by 0.25"));
+  EXPECT_EQ(message_of("5.5,-7,0.5\n"),
+            "bed.csv:1:1: error: the grain is below the floor: y = -7 D, expected a place above that of the "
+            "floor grains, whose tops are at 0");
+}
+
+TEST(BedOfTable, stays_within_the_period) {
+  EXPECT_EQ(message_of("0,2,0.5\n9.99,5,0.5\n"), "accepted");
+  for (const char* x : {"10", "-0.5"})
+    EXPECT_EQ(message_of(std::string(x) + ",2,0.5\n"),
+              std::string("bed.csv:1:1: error: the grain is outside the period: x = ") + x +
+                  " D, expected a number in [0, 10)");
+}
+
+TEST(BedOfTable, is_in_mean_diameters) {
+  EXPECT_EQ(message_of("3,2,0.54\n"), "accepted");
+  EXPECT_EQ(message_of("3,2,0.46\n"), "accepted");
+  EXPECT_EQ(message_of("3,2,0.25\n"),
+            "bed.csv: the mean diameter of its grains is 0.5 D: expected 1 D within 10 %, with D = 0.01 m "
+            "(grains.mean_diameter); all lengths of a table are in D");
+  EXPECT_NE(message_of("3,2,1e308\n3,2,1e308\n"), "accepted");
+}
+
+TEST(BedOfTable, has_grains_and_no_frames) {
+  EXPECT_EQ(message_of("# none\n"), "bed.csv: there is no grain: expected lines with x, y and radius");
+  const Table table("3,2,0.5\n");
+  EXPECT_EQ(message_of(table.path, 1, plan_of(), ExitCode::bad_data),
+            "bed.csv: a table has no frames: expected deposition.frame = 0");
+}
+
+TEST(BedOfFile, says_what_a_missing_one_is_needed_for) {
+  const test::TemporaryFolder folder;
+  for (const char* name : {"bed.csv", "run.h5"}) {
+    const std::string message = message_of(folder.path(name), 0, plan_of(), ExitCode::missing_input);
+    EXPECT_TRUE(message.starts_with(std::string(name) + ": ")) << message;
+    EXPECT_NE(message.find("needed to begin a run or to replay it, not to resume it"), std::string::npos);
+  }
+}
+
+/// A run of 30 grains that is not complete: of each of its three frames another grain lies higher.
+struct StoredRun {
+  StoredRun() : path(folder.path("run.h5")) {
+    Scenario scenario = test::small_bed();
+    scenario.deposition.method = DepositionMethod::geometric;
+    const Session session(scenario);
+    RunStore store = RunStore::create(path, run_header(session, {}), false);
+    Segment segment;
+    for (int k = 0; k < 3; ++k) {
+      World world = session.world();
+      world.step = k;
+      world.tilt = 0.01 * k;
+      world.grains.y[29 - k] += 0.05;
+      world.grains.x[29 - k] = 0.1 - 1e-12;  // the period itself in single precision
+      segment.frames.push_back(make_frame(world, session.law()));
+    }
+    store.commit(segment, session.checkpoint(0.0));
+  }
+  test::TemporaryFolder folder;
+  std::string path;
+};
+
+Scenario scenario_of(const std::string& file, int frame = 0) {
+  Scenario scenario = test::small_tilted_bed(0.1);
+  scenario.deposition.method = DepositionMethod::file;
+  scenario.deposition.file = file;
+  scenario.deposition.frame = frame;
+  return scenario;
+}
+
+TEST(BedOfRun, has_the_grains_of_the_frame_that_is_asked_for) {
+  const StoredRun run;
+  const RunFile file = RunFile::open(run.path);
+  for (const std::size_t k : {0u, 2u}) {
+    const World world = bed_of_file(run.path, k, plan_of());
+    const Frame frame = file.positions(k);
+    ASSERT_EQ(world.grains.free_count, 30);
+    for (std::size_t i = 0; i < 30; ++i) {
+      EXPECT_NEAR(std::remainder(world.grains.x[i] - frame.x[i], 0.1), 0.0, 1e-12);
+      EXPECT_GE(world.grains.x[i], 0.0);
+      EXPECT_LT(world.grains.x[i], 0.1);
+      EXPECT_EQ(world.grains.y[i], frame.y[i]);
+      EXPECT_EQ(world.grains.radius[i], file.header().statics.radius[i]);
+      EXPECT_EQ(world.grains.mass[i], file.header().statics.mass[i]);
+    }
+  }
+}
+
+TEST(BedOfRun, fits_the_plan) {
+  const StoredRun run;
+  EXPECT_EQ(message_of(run.path, 3, plan_of(), ExitCode::bad_data),
+            "run.h5: there is no frame 3: expected deposition.frame below 3, the number of its frames");
+  EXPECT_EQ(message_of(run.path, 0, plan_of(false), ExitCode::bad_data),
+            "run.h5: the run has a periodic bed: expected bed.boundary = \"periodic\"");
+  BedPlan longer = plan_of();
+  longer.length *= 1.1;
+  EXPECT_EQ(message_of(run.path, 0, longer, ExitCode::bad_data),
+            "run.h5: the period of the run is 0.1 m, but bed.length makes it 0.11 m; give the scenario the "
+            "values of the run (talus info)");
+  BedPlan larger = plan_of();
+  larger.mean_diameter *= 1.05;
+  EXPECT_EQ(
+      message_of(run.path, 0, larger, ExitCode::bad_data),
+      "run.h5: the mean diameter of the run is 0.01 m, but grains.mean_diameter makes it 0.0105 m; give "
+      "the scenario the values of the run (talus info)");
+}
+
+TEST(RunOfFile, has_as_many_grains_as_the_file) {
+  const StoredRun run;
+  Scenario scenario = scenario_of(run.path);
+  scenario.bed.depth = 100.0;
+  EXPECT_EQ(grain_count(scenario), 30);
+  EXPECT_EQ(estimate(scenario).grains, 30);
+  EXPECT_EQ(run_statics(scenario, initial_bed(scenario)).free_count, 30);
+}
+
+TEST(RunOfFile, comes_to_rest_and_goes_on_without_the_file) {
+  std::optional<Session> whole, first;
+  {
+    const StoredRun run;
+    whole.emplace(scenario_of(run.path, 1));
+    first.emplace(whole->scenario());
+  }
+  while (whole->phase() != Phase::done) whole->advance();
+  for (int k = 0; k < 20; ++k) first->advance();
+  Session second(first->scenario(), first->checkpoint(0.0));
+  while (second.phase() != Phase::done) second.advance();
+  EXPECT_EQ(state_hash(second.world()), state_hash(whole->world()));
+  EXPECT_THROW(Session{whole->scenario()}, Error) << "a replay begins with the file";
+}
+
+}  // namespace
+}  // namespace talus
