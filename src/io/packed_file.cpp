@@ -110,6 +110,7 @@ std::vector<std::byte> packed_bytes(const RunFile& run, const std::function<bool
                        {'R', observables.size()},
                        {'S', steps.size()},
                        {'K', commands.size()},
+                       {'G', checkpoint.world.grains.radius.size()},
                        {'C', checkpoint.world.contacts.a.size()},
                        {'P', checkpoint.world.boundary.planes.size()}},
                       seal_size);

@@ -16,6 +16,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// The state of a run has its grains, but for those that have not arrived yet while it is poured.
+void check_grains(const hdf5::Reader& reader, const RunStatics& statics, const Grains& grains) {
+  const Index all = static_cast<Index>(statics.radius.size());
+  if (grains.free_count <= statics.free_count &&
+      grains.count() - grains.free_count == all - statics.free_count)
+    return;
+  reader.refuse("/checkpoint/free_count", "is " + std::to_string(grains.free_count) + " of " +
+                                              std::to_string(grains.count()) + " grains, the run has " +
+                                              std::to_string(statics.free_count) + " of " +
+                                              std::to_string(all));
+}
+
 /// Sizes of the letters of the shapes that a file must agree with.
 Sizes sizes_of(const StoredSegment& segment, std::size_t grains) {
   return {{'T', segment.frames},
@@ -135,8 +147,12 @@ RunFile RunFile::read_packed(hdf5::Reader&& reader) {
   state->reader = std::move(reader);
   state->header = read_header(*state->reader);
   const bool may_lack = find_value(state->header.provenance, lost_fact).has_value();
-  state->checkpoint = may_lack && !state->reader->has("/checkpoint") ? read_results(*state->reader)
-                                                                     : read_checkpoint(*state->reader);
+  if (may_lack && !state->reader->has("/checkpoint")) {
+    state->checkpoint = read_results(*state->reader);
+  } else {
+    state->checkpoint = read_checkpoint(*state->reader);
+    check_grains(*state->reader, state->header.statics, state->checkpoint.world.grains);
+  }
   state->segments = {whole_file(*state->reader)};
   state->read_tilts();
   return RunFile(std::move(state));
@@ -151,9 +167,9 @@ RunFile RunFile::open_folder(const std::string& folder) {
   state->folder = folder;
   hdf5::Reader header = open_image_of(folder, manifest.header, std::move(files[0]), {});
   state->header = read_header(header);
-  hdf5::Reader checkpoint = open_image_of(folder, manifest.checkpoint, std::move(files[1]),
-                                          {{'N', state->header.statics.radius.size()}});
+  hdf5::Reader checkpoint = open_image_of(folder, manifest.checkpoint, std::move(files[1]), {});
   state->checkpoint = read_checkpoint(checkpoint);
+  check_grains(checkpoint, state->header.statics, state->checkpoint.world.grains);
   state->segments = manifest.segments;
   state->read_tilts();
   return RunFile(std::move(state));

@@ -95,7 +95,7 @@ std::vector<std::byte> header_bytes(const RunHeader& header) {
 
 std::vector<std::byte> checkpoint_bytes(const Checkpoint& checkpoint) {
   const World& world = checkpoint.world;
-  hdf5::Writer writer({{'N', world.grains.radius.size()},
+  hdf5::Writer writer({{'G', world.grains.radius.size()},
                        {'C', world.contacts.a.size()},
                        {'P', world.boundary.planes.size()}});
   write_checkpoint(writer, checkpoint);

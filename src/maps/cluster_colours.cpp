@@ -79,6 +79,9 @@ std::vector<ClusterColour> ClusterColours::next(const Clusters& clusters) {
     }
     tracks_[static_cast<std::size_t>(colour.track)] = {colour.palette_index, clusters.size[k]};
   }
+  // A cluster that has become small is gray, as the legend says; its colour is kept until it grows again.
+  for (std::size_t k = 0; k < colours.size(); ++k)
+    if (clusters.size[k] < smallest_coloured_cluster) colours[k].palette_index = -1;
   track_of_grain_.assign(clusters.label.size(), -1);
   for (std::size_t i = 0; i < clusters.label.size(); ++i)
     if (clusters.label[i] >= 0)

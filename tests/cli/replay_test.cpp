@@ -14,7 +14,7 @@ namespace talus::test {
 namespace {
 
 const char* const small_bed =
-    "[bed]\nlength = 10\ndepth = 3\n[deposition]\nrest_velocity = 0.1\n"
+    "[bed]\nlength = 10\ndepth = 3\n[deposition]\nmethod = \"collapse\"\nrest_velocity = 0.1\n"
     "[tilt]\nrate = 20\nstep = 0.02\nend_angle = 4\n[output]\nframe_every = 0.5\nobservable_every = 0.2\n";
 
 class Replay : public testing::Test {

@@ -42,6 +42,7 @@ TEST(GoldenRun, periodic_bed) {
 TEST(GoldenRun, poured_bed) {
   Scenario scenario = bed(60.0, 5.0);
   scenario.deposition.method = DepositionMethod::pour;
+  scenario.deposition.rate = 1.0;
   const std::string golden = "";
   EXPECT_EQ(final_hash(scenario, 1), golden);
   EXPECT_EQ(final_hash(scenario, 2), golden) << "on two threads";
@@ -51,6 +52,7 @@ TEST(GoldenRun, poured_bed_between_walls) {
   Scenario scenario = bed(20.0, 10.0);
   scenario.bed.boundary = BedBoundary::walls;
   scenario.deposition.method = DepositionMethod::pour;
+  scenario.deposition.rate = 1.0;
   scenario.deposition.wall_friction = 0.0;
   EXPECT_EQ(final_hash(scenario, 1), "");
 }

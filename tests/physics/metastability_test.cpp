@@ -16,6 +16,7 @@ Scenario small_bed() {
   Scenario scenario;
   scenario.bed.length = 12;
   scenario.bed.depth = 6;
+  scenario.deposition.method = DepositionMethod::collapse;
   return scenario;
 }
 constexpr SurfacePatch patch{4.0, 1.0};

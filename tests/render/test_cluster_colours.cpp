@@ -75,7 +75,9 @@ TEST(ClusterColours, SmallClustersHaveNoneUntilTheyGrow) {
   EXPECT_EQ(grown[0].track, 0);
   EXPECT_GE(grown[0].palette_index, 0);
   const auto shrunk = colours.next(clusters_of(times(3, 'a')));
-  EXPECT_EQ(shrunk[0].palette_index, grown[0].palette_index) << "what has a colour keeps it";
+  EXPECT_EQ(shrunk[0].palette_index, -1) << "gray, as the legend says";
+  const auto again = colours.next(clusters_of(times(12, 'a')));
+  EXPECT_EQ(again[0].palette_index, grown[0].palette_index) << "what had a colour has it again";
 }
 
 TEST(ClusterColours, ANewClusterTakesTheColourThatTheFewestGrainsWear) {

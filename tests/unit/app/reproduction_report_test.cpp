@@ -63,8 +63,7 @@ TEST(ReproductionReport, of_the_papers_own_values_agrees_everywhere) {
   EXPECT_EQ(count_of(report, "differs"), 0u) << report;
   EXPECT_EQ(count_of(report, "does not occur"), 0u);
   const auto summary = reproduction_summary(result);
-  EXPECT_TRUE(
-      holds(summary, "values for the packing agree 12 of 12 with deposition friction 0.5, 12 of 12 with"));
+  EXPECT_TRUE(holds(summary, "values for the packing agree 12 of 12 with poured grains, 12 of 12 with"));
   EXPECT_TRUE(holds(summary, "k_L - k_0 = 2.50"));
   EXPECT_TRUE(holds(summary, "brings the paper's chain and ours together"));
   EXPECT_FALSE(holds(summary, "nothing that was tried"));
@@ -86,13 +85,13 @@ TEST(ReproductionReport, tells_which_change_helps_and_which_result_is_nearest) {
   ReproductionResult result = like_the_paper(0.0);
   set_everywhere(result, PaperQuantity::overloaded_at_0, {0.8});
   for (ReproducedOutcome& outcome : result.outcomes)
-    if (result.plan.runs[outcome.run].bed == 1)  // deposition friction 0.15, single grains, three contacts
+    if (result.plan.runs[outcome.run].bed == 1)  // geometric, single grains, three contacts
       outcome.values[2][1][static_cast<std::size_t>(PaperQuantity::overloaded_at_0)] = {0.3};
   const auto conclusion = threshold_conclusion(result.plan, study_of(result));
   EXPECT_TRUE(
       holds(conclusion,
             "Nearest to the paper's chain is `single grains, gamma >= 2 Gamma_c, grains with 3 contacts or "
-            "more` with deposition friction 0.15: 13 of 13"));
+            "more` with grains set down geometrically: 13 of 13"));
   EXPECT_TRUE(holds(conclusion, "no change raises that of `single grains, gamma >= Gamma_c`"));
   EXPECT_TRUE(
       holds(conclusion,
@@ -132,9 +131,8 @@ TEST(ReproductionReport, without_a_bed_says_so) {
   EXPECT_NE(report.find("not comparable: no such run is complete"), std::string::npos);
   result = like_the_paper(0.0);
   std::erase_if(result.outcomes, [&](const auto& outcome) { return result.plan.runs[outcome.run].bed == 1; });
-  EXPECT_TRUE(
-      holds(reproduction_summary(result),
-            "over all readings: 13.0 with deposition friction 0.5 and 13.0 with deposition friction 0;"))
+  EXPECT_TRUE(holds(reproduction_summary(result),
+                    "over all readings: 13.0 with poured grains and 13.0 with grains that collapse;"))
       << "a preparation that was not run has no score";
   result.outcomes.clear();
   EXPECT_TRUE(holds(reproduction_summary(result), "nothing is said about the threshold"));

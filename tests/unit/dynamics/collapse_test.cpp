@@ -95,7 +95,8 @@ TEST(LooseBed, grains_do_not_overlap) {
     for (double columns : {6.0, 8.0, 10.0, 13.0, 20.0, 50.0})
       for (double fraction : {0.3, 0.5, 0.7}) {
         BedPlan plan = plan_of(periodic, columns, 100);
-        EXPECT_GE(smallest_gap(make_loose_bed(plan, fraction)), -1e-16) << columns << " D long, solid fraction " << fraction;
+        EXPECT_GE(smallest_gap(make_loose_bed(plan, fraction)), -1e-16)
+            << columns << " D long, solid fraction " << fraction;
       }
 }
 

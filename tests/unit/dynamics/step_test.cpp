@@ -1,4 +1,3 @@
-#include "dynamics/collapse.h"
 #include "dynamics/step.h"
 
 #include <gtest/gtest.h>
@@ -7,6 +6,7 @@
 #include <limits>
 
 #include "core/errors.h"
+#include "dynamics/collapse.h"
 #include "support/scenes.h"
 
 namespace talus {

@@ -60,7 +60,7 @@ TEST_F(RunGroups, NameTheKeysThatTellThemApart) {
   other.scenario.deposition.friction = 0.15;
   const auto groups = groups_of(run(1), std::move(other), walls(1, 100.0));
   ASSERT_EQ(groups.size(), 3u);
-  EXPECT_EQ(groups[0].label, "PBC, L = 200 D, deposition.friction = 0.5");
+  EXPECT_EQ(groups[0].label, "PBC, L = 200 D, deposition.friction = contact");
   EXPECT_EQ(groups[1].label, "PBC, L = 200 D, deposition.friction = 0.15");
   EXPECT_EQ(groups[2].label, "WBC, L = 100 D") << "its bed tells it apart";
 }

@@ -18,10 +18,11 @@ TEST(Reproduction, runs_the_beds_of_the_paper) {
   const ReproductionPlan plan = plan_reproduction(false, "1-2");
   ASSERT_EQ(plan.beds.size(), 8u);
   EXPECT_EQ(plan.runs.size(), 16u);
-  const double frictions[] = {0.5, 0.15, 0.0};
+  const DepositionMethod methods[] = {DepositionMethod::pour, DepositionMethod::geometric,
+                                      DepositionMethod::collapse};
   for (std::size_t b = 0; b < 3; ++b) {
     EXPECT_TRUE(plan.beds[b].periodic());
-    EXPECT_EQ(plan.beds[b].scenario.deposition.friction, frictions[b]);
+    EXPECT_EQ(plan.beds[b].scenario.deposition.method, methods[b]);
     EXPECT_EQ(plan.beds[b].scenario.bed.length, 200.0);
   }
   for (std::size_t b = 3; b < 8; ++b) {

@@ -61,7 +61,7 @@ TEST(Estimate, grows_with_all_that_costs) {
   EXPECT_GT(estimate(reference).seconds, 2.0 * usual.seconds);
   Scenario hurried;
   hurried.solver.max_iterations = 10;
-  EXPECT_LT(estimate(hurried).seconds, 0.1 * usual.seconds);
+  EXPECT_LT(estimate(hurried).seconds, 0.15 * usual.seconds);
 }
 
 }  // namespace

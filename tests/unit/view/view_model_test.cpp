@@ -1,16 +1,13 @@
-/// The view of a run file made by hand, and of a small run that is computed.
+/// The view of a run file made by hand.
 
 #include "view/view_model.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <functional>
-#include <thread>
 
 #include "core/errors.h"
 #include "core/hash.h"
@@ -20,33 +17,14 @@
 #include "session/analysis_run.h"
 #include "support/temporary_folder.h"
 #include "unit/view/example_bed.h"
+#include "unit/view/opened_view.h"
 
 namespace talus {
 namespace {
 
-/// By the gamma of single grains.
-ViewModel opened(const std::string& path) {
-  ViewModel model = ViewModel::open(path, {}, "", false, "talus view");
-  model.state.map.l_min = 0.0;
-  model.update(0.0);
-  return model;
-}
+using example::comes_true, example::opened, example::plot;
 
 const std::vector<std::string> single_grains = {"l_min=0"};  // settings of an analysis
-
-/// Updates until something holds.
-bool comes_true(ViewModel& model, const std::function<bool()>& holds) {
-  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
-  while (!holds() && std::chrono::steady_clock::now() < end) {
-    model.update(0.0);
-    std::this_thread::yield();
-  }
-  return holds();
-}
-
-const Plot& plot(const ViewModel& model, const std::string& name) {
-  return *std::ranges::find(model.plots(), name, &Plot::name);
-}
 
 class ViewOfRun : public testing::Test {
  protected:
@@ -378,126 +356,6 @@ TEST(ViewOfNothing, says_what_is_missing) {
     } catch (const Error& error) {
       EXPECT_EQ(error.code(), ExitCode::missing_input);
     }
-}
-
-// --- live ---
-
-/// Done, and its last frame is there to be shown.
-bool has_ended(ViewModel& model) {
-  const LiveStatus status = model.live()->status();
-  return status.done && !status.running;
-}
-
-class ViewOfScenario : public testing::Test {
- protected:
-  ViewOfScenario() {
-    std::ofstream(folder_.path("a.toml")) << "[bed]\nlength = 10\ndepth = 3\n[deposition]\nrest_velocity = "
-                                             "0.1\n[tilt]\nrate = 20\nstep = 0.02\nend_angle = 1.0\n"
-                                             "[output]\nframe_every = 0.25\nobservable_every = 0.05\n";
-    model_.emplace(opened(folder_.path("a.toml")));
-  }
-  test::TemporaryFolder folder_;
-  std::optional<ViewModel> model_;
-};
-
-TEST_F(ViewOfScenario, follows_the_run) {
-  EXPECT_TRUE(model_->is_live());
-  EXPECT_EQ(model_->frame_count(), 0u);
-  EXPECT_FALSE(model_->has(Landmark::first));
-  EXPECT_EQ(model_->render_command(), "");
-  model_->state.map.layers = map_layers("displacement+clusters");
-  EXPECT_EQ(model_->map(2.0).discs.empty(), false);
-  model_->live()->run_to(radians(0.5));
-  ASSERT_TRUE(comes_true(*model_, [this] { return model_->frame().tilt > radians(0.49); }));
-  model_->live()->play();
-  ASSERT_TRUE(comes_true(*model_, [this] {
-    model_->map(2.0);
-    return has_ended(*model_);
-  }));
-  ASSERT_TRUE(comes_true(*model_, [this] { return plot(*model_, "overloaded").series[0].x.size() >= 5; }));
-  EXPECT_EQ(plot(*model_, "overloaded").series[0].x.size(), 5u) << "at 0, 0.25 ... 1 deg";
-  EXPECT_NEAR(degrees(model_->frame().tilt), 1.0, 1e-9);
-  EXPECT_GE(plot(*model_, "stress").series[0].x.size(), 17u);
-  const std::vector<double>& tilts = plot(*model_, "stress").series[0].x;
-  EXPECT_EQ(std::ranges::adjacent_find(tilts, std::greater_equal()), tilts.end()) << "each row once";
-  EXPECT_FALSE(plot(*model_, "residual").series[0].x.empty());
-  EXPECT_FALSE(model_->theta_c_known());
-  EXPECT_NE(model_->furnished_map().title.find("per degree"), std::string::npos);
-}
-
-TEST_F(ViewOfScenario, measures_displacements_from_the_frame_recorded_before) {
-  model_->state.map.layers = {MapKind::displacement};
-  model_->state.map.range_low = 1e-12;  // the bed is small, and creeps
-  model_->state.map.range_high = 1e-3;
-  model_->live()->play();
-  ASSERT_TRUE(comes_true(*model_, [this] { return has_ended(*model_); }));
-  model_->update(0.0);
-  const std::vector<Disc> discs = model_->map(2.0).discs;
-  EXPECT_FALSE(std::ranges::all_of(discs, [&discs](const Disc& disc) {
-    return disc.hatched > 0.0f || disc.fill == discs[0].fill;
-  })) << "the frame shown is the last recorded; it is not its own reference";
-}
-
-TEST_F(ViewOfScenario, begins_a_recorded_run_anew) {
-  const std::string output = folder_.path("a.h5");
-  ViewModel model = ViewModel::open(folder_.path("a.toml"), {"seed=3"}, output, false, "talus view");
-  EXPECT_EQ(model.seed(), 3u);
-  EXPECT_EQ(model.render_command(), "") << "no frame is recorded yet";
-  model.live()->play();
-  ASSERT_TRUE(comes_true(model, [&model] { return has_ended(model); }));
-  model.update(0.0);
-  EXPECT_EQ(model.render_command(), "talus render " + output + " --map gamma --at 1 --theta-c 20");
-  for (const char* next : {"a-2.h5", "a-3.h5"}) {
-    model.restart(4);
-    EXPECT_EQ(model.seed(), 4u);
-    EXPECT_EQ(model.live()->status().step, 0);
-    EXPECT_EQ(model.recording().output, folder_.path(next));
-    model.live()->step(2);
-    model.live()->halt();
-    model.live()->save();
-  }
-  EXPECT_EQ(RunFile::open(output).header().seed, 3u) << "it is still there";
-}
-
-TEST_F(ViewOfScenario, that_cannot_begin_anew_goes_on) {
-  const std::string output = folder_.path("b/a.h5");
-  std::filesystem::create_directory(folder_.path("b"));
-  ViewModel model = ViewModel::open(folder_.path("a.toml"), {}, output, false, "talus view");
-  model.live()->step(2);
-  model.live()->halt();
-  std::filesystem::remove_all(folder_.path("b"));
-  EXPECT_THROW(model.restart(4), Error);
-  ASSERT_NE(model.live(), nullptr);
-  EXPECT_EQ(model.recording().output, output);
-  EXPECT_EQ(model.map(2.0).discs.empty(), false);
-}
-
-TEST_F(ViewOfScenario, is_given_up_unsaved_only_when_asked_twice) {
-  EXPECT_TRUE(model_->may_discard()) << "it has not begun";
-  model_->live()->step(3);
-  ASSERT_TRUE(comes_true(*model_, [this] { return model_->live()->status().step == 3; }));
-  EXPECT_FALSE(model_->may_discard());
-  EXPECT_NE(model_->state.message.find("not saved"), std::string::npos);
-  EXPECT_TRUE(model_->may_discard());
-  EXPECT_FALSE(model_->may_discard()) << "each time anew";
-  model_->record(folder_.path("saved.h5"));
-  EXPECT_TRUE(model_->may_discard());
-  EXPECT_EQ(model_->recording().output, folder_.path("saved.h5"));
-  EXPECT_THROW(model_->record(folder_.path("other.h5")), Error) << "it is recorded already";
-  EXPECT_EQ(model_->recording().output, folder_.path("saved.h5"));
-}
-
-TEST_F(ViewOfScenario, begins_anew_with_another_seed) {
-  const double before = model_->frame().x[0];
-  model_->live()->step(3);
-  model_->state.selected = 1;
-  model_->restart(5);
-  EXPECT_EQ(model_->seed(), 5u);
-  EXPECT_EQ(model_->frame().step, 0);
-  EXPECT_NE(model_->frame().x[0], before);
-  EXPECT_FALSE(model_->state.selected.has_value());
-  model_->restart(1);
-  EXPECT_EQ(model_->frame().x[0], before);
 }
 
 }  // namespace

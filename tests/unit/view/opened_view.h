@@ -1,0 +1,36 @@
+#pragma once
+/// A view that a test looks at, and waits for.
+
+#include <algorithm>
+#include <chrono>
+#include <functional>
+#include <string>
+#include <thread>
+
+#include "view/view_model.h"
+
+namespace talus::example {
+
+/// By the gamma of single grains.
+inline ViewModel opened(const std::string& path) {
+  ViewModel model = ViewModel::open(path, {}, "", false, "talus view");
+  model.state.map.l_min = 0.0;
+  model.update(0.0);
+  return model;
+}
+
+/// Updates until something holds.
+inline bool comes_true(ViewModel& model, const std::function<bool()>& holds) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  while (!holds() && std::chrono::steady_clock::now() < end) {
+    model.update(0.0);
+    std::this_thread::yield();
+  }
+  return holds();
+}
+
+inline const Plot& plot(const ViewModel& model, const std::string& name) {
+  return *std::ranges::find(model.plots(), name, &Plot::name);
+}
+
+}  // namespace talus::example
