@@ -52,6 +52,7 @@ std::string json_set(const ForceSet& set) {
        {"eta", number(set.report.residual.eta)},
        {"converged", json::truth(set.report.converged)},
        {"momentum_left", number(set.momentum_left)},
+       {"unbalanced", number(set.unbalanced)},
        {"distance", number(set.distance)},
        {"values", json_list(set.values, [&](std::size_t q) { return number(set.values[q]); })}},
       2);
@@ -92,12 +93,12 @@ std::string title(const ForceQuantity& quantity) {
 }
 
 void print_sets(const FrameForces& forces) {
-  std::printf("  %-30s %10s %9s %9s %9s %8s %8s %8s\n", "start", "iterations", "eta", "momentum", "distance",
-              "Gamma", "p_o", "lc_mean");
+  std::printf("  %-28s %10s %9s %9s %10s %9s %8s %8s %8s\n", "start", "iterations", "eta", "momentum",
+              "unbalanced", "distance", "Gamma", "p_o", "lc_mean");
   for (const ForceSet& set : forces.sets)
-    std::printf("  %-30s %10d %9.1e %9.1e %9.3f %8.4f %8.4f %8.3f%s\n", name_of(set.attempt).c_str(),
-                set.report.iterations, set.report.residual.eta, set.momentum_left, set.distance,
-                set.values[0], set.values[2], set.values[3],
+    std::printf("  %-28s %10d %9.1e %9.1e %10d %9.3f %8.4f %8.4f %8.3f%s\n", name_of(set.attempt).c_str(),
+                set.report.iterations, set.report.residual.eta, set.momentum_left, set.unbalanced,
+                set.distance, set.values[0], set.values[2], set.values[3],
                 set.report.converged ? "" : "  not converged, not counted");
 }
 

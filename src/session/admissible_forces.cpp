@@ -32,6 +32,22 @@ double exponential(Random& random) {
   }
 }
 
+/// By which a start takes what a contact remembers.
+double factor_of_memory(ForceStart start, Random& random) {
+  switch (start) {
+    case ForceStart::stored:
+      return 1.0;
+    case ForceStart::halved:
+      return 0.5;
+    case ForceStart::doubled:
+      return 2.0;
+    case ForceStart::scattered:
+      return 2.0 * random.uniform();
+    default:
+      return 0.0;
+  }
+}
+
 double mean_normal_impulse(const ContactSolution& solution) {
   double sum = 0.0;
   int carrying = 0;
@@ -83,6 +99,16 @@ SolverReport solve_shuffled(const ContactProblem& problem, const SolverSettings&
     solution.pt[order[c]] = shuffled.pt[c];
   }
   return report;
+}
+
+/// Free grains with a velocity above `limit`, m/s.
+Index count_faster(const ContactSolution& solution, Index free_count, double limit) {
+  Index count = 0;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(free_count); ++i) {
+    const double vx = solution.vx[i], vy = solution.vy[i];
+    if (vx * vx + vy * vy > limit * limit) ++count;
+  }
+  return count;
 }
 
 double relative_distance(const ContactSolution& one, const ContactSolution& reference) {
@@ -155,7 +181,7 @@ ForceSpread spread_of(std::size_t quantity, const std::vector<ForceSet>& sets) {
 }  // namespace
 
 std::string name_of(const ForceAttempt& attempt) {
-  const char* const starts[] = {"stored", "zero", "halved", "doubled", "exponential", "uniform"};
+  const char* const starts[] = {"stored", "zero", "halved", "doubled", "scattered", "exponential", "uniform"};
   std::string name = starts[static_cast<std::size_t>(attempt.start)];
   if (attempt.method == SolverKind::gauss_seidel) name += ", Gauss-Seidel";
   return attempt.shuffled ? name + ", shuffled" : name;
@@ -163,34 +189,31 @@ std::string name_of(const ForceAttempt& attempt) {
 
 std::vector<ForceAttempt> force_attempts(const ForceSearch& search) {
   constexpr SolverKind sweeps = SolverKind::gauss_seidel;
-  std::vector<ForceAttempt> attempts = {{ForceStart::stored},
-                                        {ForceStart::zero},
-                                        {ForceStart::halved},
-                                        {ForceStart::doubled},
-                                        {ForceStart::zero, sweeps},
-                                        {ForceStart::zero, sweeps, true},
-                                        {ForceStart::zero, sweeps, true}};
+  constexpr ForceStart random_starts[] = {ForceStart::scattered, ForceStart::exponential,
+                                          ForceStart::uniform};
+  std::vector<ForceAttempt> attempts = {{ForceStart::stored},       {ForceStart::zero},
+                                        {ForceStart::halved},       {ForceStart::doubled},
+                                        {ForceStart::zero, sweeps}, {ForceStart::zero, sweeps, true}};
   const auto count = static_cast<std::size_t>(search.solutions) + 1;
-  while (attempts.size() < count)
-    attempts.push_back({attempts.size() % 2 == 1 ? ForceStart::exponential : ForceStart::uniform});
+  while (attempts.size() < count) attempts.push_back({random_starts[attempts.size() % 3]});
   attempts.resize(count);
   return attempts;
 }
 
 ContactSolution first_guess(ForceStart start, const FrozenBed& bed, Random& random) {
   ContactSolution guess = bed.step.guess;
-  const bool is_random = start == ForceStart::exponential || start == ForceStart::uniform;
-  const double factor = start == ForceStart::stored    ? 1.0
-                        : start == ForceStart::halved  ? 0.5
-                        : start == ForceStart::doubled ? 2.0
-                                                       : 0.0;
   const double mean = mean_normal_impulse(guess);
   const ContactProblem& problem = bed.step.problem;
   for (std::size_t c = 0; c < guess.pn.size(); ++c) {
-    guess.pn[c] *= factor;
-    guess.pt[c] *= factor;
-    if (!is_random || problem.cn[c] > 0.0) continue;
-    guess.pn[c] = mean * (start == ForceStart::exponential ? exponential(random) : 2.0 * random.uniform());
+    if (start != ForceStart::exponential && start != ForceStart::uniform) {
+      const double factor = factor_of_memory(start, random);
+      guess.pn[c] *= factor;
+      guess.pt[c] *= factor;
+      continue;
+    }
+    const bool closed = problem.cn[c] <= 0.0;
+    const double share = start == ForceStart::exponential ? exponential(random) : 2.0 * random.uniform();
+    guess.pn[c] = closed ? mean * share : 0.0;
     guess.pt[c] = problem.mu[c] * guess.pn[c] * random.uniform(-1.0, 1.0);
   }
   return guess;
@@ -208,8 +231,9 @@ ForceSet find_forces(const FrozenBed& bed, const ForceAttempt& attempt, const Fo
   SolverWorkspace workspace;
   found.report = attempt.shuffled ? solve_shuffled(bed.step.problem, settings, random, found.solution)
                                   : solve(bed.step.problem, settings, workspace, found.solution);
-  found.momentum_left =
-      rms_velocity(loaded_world(bed, found.solution).grains) / (bed.step.scales.gravity * bed.step.scales.h);
+  const double fall = bed.step.scales.gravity * bed.step.scales.h;
+  found.momentum_left = rms_velocity(loaded_world(bed, found.solution).grains) / fall;
+  found.unbalanced = count_faster(found.solution, bed.world.grains.free_count, 0.1 * fall);
   found.distance = relative_distance(found.solution, bed.step.guess);
   return found;
 }

@@ -20,6 +20,7 @@ enum class ForceStart {
   zero,         ///< none
   halved,       ///< half of the memory
   doubled,      ///< twice the memory
+  scattered,    ///< the memory, at each contact times a random factor, uniform between 0 and 2
   exponential,  ///< f_n exponentially distributed
   uniform,      ///< f_n uniform between zero and twice the mean
 };
@@ -37,12 +38,13 @@ std::string name_of(const ForceAttempt& attempt);
 struct ForceSearch {
   int solutions = 20;       ///< others than the one from the stored forces
   double tolerance = 3e-7;  ///< natural-map residual eta to reach
-  int max_iterations = 20000;
+  int max_iterations = 100000;
   std::uint64_t seed = 1;  ///< of the random starts and orders
 };
 
 /// The attempts of a search in their order: first from the stored forces, then `solutions` others: zero,
-/// halved, doubled, three by Gauss-Seidel from zero (two with the contacts shuffled), and random starts.
+/// halved, doubled, two by Gauss-Seidel from zero (one with the contacts shuffled), and random starts of the
+/// three kinds in turn.
 std::vector<ForceAttempt> force_attempts(const ForceSearch& search);
 
 /// The first guess of an attempt, impulses in the order of the contacts of the bed.
@@ -55,6 +57,7 @@ struct ForceSet {
   ContactSolution solution;    ///< impulses and velocities of the step
   double momentum_left = 0.0;  ///< rms velocity that the step gives, over g h: 0 where all is balanced, 1
                                ///< where all fall
+  Index unbalanced = 0;        ///< free grains that get more than a tenth of g h: they are let go
   double distance = 0.0;       ///< || P - P_stored || / || P_stored ||, of all contacts
   std::vector<double> values;  ///< of the quantities
 };

@@ -39,7 +39,7 @@ TEST(Forces, of_a_run_are_compared) {
   EXPECT_EQ(json_value(found.out, "tilt_deg").substr(0, 1), "0");
   EXPECT_GT(std::stod(json_value(found.out, "deviation")), 0.0) << "of Gamma";
   for (const char* name : {"contacts", "threshold_factor", "stored", "mean", "least", "largest", "iterations",
-                           "eta", "converged", "momentum_left", "distance", "values"})
+                           "eta", "converged", "momentum_left", "unbalanced", "distance", "values"})
     EXPECT_NE(found.out.find(std::string("\"") + name + "\": "), std::string::npos) << name;
   EXPECT_EQ(talus(as_json).out, found.out) << "the same seed";
 

@@ -97,6 +97,7 @@ TEST(AdmissibleForces, stored_forces_are_found_again) {
   EXPECT_TRUE(set.report.converged);
   EXPECT_LT(set.distance, 1e-4);
   EXPECT_LT(set.momentum_left, 1e-3);
+  EXPECT_EQ(set.unbalanced, 0);
 }
 
 TEST(AdmissibleForces, every_solution_carries_the_bed) {
@@ -182,13 +183,48 @@ TEST(AdmissibleForces, random_starts_are_feasible_and_follow_from_the_seed) {
   }
 }
 
+TEST(AdmissibleForces, starts_from_the_memory_are_shares_of_it) {
+  const FrozenBed& bed = small_bed();
+  Random random(3);
+  const ContactSolution doubled = first_guess(ForceStart::doubled, bed, random);
+  const ContactSolution scattered = first_guess(ForceStart::scattered, bed, random);
+  double least = 2.0, largest = 0.0;
+  for (std::size_t c = 0; c < doubled.pn.size(); ++c) {
+    const double pn = bed.step.guess.pn[c], pt = bed.step.guess.pt[c];
+    EXPECT_EQ(doubled.pn[c], 2.0 * pn);
+    EXPECT_EQ(doubled.pt[c], 2.0 * pt);
+    if (pn == 0.0) continue;
+    const double factor = scattered.pn[c] / pn;
+    EXPECT_NEAR(scattered.pt[c], factor * pt, 1e-12 * pn);
+    least = std::min(least, factor);
+    largest = std::max(largest, factor);
+  }
+  EXPECT_GE(least, 0.0);
+  EXPECT_LE(largest, 2.0);
+  EXPECT_GT(largest - least, 1.5);
+}
+
+// A grain that nothing holds falls by g h in the step.
+TEST(AdmissibleForces, a_grain_that_is_let_go_is_told) {
+  World world = test::column(2);
+  world.grains.y[1] += 0.5 * test::radius;
+  const StepSettings settings = test::exact_step(SolverKind::accelerated);
+  FrozenBed bed = freeze(std::move(world), settings, mean_diameter);
+  bed.step.guess.pn.assign(1, 1.0);
+  Random random(1);
+  const ForceSet set = find_forces(bed, {ForceStart::zero}, search_for(1), random);
+  EXPECT_EQ(set.unbalanced, 1);
+  EXPECT_NEAR(set.momentum_left, std::sqrt(0.5), 1e-6) << "one of two falls";
+}
+
 TEST(AdmissibleForces, attempts_begin_with_the_stored_forces) {
   const std::vector<ForceAttempt> attempts = force_attempts(search_for(8));
   ASSERT_EQ(attempts.size(), 9u);
   EXPECT_EQ(name_of(attempts[0]), "stored");
   EXPECT_EQ(name_of(attempts[1]), "zero");
   EXPECT_EQ(name_of(attempts[3]), "doubled");
-  EXPECT_EQ(name_of(attempts[6]), "zero, Gauss-Seidel, shuffled");
+  EXPECT_EQ(name_of(attempts[5]), "zero, Gauss-Seidel, shuffled");
+  EXPECT_EQ(name_of(attempts[6]), "scattered");
   EXPECT_EQ(name_of(attempts[7]), "exponential");
   EXPECT_EQ(name_of(attempts[8]), "uniform");
   EXPECT_EQ(force_attempts(search_for(2)).size(), 3u);
