@@ -51,6 +51,7 @@ std::string json_set(const ForceSet& set) {
        {"iterations", number(set.report.iterations)},
        {"eta", number(set.report.residual.eta)},
        {"converged", json::truth(set.report.converged)},
+       {"admissible", json::truth(set.admissible())},
        {"momentum_left", number(set.momentum_left)},
        {"unbalanced", number(set.unbalanced)},
        {"distance", number(set.distance)},
@@ -92,14 +93,18 @@ std::string title(const ForceQuantity& quantity) {
   return text;
 }
 
+const char* verdict_of(const ForceSet& set) {
+  if (set.admissible()) return "";
+  return set.report.converged ? "  lets grains go, not counted" : "  not converged, not counted";
+}
+
 void print_sets(const FrameForces& forces) {
   std::printf("  %-28s %10s %9s %9s %10s %9s %8s %8s %8s\n", "start", "iterations", "eta", "momentum",
               "unbalanced", "distance", "Gamma", "p_o", "lc_mean");
   for (const ForceSet& set : forces.sets)
     std::printf("  %-28s %10d %9.1e %9.1e %10d %9.3f %8.4f %8.4f %8.3f%s\n", name_of(set.attempt).c_str(),
                 set.report.iterations, set.report.residual.eta, set.momentum_left, set.unbalanced,
-                set.distance, set.values[0], set.values[2], set.values[3],
-                set.report.converged ? "" : "  not converged, not counted");
+                set.distance, set.values[0], set.values[2], set.values[3], verdict_of(set));
 }
 
 void print_spreads(const FrameForces& forces) {
@@ -113,8 +118,9 @@ void print_spreads(const FrameForces& forces) {
 }
 
 void print_frame(const FrameForces& forces, std::size_t k, const ForceSearch& search) {
-  std::printf("frame %zu at %.3f deg, %d contacts: %d of %d other solutions reach eta %.1e\n", k,
-              degrees(forces.tilt), forces.contacts, forces.admissible(), search.solutions, search.tolerance);
+  std::printf("frame %zu at %.3f deg, %d contacts: %d of %d other sets of forces are admissible (eta %.1e)\n",
+              k, degrees(forces.tilt), forces.contacts, forces.admissible(), search.solutions,
+              search.tolerance);
   print_sets(forces);
   std::printf("\n");
   print_spreads(forces);
@@ -140,7 +146,7 @@ void compare(const ForcesArguments& arguments) {
 void add_search(CLI::App& command, ForceSearch& search) {
   command
       .add_option("--solutions", search.solutions,
-                  "How many solutions to look for, beside the one from the stored forces")
+                  "How many sets of forces to look for, beside the one from the stored forces")
       ->capture_default_str()
       ->check(CLI::Range(1, 10000));
   command.add_option("--tol", search.tolerance, "Natural-map residual eta that all of them must reach")
@@ -174,9 +180,12 @@ void add_forces_command(CLI::App& app) {
       ->allow_extra_args(false);
   command->add_flag("--json", arguments->json, "As a JSON list with one object for each frame");
   command->footer(
-      "The grains of each frame are held where they are, and the forces of one step from rest are computed "
-      "from\nmany first guesses. A solution that does not converge is reported and not counted. The run file "
-      "is not changed.\nExample: talus forces runs/slope.h5 --at 0,10,15 --solutions 40");
+      "The grains of each frame are held where they are, and forces that carry them are looked for from "
+      "many\n"
+      "first guesses. A set of forces that does not converge, or lets a grain go, is reported and not "
+      "counted.\n"
+      "The run file is not changed (see docs/admissible_forces.md).\n"
+      "Example: talus forces runs/slope.h5 --at 0,10,15 --solutions 40");
   command->callback([arguments] { compare(*arguments); });
 }
 

@@ -11,6 +11,7 @@
 #include "session/analysis_run.h"
 #include "session/measure.h"
 #include "session/study_statistics.h"
+#include "solver/balance.h"
 
 namespace talus {
 namespace {
@@ -82,14 +83,13 @@ std::vector<std::size_t> random_order(std::size_t count, Random& random) {
 }
 
 SolverReport solve_shuffled(const ContactProblem& problem, const SolverSettings& settings, Random& random,
-                            ContactSolution& solution) {
+                            SolverWorkspace& workspace, ContactSolution& solution) {
   const std::vector<std::size_t> order = random_order(solution.pn.size(), random);
   ContactSolution shuffled = solution;
   for (std::size_t c = 0; c < order.size(); ++c) {
     shuffled.pn[c] = solution.pn[order[c]];
     shuffled.pt[c] = solution.pt[order[c]];
   }
-  SolverWorkspace workspace;
   const SolverReport report = solve(reordered(problem, order), settings, workspace, shuffled);
   solution.vx = shuffled.vx;
   solution.vy = shuffled.vy;
@@ -99,6 +99,19 @@ SolverReport solve_shuffled(const ContactProblem& problem, const SolverSettings&
     solution.pt[order[c]] = shuffled.pt[c];
   }
   return report;
+}
+
+SolverReport search_on(const ContactProblem& problem, ForceMethod method, const ForceSearch& search,
+                       Random& random, ContactSolution& solution) {
+  if (method == ForceMethod::balance)
+    return balance(problem, search.tolerance, search.max_iterations, solution);
+  SolverSettings settings;
+  settings.tolerance = search.tolerance;
+  settings.max_iterations = search.max_iterations;
+  SolverWorkspace workspace;
+  if (method == ForceMethod::contact_dynamics) return solve(problem, settings, workspace, solution);
+  settings.kind = SolverKind::gauss_seidel;
+  return solve_shuffled(problem, settings, random, workspace, solution);
 }
 
 /// Free grains with a velocity above `limit`, m/s.
@@ -166,7 +179,7 @@ class Measurement {
 ForceSpread spread_of(std::size_t quantity, const std::vector<ForceSet>& sets) {
   std::vector<double> values;
   for (std::size_t s = 1; s < sets.size(); ++s)
-    if (sets[s].report.converged && !std::isnan(sets[s].values[quantity]))
+    if (sets[s].admissible() && !std::isnan(sets[s].values[quantity]))
       values.push_back(sets[s].values[quantity]);
   const MeanError found = mean_error(values);
   ForceSpread spread{found.count, found.mean, found.error * std::sqrt(static_cast<double>(found.count)), none,
@@ -182,18 +195,20 @@ ForceSpread spread_of(std::size_t quantity, const std::vector<ForceSet>& sets) {
 
 std::string name_of(const ForceAttempt& attempt) {
   const char* const starts[] = {"stored", "zero", "halved", "doubled", "scattered", "exponential", "uniform"};
-  std::string name = starts[static_cast<std::size_t>(attempt.start)];
-  if (attempt.method == SolverKind::gauss_seidel) name += ", Gauss-Seidel";
-  return attempt.shuffled ? name + ", shuffled" : name;
+  const char* const methods[] = {"", ", contact dynamics", ", shuffled sweeps"};
+  return std::string(starts[static_cast<std::size_t>(attempt.start)]) +
+         methods[static_cast<std::size_t>(attempt.method)];
 }
 
 std::vector<ForceAttempt> force_attempts(const ForceSearch& search) {
-  constexpr SolverKind sweeps = SolverKind::gauss_seidel;
   constexpr ForceStart random_starts[] = {ForceStart::scattered, ForceStart::exponential,
                                           ForceStart::uniform};
-  std::vector<ForceAttempt> attempts = {{ForceStart::stored},       {ForceStart::zero},
-                                        {ForceStart::halved},       {ForceStart::doubled},
-                                        {ForceStart::zero, sweeps}, {ForceStart::zero, sweeps, true}};
+  std::vector<ForceAttempt> attempts = {{ForceStart::stored, ForceMethod::contact_dynamics},
+                                        {ForceStart::zero},
+                                        {ForceStart::halved},
+                                        {ForceStart::doubled},
+                                        {ForceStart::zero, ForceMethod::contact_dynamics},
+                                        {ForceStart::zero, ForceMethod::shuffled_sweeps}};
   const auto count = static_cast<std::size_t>(search.solutions) + 1;
   while (attempts.size() < count) attempts.push_back({random_starts[attempts.size() % 3]});
   attempts.resize(count);
@@ -202,10 +217,11 @@ std::vector<ForceAttempt> force_attempts(const ForceSearch& search) {
 
 ContactSolution first_guess(ForceStart start, const FrozenBed& bed, Random& random) {
   ContactSolution guess = bed.step.guess;
-  const double mean = mean_normal_impulse(guess);
   const ContactProblem& problem = bed.step.problem;
+  const bool from_memory = start != ForceStart::exponential && start != ForceStart::uniform;
+  const double mean = from_memory ? 0.0 : mean_normal_impulse(guess) * random.uniform(0.0, 2.0);
   for (std::size_t c = 0; c < guess.pn.size(); ++c) {
-    if (start != ForceStart::exponential && start != ForceStart::uniform) {
+    if (from_memory) {
       const double factor = factor_of_memory(start, random);
       guess.pn[c] *= factor;
       guess.pt[c] *= factor;
@@ -224,13 +240,7 @@ ForceSet find_forces(const FrozenBed& bed, const ForceAttempt& attempt, const Fo
   ForceSet found;
   found.attempt = attempt;
   found.solution = first_guess(attempt.start, bed, random);
-  SolverSettings settings;
-  settings.kind = attempt.method;
-  settings.tolerance = search.tolerance;
-  settings.max_iterations = search.max_iterations;
-  SolverWorkspace workspace;
-  found.report = attempt.shuffled ? solve_shuffled(bed.step.problem, settings, random, found.solution)
-                                  : solve(bed.step.problem, settings, workspace, found.solution);
+  found.report = search_on(bed.step.problem, attempt.method, search, random, found.solution);
   const double fall = bed.step.scales.gravity * bed.step.scales.h;
   found.momentum_left = rms_velocity(loaded_world(bed, found.solution).grains) / fall;
   found.unbalanced = count_faster(found.solution, bed.world.grains.free_count, 0.1 * fall);
@@ -253,7 +263,7 @@ World loaded_world(const FrozenBed& bed, const ContactSolution& solution) {
 
 int FrameForces::admissible() const {
   return static_cast<int>(
-      std::count_if(sets.begin() + 1, sets.end(), [](const ForceSet& set) { return set.report.converged; }));
+      std::count_if(sets.begin() + 1, sets.end(), [](const ForceSet& set) { return set.admissible(); }));
 }
 
 FrameForces admissible_forces(const FrozenBed& bed, const Frame& stored, const RunStatics& statics,

@@ -1,7 +1,7 @@
 #pragma once
 /// Which forces can carry a bed whose grains are held where they are? A frictional packing with more contacts
-/// than it needs has many admissible sets of them (Moreau 1988; Radjai and Richefeu 2009). Here they are
-/// looked for from many first guesses, and what is measured of each set is compared.
+/// than it needs has many admissible sets of them. Here they are looked for from many first guesses, and what
+/// is measured of each set is compared (docs/admissible_forces.md).
 
 #include <cstdint>
 #include <string>
@@ -13,8 +13,9 @@
 
 namespace talus {
 
-/// The forces from which a solver starts. Random ones are feasible: they act on closed contacts only, with a
-/// normal force of the mean of the remembered ones on average, and |f_t| uniform up to mu f_n.
+/// The forces from which a search starts. Random ones act on closed contacts only; the mean of their normal
+/// forces is that of the remembered ones times a random number between 0 and 2, and |f_t| is uniform up to
+/// mu f_n.
 enum class ForceStart {
   stored,       ///< the memory of the bed itself
   zero,         ///< none
@@ -25,32 +26,38 @@ enum class ForceStart {
   uniform,      ///< f_n uniform between zero and twice the mean
 };
 
+/// How a search goes on from there.
+enum class ForceMethod {
+  balance,           ///< to forces near the start that hold all grains (solver/balance.h)
+  contact_dynamics,  ///< the accelerated solver of runs: what a step without memory would do
+  shuffled_sweeps,   ///< nonlinear Gauss-Seidel, the contacts in a random order
+};
+
 /// One way to a set of forces.
 struct ForceAttempt {
   ForceStart start = ForceStart::stored;
-  SolverKind method = SolverKind::accelerated;
-  bool shuffled = false;  ///< contacts in a random order; of the Gauss-Seidel method only
+  ForceMethod method = ForceMethod::balance;
 };
 
-/// "zero", "zero, Gauss-Seidel, shuffled"
+/// "zero", "zero, shuffled sweeps"
 std::string name_of(const ForceAttempt& attempt);
 
 struct ForceSearch {
   int solutions = 20;       ///< others than the one from the stored forces
   double tolerance = 3e-7;  ///< natural-map residual eta to reach
-  int max_iterations = 100000;
+  int max_iterations = 20000;
   std::uint64_t seed = 1;  ///< of the random starts and orders
 };
 
-/// The attempts of a search in their order: first from the stored forces, then `solutions` others: zero,
-/// halved, doubled, two by Gauss-Seidel from zero (one with the contacts shuffled), and random starts of the
-/// three kinds in turn.
+/// The attempts of a search in their order: first from the stored forces, by contact dynamics. Then
+/// `solutions` others: zero, halved and doubled by balance, zero by the two other methods, and random starts
+/// of the three kinds in turn, by balance.
 std::vector<ForceAttempt> force_attempts(const ForceSearch& search);
 
 /// The first guess of an attempt, impulses in the order of the contacts of the bed.
 ContactSolution first_guess(ForceStart start, const FrozenBed& bed, Random& random);
 
-/// Forces that were found; admissible where the solver has converged.
+/// Forces that were found.
 struct ForceSet {
   ForceAttempt attempt;
   SolverReport report;
@@ -60,6 +67,9 @@ struct ForceSet {
   Index unbalanced = 0;        ///< free grains that get more than a tenth of g h: they are let go
   double distance = 0.0;       ///< || P - P_stored || / || P_stored ||, of all contacts
   std::vector<double> values;  ///< of the quantities
+
+  /// Whether these forces hold all grains where they are, by Coulomb's law.
+  bool admissible() const { return report.converged && unbalanced == 0; }
 };
 ForceSet find_forces(const FrozenBed& bed, const ForceAttempt& attempt, const ForceSearch& search,
                      Random& random);

@@ -139,7 +139,9 @@ StepProblem problem_after_frame(const RunFile& run, std::size_t k) {
   return form_step(start.world, start.settings, start.closed_below, start.mean_diameter, contacts);
 }
 
-FrozenBed freeze(World world, const StepSettings& settings, double mean_diameter, double closed_below) {
+FrozenBed freeze(World world, const StepSettings& settings, double mean_diameter) {
+  const double closed_at_rest = 0.01 * world.gravity * settings.h * settings.h;
+  const double closed_below = std::max(gap_resolution(world), closed_at_rest);
   for (auto* velocity : {&world.grains.vx, &world.grains.vy, &world.grains.omega})
     std::ranges::fill(*velocity, 0.0);
   FrozenBed bed;
@@ -152,7 +154,7 @@ FrozenBed freeze(World world, const StepSettings& settings, double mean_diameter
 
 FrozenBed frozen_frame(const RunFile& run, std::size_t k) {
   FrameStart start = start_at_frame(run, k);
-  return freeze(std::move(start.world), start.settings, start.mean_diameter, start.closed_below);
+  return freeze(std::move(start.world), start.settings, start.mean_diameter);
 }
 
 double carried_weight(const StepProblem& step, const ContactSolution& solution) {

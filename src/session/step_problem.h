@@ -39,10 +39,11 @@ struct FrozenBed {
   StepProblem step;  ///< of one step from rest; its guess is what is remembered
 };
 
-/// Freezes a world. A remembered contact with a gap up to `closed_below` (m) is taken as closed.
-FrozenBed freeze(World world, const StepSettings& settings, double mean_diameter, double closed_below = 0.0);
+/// Freezes a world. A remembered contact is taken as closed where its gap is within rounding (above), or is
+/// one that a bed at rest, with a hundredth of g h, closes in a step.
+FrozenBed freeze(World world, const StepSettings& settings, double mean_diameter);
 
-/// Frame k of a run frozen at its tilt, with the friction in force. Rounding and errors as above.
+/// Frame k of a run frozen at its tilt, with the friction in force. Errors as above.
 FrozenBed frozen_frame(const RunFile& run, std::size_t k);
 
 /// Share of the weight that the bodies which do not move carry: the sum of their forces against gravity over
