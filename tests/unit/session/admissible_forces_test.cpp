@@ -221,6 +221,34 @@ TEST(AdmissibleForces, a_grain_that_is_let_go_is_told) {
   EXPECT_FALSE(set.admissible());
 }
 
+TEST(AdmissibleForces, open_contacts_carry_nothing) {
+  World world = test::column(2);
+  world.grains.y[1] += 0.001 * test::radius;  // a candidate contact, open
+  FrozenBed bed = freeze(std::move(world), test::exact_step(SolverKind::accelerated), mean_diameter);
+  ASSERT_EQ(bed.step.problem.contact_count(), 2);
+  bed.step.guess.pn.assign(2, 1e-3);
+  Random random(1);
+  for (const ForceStart start : {ForceStart::doubled, ForceStart::uniform}) {
+    const ForceSet set = find_forces(bed, {start}, search_for(1), random);
+    for (std::size_t c = 0; c < 2; ++c)
+      EXPECT_EQ(set.solution.pn[c] > 0.0, bed.step.problem.cn[c] <= 0.0) << "contact " << c;
+    EXPECT_EQ(set.unbalanced, 1);
+    EXPECT_FALSE(set.admissible());
+  }
+}
+
+TEST(AdmissibleForces, a_frozen_bed_stands_still) {
+  World world = test::disk_on_plane(0.2);
+  world.grains.vx[0] = world.grains.vy[0] = world.grains.omega[0] = 1.0;
+  const StepSettings settings = test::exact_step(SolverKind::accelerated);
+  const FrozenBed bed = freeze(world, settings, mean_diameter);
+  EXPECT_EQ(bed.world.grains.x, world.grains.x);
+  EXPECT_EQ(bed.world.grains.vx[0], 0.0);
+  EXPECT_DOUBLE_EQ(bed.step.problem.vx[0], world.gravity * std::sin(0.2) * settings.h);
+  EXPECT_DOUBLE_EQ(bed.step.problem.vy[0], -world.gravity * std::cos(0.2) * settings.h);
+  EXPECT_EQ(bed.step.problem.omega[0], 0.0);
+}
+
 TEST(AdmissibleForces, attempts_begin_with_the_stored_forces) {
   const std::vector<ForceAttempt> attempts = force_attempts(search_for(8));
   ASSERT_EQ(attempts.size(), 9u);
