@@ -112,6 +112,10 @@ void print_spreads(const FrameForces& forces) {
               "largest");
   for (std::size_t q = 0; q < forces.quantities.size(); ++q) {
     const ForceSpread& spread = forces.spreads[q];
+    if (spread.count == 0) {
+      std::printf("  %-30s %10.5f       none\n", title(forces.quantities[q]).c_str(), forces.stored[q]);
+      continue;
+    }
     std::printf("  %-30s %10.5f %10.5f %10.5f %10.5f %10.5f\n", title(forces.quantities[q]).c_str(),
                 forces.stored[q], spread.mean, spread.deviation, spread.least, spread.largest);
   }
