@@ -49,12 +49,15 @@ void leave_out_poorly_held(int min_contacts, Index free_count, Frame& frame) {
 
 }  // namespace
 
-Frame analysed_frame(const RunFile& run, const AnalysisParameters& parameters, std::size_t k) {
-  const RunStatics& statics = run.header().statics;
-  Frame frame = run.frame(k);
-  if (parameters.averaging > 0.0) average_moments(run, 0.5 * radians(parameters.averaging), k, frame);
+Frame with_analysed_gamma(Frame frame, const RunStatics& statics, const AnalysisParameters& parameters) {
   if (parameters.min_contacts > 1) leave_out_poorly_held(parameters.min_contacts, statics.free_count, frame);
   return with_gamma_of_neighbourhoods(std::move(frame), statics, parameters.l_min * statics.mean_diameter);
+}
+
+Frame analysed_frame(const RunFile& run, const AnalysisParameters& parameters, std::size_t k) {
+  Frame frame = run.frame(k);
+  if (parameters.averaging > 0.0) average_moments(run, 0.5 * radians(parameters.averaging), k, frame);
+  return with_analysed_gamma(std::move(frame), run.header().statics, parameters);
 }
 
 }  // namespace talus

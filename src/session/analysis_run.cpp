@@ -18,35 +18,6 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-/// With its thresholds and all that does not depend on frames.
-Analysis begin_analysis(const RunFile& run, const AnalysisParameters& parameters) {
-  const RunStatics& statics = run.header().statics;
-  const double theta_c = find_value(run.checkpoint().results, "theta_c").value_or(none);
-  const double gamma_c = parameters.gamma_c.value_or(std::isnan(theta_c) ? none : sine(theta_c));
-  const std::size_t factors = std::isnan(gamma_c) ? 0 : parameters.threshold_factors.size();
-  Analysis analysis = make_analysis({{'T', run.frame_count()},
-                                     {'N', statics.radius.size()},
-                                     {'F', factors},
-                                     {'X', parameters.sections},
-                                     {'B', parameters.bins}});
-  analysis.key = analysis_key(run, parameters);
-  analysis.parameters = as_facts(parameters);
-  values<double>(analysis, "theta_c")[0] = theta_c;
-  values<double>(analysis, "gamma_c")[0] = gamma_c;
-  const double cut = parameters.lc_cut ? *parameters.lc_cut * statics.mean_diameter
-                                       : std::min(statics.depth, 0.5 * statics.length);
-  values<double>(analysis, "lc/cut")[0] = std::max(parameters.l_min * statics.mean_diameter,
-                                                   statics.periodic ? std::min(cut, statics.length) : cut);
-  for (std::size_t f = 0; f < factors; ++f) {
-    values<double>(analysis, "threshold_factor")[f] = parameters.threshold_factors[f];
-    values<double>(analysis, "threshold")[f] = parameters.threshold_factors[f] * gamma_c;
-    values<double>(analysis, "lc/end_ratio")[f] =
-        parameters.lc_factor.value_or(parameters.threshold_factors[f]) * gamma_c;
-  }
-  set_axes(statics, parameters, analysis);
-  return analysis;
-}
-
 /// Frames are handed out one at a time: HDF5 reads for one thread only.
 void analyse_frames(const RunFile& run, const AnalysisParameters& parameters, int threads,
                     const AnalysisProgress& progress, Analysis& analysis) {
@@ -130,11 +101,39 @@ std::string analysis_key(const RunFile& run, const AnalysisParameters& parameter
   return hash_text(hash_bytes(std::as_bytes(std::span(text))));
 }
 
+Analysis begin_analysis(const RunStatics& statics, const AnalysisParameters& parameters, double theta_c,
+                        std::size_t frames) {
+  const double gamma_c = parameters.gamma_c.value_or(std::isnan(theta_c) ? none : sine(theta_c));
+  const std::size_t factors = std::isnan(gamma_c) ? 0 : parameters.threshold_factors.size();
+  Analysis analysis = make_analysis({{'T', frames},
+                                     {'N', statics.radius.size()},
+                                     {'F', factors},
+                                     {'X', parameters.sections},
+                                     {'B', parameters.bins}});
+  analysis.parameters = as_facts(parameters);
+  values<double>(analysis, "theta_c")[0] = theta_c;
+  values<double>(analysis, "gamma_c")[0] = gamma_c;
+  const double cut = parameters.lc_cut ? *parameters.lc_cut * statics.mean_diameter
+                                       : std::min(statics.depth, 0.5 * statics.length);
+  values<double>(analysis, "lc/cut")[0] = std::max(parameters.l_min * statics.mean_diameter,
+                                                   statics.periodic ? std::min(cut, statics.length) : cut);
+  for (std::size_t f = 0; f < factors; ++f) {
+    values<double>(analysis, "threshold_factor")[f] = parameters.threshold_factors[f];
+    values<double>(analysis, "threshold")[f] = parameters.threshold_factors[f] * gamma_c;
+    values<double>(analysis, "lc/end_ratio")[f] =
+        parameters.lc_factor.value_or(parameters.threshold_factors[f]) * gamma_c;
+  }
+  set_axes(statics, parameters, analysis);
+  return analysis;
+}
+
 Analysis analyse_run(const RunFile& run, const AnalysisParameters& parameters, int threads,
                      const AnalysisProgress& progress) {
   if (run.frame_count() == 0)
     throw Error(ExitCode::bad_data, "the run has no frames: its bed has not been tilted yet; let it go on");
-  Analysis analysis = begin_analysis(run, parameters);
+  const double theta_c = find_value(run.checkpoint().results, "theta_c").value_or(none);
+  Analysis analysis = begin_analysis(run.header().statics, parameters, theta_c, run.frame_count());
+  analysis.key = analysis_key(run, parameters);
   analyse_frames(run, parameters, threads, progress, analysis);
   const std::vector<ObservableRow> rows = run.observables();
   take_observables(rows, run.frame_tilts(), analysis);

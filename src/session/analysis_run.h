@@ -14,6 +14,12 @@ namespace talus {
 /// parameters and analysis_version, 16 hexadecimal digits.
 std::string analysis_key(const RunFile& run, const AnalysisParameters& parameters);
 
+/// An analysis of `frames` frames with its parameters, thresholds and axes set, and no frame yet. `theta_c`
+/// in rad, NaN where the slope has not failed; without it and without gamma_c there are no thresholds (F =
+/// 0).
+Analysis begin_analysis(const RunStatics& statics, const AnalysisParameters& parameters, double theta_c,
+                        std::size_t frames);
+
 /// Called after each frame with the number of frames that are done; may be empty.
 using AnalysisProgress = std::function<void(std::size_t done)>;
 

@@ -1,7 +1,9 @@
 #include "session/step_problem.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "core/errors.h"
 #include "core/trigonometry.h"
@@ -67,6 +69,46 @@ double next_tilt(double tilt, const Scenario& scenario, const InForce& now) {
   return static_cast<double>(std::llround(tilt / step_angle) + 1) * step_angle;
 }
 
+/// The problem of the next step of a world, whose grains are moved to the midpoint; `contacts` become its
+/// contacts with what is remembered.
+StepProblem form_step(World& world, const StepSettings& settings, double closed_below, double mean_diameter,
+                      Contacts& contacts) {
+  StepWorkspace workspace;
+  form_problem(world, settings, workspace);
+  if (closed_below > 0.0) {
+    close_remembered_contacts(closed_below, workspace.contacts);
+    assemble(world, workspace.contacts, settings.law, settings.h, workspace.problem);
+  }
+  StepProblem step;
+  step.problem = std::move(workspace.problem);
+  step.guess = std::move(workspace.solution);
+  velocities_from_impulses(step.problem, step.guess);
+  step.scales = {settings.h, world.gravity, world.tilt, mean_diameter, weight(world)};
+  contacts = std::move(workspace.contacts);
+  return step;
+}
+
+/// A frame as the start of a step.
+struct FrameStart {
+  World world;
+  StepSettings settings;
+  double mean_diameter = 0.0;  ///< m
+  double closed_below = 0.0;   ///< m; 0 where positions are not rounded
+  double next_tilt = 0.0;      ///< rad
+};
+FrameStart start_at_frame(const RunFile& run, std::size_t k) {
+  const Scenario scenario = stored_scenario(run.header(), "/parameters/scenario_resolved");
+  FrameStart start;
+  start.world = world_at_frame(run, k);
+  const InForce now = in_force(run, scenario, start.world.step);
+  start.settings = step_settings(scenario);
+  start.settings.law.friction = now.friction;
+  start.mean_diameter = scenario.grains.mean_diameter;
+  if (start.world.step != run.checkpoint().world.step) start.closed_below = gap_resolution(start.world);
+  start.next_tilt = next_tilt(start.world.tilt, scenario, now);
+  return start;
+}
+
 }  // namespace
 
 World world_at_frame(const RunFile& run, std::size_t k) {
@@ -91,26 +133,28 @@ World world_at_frame(const RunFile& run, std::size_t k) {
 }
 
 StepProblem problem_after_frame(const RunFile& run, std::size_t k) {
-  const Scenario scenario = stored_scenario(run.header(), "/parameters/scenario_resolved");
-  World world = world_at_frame(run, k);
-  const bool rounded = world.step != run.checkpoint().world.step;
-  const InForce now = in_force(run, scenario, world.step);
-  world.tilt = next_tilt(world.tilt, scenario, now);
+  FrameStart start = start_at_frame(run, k);
+  start.world.tilt = start.next_tilt;
+  Contacts contacts;
+  return form_step(start.world, start.settings, start.closed_below, start.mean_diameter, contacts);
+}
 
-  StepSettings settings = step_settings(scenario);
-  settings.law.friction = now.friction;
-  StepWorkspace workspace;
-  form_problem(world, settings, workspace);
-  if (rounded) {
-    close_remembered_contacts(gap_resolution(world), workspace.contacts);
-    assemble(world, workspace.contacts, settings.law, settings.h, workspace.problem);
-  }
-  StepProblem step;
-  step.problem = std::move(workspace.problem);
-  step.guess = std::move(workspace.solution);
-  velocities_from_impulses(step.problem, step.guess);
-  step.scales = {settings.h, world.gravity, world.tilt, scenario.grains.mean_diameter, weight(world)};
-  return step;
+FrozenBed freeze(World world, const StepSettings& settings, double mean_diameter) {
+  const double closed_at_rest = 0.01 * world.gravity * settings.h * settings.h;
+  const double closed_below = std::max(gap_resolution(world), closed_at_rest);
+  for (auto* velocity : {&world.grains.vx, &world.grains.vy, &world.grains.omega})
+    std::ranges::fill(*velocity, 0.0);
+  FrozenBed bed;
+  bed.law = settings.law;
+  bed.step = form_step(world, settings, closed_below, mean_diameter, bed.world.contacts);
+  std::swap(world.contacts, bed.world.contacts);
+  bed.world = std::move(world);
+  return bed;
+}
+
+FrozenBed frozen_frame(const RunFile& run, std::size_t k) {
+  FrameStart start = start_at_frame(run, k);
+  return freeze(std::move(start.world), start.settings, start.mean_diameter);
 }
 
 double carried_weight(const StepProblem& step, const ContactSolution& solution) {

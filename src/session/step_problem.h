@@ -32,6 +32,20 @@ World world_at_frame(const RunFile& run, std::size_t k);
 /// cannot be accepted.
 StepProblem problem_after_frame(const RunFile& run, std::size_t k);
 
+/// A bed with its grains held where they are: which forces can carry it there?
+struct FrozenBed {
+  World world;  ///< velocities are zero; its contacts are those of the problem, with the remembered forces
+  ContactLawParameters law;
+  StepProblem step;  ///< of one step from rest; its guess is what is remembered
+};
+
+/// Freezes a world. A remembered contact is taken as closed where its gap is within rounding (above), or is
+/// one that a bed at rest, with a hundredth of g h, closes in a step.
+FrozenBed freeze(World world, const StepSettings& settings, double mean_diameter);
+
+/// Frame k of a run frozen at its tilt, with the friction in force. Errors as above.
+FrozenBed frozen_frame(const RunFile& run, std::size_t k);
+
 /// Share of the weight that the bodies which do not move carry: the sum of their forces against gravity over
 /// the weight of the free grains. 1 for a bed at rest.
 double carried_weight(const StepProblem& step, const ContactSolution& solution);

@@ -94,6 +94,11 @@ TEST(ViewPage, commands_and_options_exist) {
             2);
 }
 
+TEST(ForcesPage, commands_and_options_exist) {
+  ASSERT_GT(commands("docs/admissible_forces.md").size(), 1u);
+  EXPECT_GT(check_page("docs/admissible_forces.md", {"forces_command"}), 3);
+}
+
 TEST(ViewPage, lists_the_keys_of_the_window) {
   const std::string page = text_of("docs/view.md"), keys = text_of("src/gui/keys.cpp");
   const std::string table = page.substr(page.find("| key |"));

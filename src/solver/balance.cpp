@@ -1,0 +1,137 @@
+#include "solver/balance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace talus {
+namespace {
+
+/// The problem without demands of velocities; contacts that are open stay so.
+ContactProblem without_demands(ContactProblem problem) {
+  for (double& cn : problem.cn) cn = std::max(cn, 0.0);
+  std::ranges::fill(problem.ct, 0.0);
+  return problem;
+}
+
+std::vector<DelassusDiagonal> diagonals(const ContactProblem& problem) {
+  std::vector<DelassusDiagonal> w;
+  for (Index c = 0; c < problem.contact_count(); ++c) w.push_back(delassus_diagonal(problem, c));
+  return w;
+}
+
+/// The largest eigenvalue of D^-1 W from below, by power iteration; D is the diagonal of W.
+double largest_eigenvalue(ContactProblem problem, const std::vector<DelassusDiagonal>& w,
+                          ContactSolution vector) {
+  constexpr int iterations = 60;
+  for (auto* field : {&problem.vx, &problem.vy, &problem.omega, &problem.cn}) std::ranges::fill(*field, 0.0);
+  // Signs that alternate between contacts, so that the start is far from any smooth mode.
+  for (std::size_t c = 0; c < w.size(); ++c) vector.pn[c] = vector.pt[c] = c % 2 == 0 ? 1.0 : -1.0;
+  double norm = 1.0;
+  for (int k = 0; k < iterations; ++k) {
+    velocities_from_impulses(problem, vector);
+    double square = 0.0, before = 0.0;
+    for (std::size_t c = 0; c < w.size(); ++c) {
+      const RelativeVelocity u = relative_velocity(problem, vector, static_cast<Index>(c));
+      before += vector.pn[c] * vector.pn[c] + vector.pt[c] * vector.pt[c];
+      vector.pn[c] = u.normal / w[c].normal;
+      vector.pt[c] = u.tangential / w[c].tangential;
+      square += vector.pn[c] * vector.pn[c] + vector.pt[c] * vector.pt[c];
+    }
+    norm = std::sqrt(square / before);
+    for (auto* field : {&vector.pn, &vector.pt})
+      for (double& value : *field) value /= std::sqrt(square);
+  }
+  return norm;
+}
+
+/// The point of the cone |P_t| <= mu P_n nearest to (pn, pt), where tangential lengths count `stretch` times.
+void project(double mu, double stretch, double& pn, double& pt) {
+  const double slope = mu * stretch, side = std::fabs(pt) * stretch;
+  if (side <= slope * pn) return;
+  const double along = (pn + slope * side) / (1.0 + slope * slope);
+  pn = std::max(along, 0.0);
+  pt = std::copysign(mu * pn, pt);
+}
+
+/// One step down the gradient from `at`, whose velocities are set, into the cones; `next` gets impulses only.
+void descend(const ContactProblem& problem, const std::vector<DelassusDiagonal>& w, double step,
+             const ContactSolution& at, ContactSolution& next) {
+  for (std::size_t c = 0; c < w.size(); ++c) {
+    next.pn[c] = next.pt[c] = 0.0;
+    if (problem.cn[c] > 0.0) continue;
+    const RelativeVelocity u = relative_velocity(problem, at, static_cast<Index>(c));
+    next.pn[c] = at.pn[c] - step * u.normal / w[c].normal;
+    next.pt[c] = at.pt[c] - step * u.tangential / w[c].tangential;
+    project(problem.mu[c], std::sqrt(w[c].tangential / w[c].normal), next.pn[c], next.pt[c]);
+  }
+}
+
+/// Whether the step from `at` to `next` turns against the way from `last` to `next`: momentum that goes
+/// uphill.
+bool uphill(const std::vector<DelassusDiagonal>& w, const ContactSolution& last, const ContactSolution& at,
+            const ContactSolution& next) {
+  double product = 0.0;
+  for (std::size_t c = 0; c < w.size(); ++c)
+    product += w[c].normal * (at.pn[c] - next.pn[c]) * (next.pn[c] - last.pn[c]) +
+               w[c].tangential * (at.pt[c] - next.pt[c]) * (next.pt[c] - last.pt[c]);
+  return product > 0.0;
+}
+
+/// The measure of residual.h with the step of above: what one exact step of each contact would change.
+/// `scratch` is memory to work in.
+Residual residual_of(const ContactProblem& problem, const std::vector<DelassusDiagonal>& w,
+                     const ContactSolution& solution, ContactSolution& scratch) {
+  descend(problem, w, 1.0, solution, scratch);
+  double change = 0.0, largest = 0.0, impulse = 0.0, impulse_after = 0.0;
+  for (std::size_t c = 0; c < w.size(); ++c) {
+    const double dn = scratch.pn[c] - solution.pn[c], dt = scratch.pt[c] - solution.pt[c];
+    change += dn * dn + dt * dt;
+    largest = std::max(largest, dn * dn + dt * dt);
+    impulse += solution.pn[c] * solution.pn[c] + solution.pt[c] * solution.pt[c];
+    impulse_after += scratch.pn[c] * scratch.pn[c] + scratch.pt[c] * scratch.pt[c];
+  }
+  const double scale = impulse > 0.0 ? impulse : impulse_after;
+  if (!(scale > 0.0)) return {};
+  return {std::sqrt(change / scale), std::sqrt(largest / scale)};
+}
+
+void extrapolate(double momentum, const ContactSolution& last, const ContactSolution& next,
+                 ContactSolution& at) {
+  for (std::size_t c = 0; c < at.pn.size(); ++c) {
+    at.pn[c] = next.pn[c] + momentum * (next.pn[c] - last.pn[c]);
+    at.pt[c] = next.pt[c] + momentum * (next.pt[c] - last.pt[c]);
+  }
+}
+
+}  // namespace
+
+SolverReport balance(const ContactProblem& problem, double tolerance, int max_iterations,
+                     ContactSolution& solution) {
+  constexpr int passes_between_checks = 20;
+  const ContactProblem still = without_demands(problem);
+  const std::vector<DelassusDiagonal> w = diagonals(still);
+  const double step = 0.9 / largest_eigenvalue(still, w, solution);
+  SolverReport report;
+  ContactSolution at = solution, next = solution;
+  double t = 1.0;
+  for (;; ++report.iterations) {
+    if (report.iterations % passes_between_checks == 0 || report.iterations >= max_iterations) {
+      velocities_from_impulses(still, solution);
+      report.residual = residual_of(still, w, solution, next);
+      if (report.residual.eta <= tolerance || report.iterations >= max_iterations) break;
+    }
+    velocities_from_impulses(still, at);
+    descend(still, w, step, at, next);
+    if (uphill(w, solution, at, next)) t = 1.0;
+    const double t_next = 0.5 * (1.0 + std::sqrt(1.0 + 4.0 * t * t));
+    extrapolate((t - 1.0) / t_next, solution, next, at);
+    std::swap(solution.pn, next.pn);
+    std::swap(solution.pt, next.pt);
+    t = t_next;
+  }
+  report.converged = report.residual.eta <= tolerance;
+  return report;
+}
+
+}  // namespace talus
