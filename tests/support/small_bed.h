@@ -5,7 +5,8 @@
 
 namespace talus::test {
 
-/// 30 grains that collapse onto a rough floor, soon called at rest; what differs from test to test is the tilt.
+/// 30 grains that collapse onto a rough floor, soon called at rest; what differs from test to test is the
+/// tilt.
 inline Scenario small_bed() {
   Scenario scenario;
   scenario.bed.length = 10.0;

@@ -100,19 +100,19 @@ TEST(Damage, a_foreign_file_is_not_taken_for_a_run) {
 
 /// A file whose hash is right but whose data sets are not ours.
 TEST(Damage, shapes_and_types_are_checked_against_the_schema) {
-  hdf5::Writer writer({{'N', 3}});
+  hdf5::Writer writer({{'N', 3}, {'G', 3}});
   writer.write("/particles/grains/radius", std::vector<double>{1, 2, 3});
   writer.write("/checkpoint/x", std::vector<double>{1, 2, 3});
   writer.write("/checkpoint/length", std::vector<double>{1});
   const std::vector<std::byte> image = writer.image();
 
-  hdf5::Reader other_size = hdf5::Reader::from_memory(image, "made.h5", {{'N', 4}});
+  hdf5::Reader other_size = hdf5::Reader::from_memory(image, "made.h5", {{'G', 4}});
   try {
     other_size.read<double>("/checkpoint/x");
     ADD_FAILURE() << "a wrong size went unseen";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::bad_data);
-    EXPECT_STREQ(error.what(), "made.h5: data set /checkpoint/x has shape [3], expected [N] with N = 4");
+    EXPECT_STREQ(error.what(), "made.h5: data set /checkpoint/x has shape [3], expected [G] with G = 4");
   }
   hdf5::Reader reader = hdf5::Reader::from_memory(image, "made.h5", {});
   EXPECT_EQ(reader.read<double>("/checkpoint/x"), (std::vector<double>{1, 2, 3}));

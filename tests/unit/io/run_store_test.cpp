@@ -157,6 +157,23 @@ TEST(RunStore, a_frame_of_another_size_is_refused_as_a_defect) {
   EXPECT_EQ(RunFile::open(folder.path("run.h5")).frame_count(), 1u);
 }
 
+TEST(RunStore, a_state_lacks_grains_that_have_not_arrived_but_no_others) {
+  const example::TemporaryFolder folder;
+  const std::string path = folder.path("run.h5");
+  RunStore store = RunStore::create(path, example::header(), false);
+  Checkpoint poured;
+  add_disk(poured.world.grains, {0.0, 0.0}, 0.5, 1.0, false);
+  for (Index floor = 0; floor < example::grain_count - example::free_grain_count; ++floor)
+    add_disk(poured.world.grains, {0.0, 0.0}, 0.5, 1.0, true);
+  poured.world.boundary.length = 1.0;
+  store.commit({}, poured);
+  EXPECT_EQ(RunFile::open(path).checkpoint().world.grains.free_count, 1);
+  add_disk(poured.world.grains, {0.0, 0.0}, 0.5, 1.0, true);
+  store.commit({}, poured);
+  EXPECT_EQ(error_of([&] { RunFile::open(path); }).code(), ExitCode::bad_data)
+      << "of the floor none is missing";
+}
+
 TEST(RunStore, nothing_is_written_into_a_folder_that_took_the_place_of_its_own) {
   const example::TemporaryFolder folder;
   const std::string path = folder.path("run.h5");
