@@ -154,7 +154,8 @@ TEST_F(RunStops, told_to_stop_it_leaves_a_checkpoint) {
 /// A bed with a step that does not end, and then one that takes its steps without frames for a minute.
 const char* const endless_step =
     "[bed]\nlength = 100\ndepth = 30\n[solver]\nmethod = \"gauss-seidel\"\ntolerance = 1e-12\n"
-    "moving_tolerance = 1e-12\nmax_iterations = 10000000\n[deposition]\ninitial_solid_fraction = 0.7\n";
+    "moving_tolerance = 1e-12\nmax_iterations = 10000000\n[deposition]\nmethod = \"collapse\"\n"
+    "initial_solid_fraction = 0.7\n";
 const char* const long_deposition = "[bed]\nlength = 50\ndepth = 20\n[output]\ncheckpoint_every = 86400\n";
 
 class LongRun : public testing::Test {
