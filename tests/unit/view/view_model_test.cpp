@@ -65,8 +65,10 @@ TEST_F(ViewOfRun, opens_at_its_first_frame_with_the_map_of_gamma) {
 
 TEST_F(ViewOfRun, goes_to_its_landmarks) {
   EXPECT_TRUE(model_->has(Landmark::theta_c));
+  model_.reset();  // its thread reads the file that is opened again
   EXPECT_FALSE(ViewModel::open(path_, {}, "", false, "talus view").has(Landmark::length_jump))
       << "nothing was worked out yet";
+  model_.emplace(opened(path_));
   ASSERT_TRUE(wait_for_all());
   const std::pair<Landmark, std::size_t> places[] = {{Landmark::last, 7},
                                                      {Landmark::length_jump, 3},
@@ -157,7 +159,9 @@ TEST_F(ViewOfRun, takes_no_analysis_of_means_over_frames) {
 }
 
 TEST_F(ViewOfRun, takes_grains_with_their_first_neighbours_unless_told_otherwise) {
+  model_.reset();
   EXPECT_EQ(ViewModel::open(path_, {}, "", false, "talus view").state.map.l_min, 3.0);
+  model_.emplace(opened(path_));
   model_->go_to(3);
   model_->state.selected = 10;
   EXPECT_EQ(model_->frame().gamma[10], 1.0);
@@ -229,6 +233,7 @@ TEST_F(ViewOfRun, has_room_for_all_frames) {
 
 /// Two groups of twelve grains: the right one alone, then both.
 TEST_F(ViewOfRun, keeps_the_colours_of_clusters) {
+  model_.reset();
   std::vector<Frame> frames = {example::bed_frame(0.0, 0), example::bed_frame(5.0, 0)};
   for (Index i = 0; i < 40; ++i) {
     const Index column = i % example::columns;
@@ -299,6 +304,7 @@ TEST_F(ViewOfRun, says_in_the_title_why_a_map_cannot_be_drawn) {
 }
 
 TEST_F(ViewOfRun, tells_of_a_frame_that_cannot_be_read) {
+  model_.reset();
   const std::string path = folder_.path("unfinished.h5");
   {
     RunStore store = RunStore::create(path, RunFile::open(path_).header(), true);
@@ -339,6 +345,7 @@ TEST_F(ViewOfRun, asks_for_the_flow_where_it_shows_it) {
 }
 
 TEST_F(ViewOfRun, takes_no_settings_of_a_scenario) {
+  model_.reset();
   for (const auto& [settings, output] :
        {std::pair<std::vector<std::string>, std::string>{{"seed=2"}, ""}, {{}, "x.h5"}})
     try {
