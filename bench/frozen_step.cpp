@@ -33,7 +33,7 @@ StepSettings run_settings(double h, Candidates candidates) {
 
 FrozenStep next_step(World world, double h, Candidates candidates) {
   StepWorkspace workspace;
-  form_problem(world, run_settings(h, candidates), workspace);
+  begin_step(world, run_settings(h, candidates), workspace);
   return {std::move(workspace.problem), std::move(workspace.solution), world.gravity * h};
 }
 

@@ -14,7 +14,7 @@ struct FrozenStep {
 };
 
 /// Which near contacts are in the problem: those with a gap below this many mean diameters, and what the
-/// velocities add to it (form_problem).
+/// velocities add to it (begin_step).
 enum class Candidates {
   of_a_run,  ///< 0.002 D
   close,     ///< 0.0002 D: those that may close in this step; Siconos's error is relative to the largest of

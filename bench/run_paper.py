@@ -25,12 +25,12 @@ def stage_shares(timing):
 
 
 def phase_line(name, steps, phase, seconds):
-    """Seconds, steps and passes of one phase."""
+    """Seconds, steps and iterations of one phase."""
     of = steps["phase"] == phase
-    contacts, passes = steps["contacts"][of], steps["iterations"][of]
-    return (f"- {name}: {seconds:.1f} s, {of.sum()} steps, {passes.mean():.0f} passes a step "
-            f"({np.median(passes):.0f} median, {passes.max():.0f} most), "
-            f"{1e9 * seconds / (contacts * np.maximum(passes, 1)).sum():.2f} ns per contact and pass, all stages included; "
+    contacts, iterations = steps["contacts"][of], steps["iterations"][of]
+    return (f"- {name}: {seconds:.1f} s, {of.sum()} steps, {iterations.mean():.0f} iterations a step "
+            f"({np.median(iterations):.0f} median, {iterations.max():.0f} most), "
+            f"{1e9 * seconds / (contacts * np.maximum(iterations, 1)).sum():.2f} ns per contact and iteration, all stages included; "
             f"{np.count_nonzero(steps['converged'][of] == 0)} steps not converged")
 
 

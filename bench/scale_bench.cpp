@@ -1,4 +1,4 @@
-/// Cost of a pass and peak memory of a step for a bed of a given size; one row of a Markdown table. One
+/// Cost of an iteration and peak memory of a step for a bed of a given size; one row of a Markdown table. One
 /// process for each size, so that memory is that of this size alone.
 
 #include <CLI/CLI.hpp>
@@ -19,29 +19,30 @@
 namespace talus::bench {
 namespace {
 
-/// Wall seconds of one pass, from a solve of `passes` passes.
-double seconds_per_pass(const FrozenStep& step, int threads, int passes, SolverWorkspace& workspace) {
+/// Wall seconds of one iteration, from a solve of `iterations` of them.
+double seconds_per_iteration(const FrozenStep& step, int threads, int iterations,
+                             SolverWorkspace& workspace) {
   SolverSettings settings;
   settings.tolerance = 0.0;
-  settings.max_iterations = passes;
+  settings.max_iterations = iterations;
   settings.threads = threads;
   workspace.accelerated.choice = {};  // all threads, even on a busy machine
   ContactSolution solution = cold_guess(step.problem);
   const auto start = std::chrono::steady_clock::now();
   solve(step.problem, settings, workspace, solution);
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / passes;
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / iterations;
 }
 
 /// Medians for one and two threads, measured in turn.
 std::array<double, 2> pass_seconds(const FrozenStep& step) {
   constexpr int repetitions = 7;
   // About half a second each, at a few ns per contact.
-  const int passes = std::clamp(150'000'000 / step.problem.contact_count(), 100, 2000);
+  const int iterations = std::clamp(150'000'000 / step.problem.contact_count(), 100, 2000);
   std::array<SolverWorkspace, 2> workspaces;
   std::array<std::array<double, repetitions>, 2> seconds{};
   for (int k = 0; k < repetitions; ++k)
     for (std::size_t t = 0; t < 2; ++t)
-      seconds[t][k] = seconds_per_pass(step, static_cast<int>(t) + 1, passes, workspaces[t]);
+      seconds[t][k] = seconds_per_iteration(step, static_cast<int>(t) + 1, iterations, workspaces[t]);
   for (auto& of_threads : seconds) std::ranges::sort(of_threads);
   return {seconds[0][repetitions / 2], seconds[1][repetitions / 2]};
 }
@@ -88,14 +89,15 @@ void print_row(Index grains) {
 int run(int argc, char** argv) {
   Index grains = 0;
   bool header = false;
-  CLI::App app("Cost per grain and pass, and memory per grain");
+  CLI::App app("Cost per grain and iteration, and memory per grain");
   app.add_option("grains", grains, "500, 2000 or a multiple of 4000")->required();
   app.add_flag("--header", header, "Print the header of the table first");
   CLI11_PARSE(app, argc, argv)
   if (header)
     std::printf(
-        "| grains | contacts | ns per contact and pass, 1 thread | 2 threads "
-        "| ns per grain and pass, 1 thread | 2 threads | peak bytes per grain | eta of remembered forces |\n"
+        "| grains | contacts | ns per contact and iteration, 1 thread | 2 threads "
+        "| ns per grain and iteration, 1 thread | 2 threads | peak bytes per grain | eta of remembered "
+        "forces |\n"
         "|--:|--:|--:|--:|--:|--:|--:|--:|\n");
   print_row(grains);
   return 0;

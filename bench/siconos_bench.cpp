@@ -11,7 +11,7 @@
 #include "frozen_step.h"
 #include "processor_time.h"
 #include "program.h"
-#include "session/scenario.h"
+#include "scenario/scenario.h"
 #include "siconos_peer.h"
 #include "solver/local_problem.h"
 #include "solver/residual.h"
@@ -153,8 +153,8 @@ double relative_impulse_difference(const ContactSolution& one, const ContactSolu
 /// || U1 - U2 || over the norm that Siconos's error is relative to.
 double relative_velocity_difference(const Match& match, const ContactSolution& one,
                                     const ContactSolution& two) {
-  const std::vector<RelativeVelocity> u1 = local_solution(match.step.problem, one).u;
-  const LocalSolution other = local_solution(match.step.problem, two);
+  const std::vector<RelativeVelocity> u1 = local_form(match.step.problem, one).u;
+  const LocalSolution other = local_form(match.step.problem, two);
   double difference = 0.0;
   double impulse = 0.0;
   double velocity = 0.0;
@@ -232,7 +232,8 @@ void print_row(Match& match, Index grains, const Case& of, const Timing& timing)
 
 void print_header() {
   std::printf(
-      "| grains | contacts | problem | error | Siconos, s (solves) | sweeps | Talus, s (solves) | passes | "
+      "| grains | contacts | problem | error | Siconos, s (solves) | sweeps | Talus, s (solves) | iterations "
+      "| "
       "ratio | "
       "error of Siconos | error of Talus | eta of Siconos | eta of Talus | U differs | v differs, g h | P "
       "differ |\n|--:|--:|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n");

@@ -17,13 +17,13 @@ const double run_step = time_step(Scenario{});
 FrozenStep flat_step() { return next_step(bed(paper_grains, Slope::flat, run_step), run_step); }
 FrozenStep tilting_step() { return next_step(bed(paper_grains, Slope::ten_degrees, run_step), run_step); }
 
-/// Wall time per contact and pass, printed with its prefix: 3n is 3 ns.
-benchmark::Counter time_per_contact_and_pass(const ContactProblem& problem, int passes) {
-  return {static_cast<double>(problem.contact_count()) * passes,
+/// Wall time per contact and iteration, printed with its prefix: 3n is 3 ns.
+benchmark::Counter time_per_contact_and_iteration(const ContactProblem& problem, int iterations) {
+  return {static_cast<double>(problem.contact_count()) * iterations,
           benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert};
 }
 
-/// A fixed number of passes from no impulses, on range(0) threads.
+/// A fixed number of iterations from no impulses, on range(0) threads.
 void accelerated_passes(benchmark::State& state) {
   const FrozenStep step = flat_step();
   SolverSettings settings;
@@ -37,7 +37,7 @@ void accelerated_passes(benchmark::State& state) {
     workspace.accelerated.choice = {};  // all threads, even on a busy machine
     solve(step.problem, settings, workspace, solution);
   }
-  state.counters["contact_pass"] = time_per_contact_and_pass(step.problem, settings.max_iterations);
+  state.counters["contact_iteration"] = time_per_contact_and_iteration(step.problem, settings.max_iterations);
 }
 BENCHMARK(accelerated_passes)
     ->ArgName("threads")
@@ -51,7 +51,7 @@ void gauss_seidel_sweeps(benchmark::State& state) {
   ContactSolution solution = cold_guess(step.problem);
   velocities_from_impulses(step.problem, solution);
   for (auto _ : state) gauss_seidel_sweep(step.problem, solution);
-  state.counters["contact_pass"] = time_per_contact_and_pass(step.problem, 1);
+  state.counters["contact_iteration"] = time_per_contact_and_iteration(step.problem, 1);
 }
 BENCHMARK(gauss_seidel_sweeps)->Unit(benchmark::kMillisecond);
 
@@ -69,8 +69,8 @@ void solve_to(benchmark::State& state, const FrozenStep& step, double tolerance)
     report = solve(step.problem, settings, workspace, solution);
   }
   if (!report.converged) state.SkipWithError("did not converge");
-  state.counters["passes"] = report.iterations;
-  state.counters["contact_pass"] = time_per_contact_and_pass(step.problem, report.iterations);
+  state.counters["solver_iterations"] = report.iterations;
+  state.counters["contact_iteration"] = time_per_contact_and_iteration(step.problem, report.iterations);
 }
 
 void cold_to_1e4(benchmark::State& state) {
@@ -90,17 +90,17 @@ void steps_at_ten_degrees(benchmark::State& state) {
   settings.solver.threads = static_cast<int>(state.range(0));
   StepWorkspace workspace;
   std::array<double, stage_count> seconds{};
-  double passes = 0.0;
+  double iterations = 0.0;
   for (auto _ : state) {
     const StepReport report = step(world, settings, workspace);
     world.tilt += radians(Scenario{}.tilt.step);
-    passes += report.solver.iterations;
+    iterations += report.solver.iterations;
     for (std::size_t k = 0; k < stage_count; ++k) seconds[k] += report.seconds[k];
   }
   const auto steps = static_cast<double>(state.iterations());
   for (std::size_t k = 0; k < stage_count; ++k)
     state.counters[std::string(stage_names[k]) + "_ms"] = 1e3 * seconds[k] / steps;
-  state.counters["passes"] = passes / steps;
+  state.counters["solver_iterations"] = iterations / steps;
   state.counters["contacts"] = world.contacts.count();
 }
 BENCHMARK(steps_at_ten_degrees)

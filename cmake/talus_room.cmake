@@ -6,18 +6,31 @@ function(talus_room name)
   target_link_libraries(talus_${name} PUBLIC talus_options ${ROOM_LINK})
 endfunction()
 
-# talus_test(NAME LABEL sources... [LINK libraries...]): one GoogleTest program, its cases known to ctest; the
-# target LABEL_tests builds those of a label.
+# talus_test(NAME LABEL sources... [SHARED_BED] [TIMEOUT s] [LINK libraries...]): one GoogleTest program, its cases known
+# to ctest; the target LABEL_tests builds those of a label. Cases that share a bed, which takes long to make, run in one
+# process and are one test of ctest.
 function(talus_test name label)
-  cmake_parse_arguments(TEST "" "TIMEOUT" "LINK" ${ARGN})
+  cmake_parse_arguments(TEST "SHARED_BED" "TIMEOUT" "LINK" ${ARGN})
   if(NOT TEST_TIMEOUT)
     set(TEST_TIMEOUT 120)
   endif()
   add_executable(${name} ${TEST_UNPARSED_ARGUMENTS})
-  target_link_libraries(${name} PRIVATE ${TEST_LINK} talus_test_support GTest::gtest_main)
+  target_link_libraries(${name} PRIVATE ${TEST_LINK} talus_test_options GTest::gtest_main)
+  target_precompile_headers(${name} REUSE_FROM talus_test_headers)
+  # Sources of the program that a test compiles too: clang-tidy reads them, and knows no precompiled headers of gcc.
+  foreach(source ${TEST_UNPARSED_ARGUMENTS})
+    if(source MATCHES "/src/")
+      set_source_files_properties(${source} PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
+    endif()
+  endforeach()
   if(NOT TARGET ${label}_tests)
     add_custom_target(${label}_tests)
   endif()
   add_dependencies(${label}_tests ${name})
-  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES LABELS ${label} TIMEOUT ${TEST_TIMEOUT})
+  if(TEST_SHARED_BED)
+    add_test(NAME ${name} COMMAND ${name})
+    set_tests_properties(${name} PROPERTIES LABELS ${label} TIMEOUT ${TEST_TIMEOUT})
+  else()
+    gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES LABELS ${label} TIMEOUT ${TEST_TIMEOUT})
+  endif()
 endfunction()

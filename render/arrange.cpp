@@ -1,6 +1,7 @@
 #include "render/arrange.h"
 
 #include <algorithm>
+#include <fmt/core.h>
 #include <string>
 
 #include "core/errors.h"
@@ -17,8 +18,8 @@ Image beside(const std::vector<Image>& images) {
   for (const Image& image : images) {
     if (row.width == 0) row.channels = image.channels;
     if (image.channels != row.channels)
-      throw Error(ExitCode::internal, "images of " + std::to_string(row.channels) + " and " +
-                                          std::to_string(image.channels) + " channels beside each other");
+      throw Error(ExitCode::internal, fmt::format("images of {} and {} channels beside each other",
+                                                  row.channels, image.channels));
     row.width += image.width;
     row.height = std::max(row.height, image.height);
   }

@@ -5,12 +5,12 @@
 
 namespace talus {
 
-/// Images of one number of channels from left to right, their upper edges level; below those that are shorter
-/// is ground: white, or clear where there is an alpha channel. Throws Error(internal) where the channels
+/// Images with the same number of channels from left to right, their upper edges level. The background below
+/// shorter ones is white, or transparent if there is an alpha channel. Throws Error(internal) if the channels
 /// differ.
 Image beside(const std::vector<Image>& images);
 
-/// An image with ground added below, up to a height; as it is where it has that height.
+/// An image with background added below up to a height; unchanged if it has that height.
 Image padded(Image image, int height);
 
 }  // namespace talus

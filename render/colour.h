@@ -26,7 +26,7 @@ inline bool is_gray(const Colour& colour) {
   return colour.red == colour.green && colour.green == colour.blue;
 }
 
-/// Luma of a colour (Rec. 601), 0 ... 255: what a gray print makes of it.
+/// Luma of a colour (Rec. 601), 0 ... 255, as in a gray print.
 inline double luma(const Colour& colour) {
   return 0.299 * colour.red + 0.587 * colour.green + 0.114 * colour.blue;
 }

@@ -3,6 +3,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <fmt/core.h>
 #include <string>
 
 #include "core/errors.h"
@@ -19,12 +20,12 @@ constexpr std::array names = {Name{ColourMap::gray, "gray"}, Name{ColourMap::vir
                               Name{ColourMap::cividis, "cividis"}, Name{ColourMap::diverging, "diverging"}};
 
 /// Colours from end to end, evenly spaced.
-using Table = std::vector<Colour>;
+using ColourTable = std::vector<Colour>;
 
 /// Reads lines "red green blue"; one that begins with # is a comment.
-Table parse_table(std::span<const unsigned char> file) {
+ColourTable parse_table(std::span<const unsigned char> file) {
   const std::string_view text(reinterpret_cast<const char*>(file.data()), file.size());
-  Table table;
+  ColourTable table;
   for (std::size_t start = 0; start < text.size();) {
     const std::size_t end = std::min(text.find('\n', start), text.size());
     const char *at = text.data() + start, *const stop = text.data() + end;
@@ -61,8 +62,8 @@ Colour srgb(const Lab& lab) {
           channel(0.0556434 * x - 0.2040259 * y + 1.0572252 * z)};
 }
 
-/// Straight from each end to near white: the lightness changes evenly on each side, and ends at 28 and at 53,
-/// which a gray print tells apart.
+/// Straight from each end to near white: the lightness changes evenly on each side and ends at 28 and at 53,
+/// which can be told apart in a gray print.
 Colour diverging(double share) {
   constexpr Lab low{28.3, 8.4, -37.6}, middle{97.2, 0.0, 0.0}, high{52.6, 38.3, 56.8};
   const Lab& end = share < 0.5 ? low : high;
@@ -72,15 +73,15 @@ Colour diverging(double share) {
 }
 
 template <typename Function>
-Table table_of(std::size_t size, const Function& colour) {
-  Table table;
+ColourTable table_of(std::size_t size, const Function& colour) {
+  ColourTable table;
   for (std::size_t k = 0; k < size; ++k)
     table.push_back(colour(static_cast<double>(k) / static_cast<double>(size - 1)));
   return table;
 }
 
-const Table& table(ColourMap map) {
-  static const std::array<Table, names.size()> tables = {
+const ColourTable& table(ColourMap map) {
+  static const std::array<ColourTable, names.size()> tables = {
       table_of(256, gray), parse_table(embedded::viridis), parse_table(embedded::cividis),
       table_of(511, diverging)};  // odd, so that it has a middle
   return tables.at(static_cast<std::size_t>(map));
@@ -104,14 +105,13 @@ ColourMap colour_map(std::string_view name) {
   std::string list;
   for (const Name& known : names) {
     if (known.name == name) return known.map;
-    list.append(list.empty() ? "" : ", ").append(known.name);
+    list += fmt::format("{}{}", list.empty() ? "" : ", ", known.name);
   }
-  throw Error(ExitCode::usage,
-              std::string("no colour map \"").append(name).append("\"; there are ").append(list));
+  throw Error(ExitCode::usage, fmt::format("no colour map \"{}\"; there are {}", name, list));
 }
 
 Colour colour_at(ColourMap map, double share) {
-  const Table& colours = table(map);
+  const ColourTable& colours = table(map);
   const double place = share > 0.0 ? std::min(share, 1.0) : 0.0;  // 0 for NaN too
   return colours[static_cast<std::size_t>(std::lround(place * static_cast<double>(colours.size() - 1)))];
 }

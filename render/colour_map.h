@@ -16,14 +16,14 @@ enum class ColourMap {
   diverging,  ///< dark blue over white to orange; white at one half, the two ends of different lightness
 };
 
-/// All of them, in the order in which they are listed to users.
+/// All of them, in the order in which users see them listed.
 std::span<const ColourMap> colour_maps();
 
-/// "viridis". The map of a name: throws Error(usage) with the names that there are.
+/// "viridis". The map of a name; throws Error(usage) with the names that exist.
 std::string_view colour_map_name(ColourMap map);
 ColourMap colour_map(std::string_view name);
 
-/// The colour at a share of the range, clamped to [0, 1]; that of the lower end for NaN.
+/// The colour at a share of the range, clamped to [0, 1]; for NaN that of the lower end.
 Colour colour_at(ColourMap map, double share);
 
 /// The map from end to end in 256 steps, for a colour bar.

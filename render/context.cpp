@@ -1,5 +1,6 @@
 #include "render/context.h"
 
+#include <fmt/core.h>
 #include <string>
 
 #include "core/errors.h"
@@ -12,8 +13,7 @@ std::optional<ContextKind> context_kind(std::string_view name) {
   if (name == "auto") return std::nullopt;
   for (const ContextKind kind : {ContextKind::osmesa, ContextKind::egl})
     if (name == context_name(kind)) return kind;
-  throw Error(ExitCode::usage,
-              std::string("no rendering context \"").append(name).append("\"; there are auto, osmesa, egl"));
+  throw Error(ExitCode::usage, fmt::format("no rendering context \"{}\"; there are auto, osmesa, egl", name));
 }
 
 std::unique_ptr<Context> make_context(std::optional<ContextKind> kind) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Rendering contexts: one file per kind (context_<kind>.cpp), and the renderer draws the same bits in all of
+/// Rendering contexts, one file per kind (context_<kind>.cpp). The renderer draws the same bits in all of
 /// them.
 
 #include <functional>
@@ -14,7 +14,7 @@ class Context {
  public:
   using Function = void (*)();
   virtual ~Context() = default;
-  /// The OpenGL function of that name. A pointer is no proof that the function exists: test versions.
+  /// The OpenGL function of that name. A pointer does not prove that the function exists: check versions.
   virtual Function function(const char* name) const = 0;
 };
 
@@ -25,19 +25,19 @@ enum class ContextKind {
 
 /// "osmesa", "egl".
 std::string_view context_name(ContextKind kind);
-/// The kind of a name; none for "auto". Throws Error(usage) with the names that there are.
+/// The kind of that name; none for "auto". Throws Error(usage) with the names that exist.
 std::optional<ContextKind> context_kind(std::string_view name);
 
-/// Each throws Error(unavailable) where its library is not installed, or refuses.
+/// Each throws Error(unavailable) if its library is not installed, or refuses.
 std::unique_ptr<Context> make_osmesa_context();
 std::unique_ptr<Context> make_egl_context();
 
-/// A context of that kind; without one, OSMesa, and EGL where OSMesa is unavailable.
-/// Throws Error(unavailable) with what is missing, of each kind that was tried.
+/// A context of that kind; without a kind OSMesa, or EGL if OSMesa is unavailable.
+/// Throws Error(unavailable) with what is missing for each kind that was tried.
 std::unique_ptr<Context> make_context(std::optional<ContextKind> kind);
 
 using ContextMaker = std::function<std::unique_ptr<Context>()>;
-/// What make_context does without a kind.
+/// What make_context does when no kind is given.
 std::unique_ptr<Context> first_context(const ContextMaker& first, const ContextMaker& second);
 
 }  // namespace talus

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdlib>
+#include <fmt/core.h>
 #include <string>
 
 #include "core/errors.h"
@@ -34,14 +35,14 @@ struct Egl {
 template <typename Pointer>
 void find(void* library, const char* name, Pointer& pointer) {
   pointer = reinterpret_cast<Pointer>(dlsym(library, name));
-  if (!pointer) refuse(std::string(library_name) + " lacks " + name + "; reinstall libegl1");
+  if (!pointer) refuse(fmt::format("{} lacks {}; reinstall libegl1", library_name, name));
 }
 
 Egl open_library() {
   setenv("MESA_SHADER_CACHE_DISABLE", "true", 0);               // as for OSMesa
   setenv("LIBGL_ALWAYS_SOFTWARE", "true", 0);                   // the same pictures on a machine with a GPU
   void* library = dlopen(library_name, RTLD_NOW | RTLD_LOCAL);  // never closed: Mesa keeps thread-local state
-  if (!library) refuse(std::string("cannot load ") + library_name + " (" + dlerror() + "); " + packages);
+  if (!library) refuse(fmt::format("cannot load {} ({}); {}", library_name, dlerror(), packages));
   Egl egl;
   find(library, "eglGetPlatformDisplay", egl.get_display);
   find(library, "eglInitialize", egl.initialize);

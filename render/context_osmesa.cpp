@@ -2,7 +2,10 @@
 #include <dlfcn.h>
 
 #include <array>
+#include <cerrno>
 #include <cstdlib>
+#include <fmt/core.h>
+#include <new>
 #include <string>
 
 #include "core/errors.h"
@@ -25,23 +28,30 @@ template <typename Pointer>
 void find(void* library, const char* name, Pointer& pointer) {
   pointer = reinterpret_cast<Pointer>(dlsym(library, name));
   if (!pointer)
-    throw Error(ExitCode::unavailable,
-                std::string(library_name) + " lacks " + name + "; reinstall libosmesa6");
+    throw Error(ExitCode::unavailable, fmt::format("{} lacks {}; reinstall libosmesa6", library_name, name));
 }
 
-OSMesa open_library() {
-  // The few small shaders compile in no time; a cache would only leave files in the user's home.
-  setenv("MESA_SHADER_CACHE_DISABLE", "true", 0);
-  void* library = dlopen(library_name, RTLD_NOW | RTLD_LOCAL);  // never closed: Mesa keeps thread-local state
-  if (!library)
-    throw Error(ExitCode::unavailable, std::string("no OSMesa context: cannot load ") + library_name + " (" +
-                                           dlerror() + "); apt-get install libosmesa6");
+OSMesa entry_points(void* library) {
   OSMesa mesa;
   find(library, "OSMesaCreateContextAttribs", mesa.create);
   find(library, "OSMesaMakeCurrent", mesa.make_current);
   find(library, "OSMesaGetProcAddress", mesa.get_proc);
   find(library, "OSMesaDestroyContext", mesa.destroy);
   return mesa;
+}
+
+OSMesa open_library() {
+  // The few small shaders compile in no time; a cache would only leave files in the user's home.
+  setenv("MESA_SHADER_CACHE_DISABLE", "true", 0);
+  errno = 0;
+  void* library = dlopen(library_name, RTLD_NOW | RTLD_LOCAL);  // never closed: Mesa keeps thread-local state
+  if (library) return entry_points(library);
+  const std::string reason = dlerror();
+  const auto says = [&reason](const char* words) { return reason.find(words) != std::string::npos; };
+  if (errno == ENOMEM || says("annot allocate") || says("failed to map")) throw std::bad_alloc();
+  throw Error(ExitCode::unavailable,
+              fmt::format("no OSMesa context: cannot load {} ({}); apt-get install libosmesa6", library_name,
+                          reason));
 }
 
 class OSMesaContextOwner final : public Context {

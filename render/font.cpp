@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <fmt/core.h>
 #include <string>
 
 #include "core/errors.h"
@@ -27,7 +28,7 @@ constexpr auto code_points = [] {
 static_assert(std::is_sorted(code_points.begin(), code_points.end()));
 
 [[noreturn]] void malformed(std::string_view text) {
-  throw Error(ExitCode::internal, "the text '" + std::string(text) + "' of a picture is not valid UTF-8");
+  throw Error(ExitCode::internal, fmt::format("the text '{}' of a picture is not valid UTF-8", text));
 }
 
 /// The code point that begins at `position`, which moves on behind it.
@@ -50,10 +51,10 @@ std::size_t place_of(char32_t code, std::string_view text) {
   const auto found = std::lower_bound(code_points.begin(), code_points.end(), code);
   if (found != code_points.end() && *found == code)
     return static_cast<std::size_t>(found - code_points.begin());
-  std::array<char, 16> name{};
-  std::snprintf(name.data(), name.size(), "U+%04X", static_cast<unsigned>(code));
-  throw Error(ExitCode::internal, std::string(name.data()) + " in the text '" + std::string(text) +
-                                      "' of a picture is not among the glyphs listed in render/font.cpp");
+  throw Error(
+      ExitCode::internal,
+      fmt::format("U+{:04X} in the text '{}' of a picture is not among the glyphs listed in render/font.cpp",
+                  static_cast<unsigned>(code), text));
 }
 
 bool pack(GlyphAtlas& atlas) {
@@ -116,7 +117,7 @@ GlyphAtlas bake_glyphs(double em) {
   constexpr int largest = 8192;
   for (atlas.size = 256; atlas.size <= largest; atlas.size *= 2)
     if (pack(atlas)) return atlas;
-  throw Error(ExitCode::internal, "no glyph atlas holds a font of " + std::to_string(em) + " px");
+  throw Error(ExitCode::internal, fmt::format("no glyph atlas holds a font of {:g} px", em));
 }
 
 }  // namespace talus

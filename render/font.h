@@ -1,5 +1,5 @@
 #pragma once
-/// Text of the pictures: the font, its measures, and an atlas of its glyphs.
+/// Text in pictures: the font, its measures, and an atlas of its glyphs.
 
 #include <stb/stb_truetype.h>
 
@@ -16,7 +16,7 @@ struct Font {
 };
 Font embedded_font();
 
-/// Every code point that a text of a picture may use, ascending.
+/// Every code point that texts of pictures may use, ascending.
 std::span<const char32_t> font_code_points();
 
 /// Size of a subscript, and how far it is lowered, in units of the font size.
@@ -27,8 +27,8 @@ inline constexpr double subscript_drop = 0.18;
 inline constexpr double text_ascent = 0.93;
 inline constexpr double text_descent = 0.31;
 
-/// A glyph of a line: its place in font_code_points(), and where its origin lies, px from the start of the
-/// line.
+/// A glyph of a line: its place in font_code_points(), and the distance of its origin from the start of the
+/// line, px.
 struct Glyph {
   std::size_t code = 0;
   bool subscript = false;

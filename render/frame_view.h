@@ -1,5 +1,5 @@
 #pragma once
-/// What the renderer draws: a picture, never the physics. A leaf: it includes nothing of the simulation.
+/// What the renderer draws: a picture, without any physics. This header includes nothing of the simulation.
 /// Texts are UTF-8; "_c" sets c as a subscript.
 
 #include <limits>
@@ -10,7 +10,7 @@
 
 namespace talus {
 
-/// A disc in metres, with a rim inside its edge. Hatched: 1 for what is not a free grain, the floor; lines in
+/// A disc in metres, with a rim inside its edge. Hatched is 1 for grains of the floor; lines in
 /// the colour of the rim are then drawn over the fill.
 struct Disc {
   float x = 0.0f;
@@ -21,7 +21,7 @@ struct Disc {
   float hatched = 0.0f;
 };
 
-/// A straight line with round ends, in metres. Drawn above the discs, and never thinner than can be seen.
+/// A straight line with round ends, in metres. It is drawn above the discs, and never too thin to be seen.
 struct Line {
   float x0 = 0.0f, y0 = 0.0f;
   float x1 = 0.0f, y1 = 0.0f;
@@ -80,10 +80,11 @@ struct Trace {
 struct FrameView {
   std::vector<Disc> discs;  ///< in drawing order; copies across a periodic edge included
   std::vector<Line> lines;  ///< above them
-  double x_min = 0.0, x_max = 0.0, y_min = 0.0, y_max = 0.0;  ///< what is shown; all is cut at its edges
-  double turn = 0.0;  ///< rad: the bed is drawn turned clockwise by it, so that it slopes down to the right
+  double x_min = 0.0, x_max = 0.0, y_min = 0.0,
+         y_max = 0.0;  ///< what is shown; everything is cut at its edges
+  double turn = 0.0;   ///< rad: the bed is drawn turned clockwise by it, so that it slopes down to the right
   double turn_max = 0.0;        ///< rad, >= turn >= 0: the picture has room for all turns up to this one
-  bool coloured = false;        ///< a picture in colour, even where all that it shows is gray
+  bool coloured = false;        ///< a picture in colour, even if everything in it is gray
   bool transparent = false;     ///< nothing behind the discs, instead of white
   bool furniture = true;        ///< false: the bed alone fills the picture; what follows is not drawn
   bool left_wall = false;       ///< a wall stands at x_min, and is drawn as a line
@@ -93,7 +94,7 @@ struct FrameView {
   std::string title;            ///< left of the caption line: what is shown
   std::string caption;          ///< right of it: angle and its distance to failure
   double scale_length = 0.0;    ///< m
-  std::string scale_label;      ///< "10 D"; neither scale bar nor arrow where it is empty
+  std::string scale_label;      ///< "10 D"; if empty, neither scale bar nor arrow is drawn
   std::vector<Legend> legends;  ///< of the layers, below the bed
   std::vector<Trace> traces;    ///< below the legends, one below the other
 };

@@ -1,5 +1,6 @@
 #include "render/gl_loader.h"
 
+#include <fmt/core.h>
 #include <string>
 
 #include "core/errors.h"
@@ -24,8 +25,8 @@ Gl load_gl(const Context& context) {
   gl.GetIntegerv(GL_MAJOR_VERSION, &major);
   gl.GetIntegerv(GL_MINOR_VERSION, &minor);
   if (10 * major + minor < 33)
-    throw Error(ExitCode::unavailable, "the rendering context offers OpenGL " + std::to_string(major) + "." +
-                                           std::to_string(minor) + "; 3.3 is needed");
+    throw Error(ExitCode::unavailable,
+                fmt::format("the rendering context offers OpenGL {}.{}; 3.3 is needed", major, minor));
   return gl;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// The OpenGL functions that the renderer uses, loaded from whatever context is current.
+/// The OpenGL functions that the renderer uses, loaded from the current context.
 
 #include <GL/glcorearb.h>
 

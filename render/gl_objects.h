@@ -1,5 +1,5 @@
 #pragma once
-/// The few objects of OpenGL that the renderer is made of.
+/// The few OpenGL objects that the renderer consists of.
 
 #include <initializer_list>
 #include <span>
@@ -20,8 +20,8 @@ struct Batch {
   GLuint buffer = 0;
 };
 
-/// What an attribute of the stream is: so many floats, or a colour of four bytes that the shader sees as 0
-/// ... 1.
+/// An attribute of the stream: a number of floats, or a colour of four bytes that the shader sees as
+/// 0 ... 1.
 enum class Attribute { floats1 = 1, floats2 = 2, floats3 = 3, floats4 = 4, colour };
 
 /// `attributes` 0, 1, ... in the order of the stream.
@@ -38,7 +38,7 @@ void fill_batch(const Gl& gl, const Batch& batch, std::span<const Vertex> vertic
                 GL_STREAM_DRAW);
 }
 
-/// A texture of 8 bits for each of one or four channels, bound to GL_TEXTURE_2D; `pixels` may be null.
+/// A texture with one or four channels of 8 bits, bound to GL_TEXTURE_2D; `pixels` may be null.
 GLuint make_texture(const Gl& gl, int width, int height, int channels, const unsigned char* pixels,
                     GLint filter);
 

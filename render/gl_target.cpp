@@ -1,6 +1,7 @@
 #include "render/gl_target.h"
 
 #include <algorithm>
+#include <fmt/core.h>
 #include <string>
 
 #include "core/errors.h"
@@ -85,7 +86,7 @@ class GlTarget final : public TextureTarget {
   Image end() override {
     Image image = read_picture();
     if (const GLenum error = gl_.GetError(); error != GL_NO_ERROR)
-      throw Error(ExitCode::internal, "OpenGL reports error " + std::to_string(error) + " while drawing");
+      throw Error(ExitCode::internal, fmt::format("OpenGL reports error {} while drawing", error));
     return image;
   }
 
@@ -98,9 +99,9 @@ class GlTarget final : public TextureTarget {
     gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
     gl_.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, picture_, 0);
     if (gl_.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
-      throw Error(ExitCode::unavailable, "the rendering context offers no target of " +
-                                             std::to_string(width) + " x " + std::to_string(height) +
-                                             " px; ask for a smaller width");
+      throw Error(ExitCode::unavailable,
+                  fmt::format("the rendering context offers no target of {} x {} px; ask for a smaller width",
+                              width, height));
     width_ = width;
     height_ = height;
     format_ = format;

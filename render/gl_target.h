@@ -1,5 +1,5 @@
 #pragma once
-/// Drawing with OpenGL, alike in any context.
+/// Drawing with OpenGL, the same in any context.
 
 #include <memory>
 
@@ -8,7 +8,7 @@
 
 namespace talus {
 
-/// A target whose picture is a texture of the context, to be drawn again there.
+/// A target whose picture is a texture of the context, which can be drawn there.
 class TextureTarget : public Target {
  public:
   /// The texture with the picture drawn last, row 0 at the top; it changes with its size and format. Gray
@@ -16,7 +16,7 @@ class TextureTarget : public Target {
   virtual unsigned texture() const = 0;
 };
 
-/// Owns its context and what it made there. Throws Error(unavailable) where a shader does not compile.
+/// Owns its context and what it made there. Throws Error(unavailable) if a shader does not compile.
 std::unique_ptr<TextureTarget> make_gl_target(std::unique_ptr<Context> context);
 
 }  // namespace talus

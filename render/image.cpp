@@ -1,5 +1,6 @@
 #include "render/image.h"
 
+#include <fmt/core.h>
 #include <string>
 
 #include "core/errors.h"
@@ -14,10 +15,9 @@ Image stacked(const std::vector<Image>& images) {
       stack.channels = image.channels;
     }
     if (image.width != stack.width || image.channels != stack.channels)
-      throw Error(ExitCode::internal, "an image of " + std::to_string(image.width) + " px and " +
-                                          std::to_string(image.channels) + " channels cannot be stacked on " +
-                                          std::to_string(stack.width) + " px and " +
-                                          std::to_string(stack.channels));
+      throw Error(ExitCode::internal,
+                  fmt::format("an image of {} px and {} channels cannot be stacked on {} px and {}",
+                              image.width, image.channels, stack.width, stack.channels));
     stack.height += image.height;
     stack.pixels.insert(stack.pixels.end(), image.pixels.begin(), image.pixels.end());
   }

@@ -20,7 +20,8 @@ struct Image {
   }
 };
 
-/// Images of one width and number of channels, one below the other. Throws Error(internal) where they differ.
+/// Images of the same width and number of channels, one below the other. Throws Error(internal) if they
+/// differ.
 Image stacked(const std::vector<Image>& images);
 
 }  // namespace talus

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/core.h>
 #include <optional>
 
 #include "core/errors.h"
@@ -46,10 +47,9 @@ double add_rows(Layout& layout, const std::vector<Group>& groups, const Group& l
 /// The height, px, unless it is above largest_side.
 int checked_height(int width, double height) {
   if (height > largest_side)
-    throw Error(ExitCode::usage, "a picture " + std::to_string(width) + " px wide of this bed would be " +
-                                     std::to_string(std::llround(height)) + " px high; at most " +
-                                     std::to_string(largest_side) +
-                                     " px are possible: ask for a smaller width");
+    throw Error(ExitCode::usage, fmt::format("a picture {} px wide of this bed would be {} px high; at "
+                                             "most {} px are possible: ask for a smaller width",
+                                             width, std::llround(height), largest_side));
   return static_cast<int>(height);
 }
 
@@ -143,15 +143,15 @@ std::optional<Layout> lay_out_with(const FrameView& view, int width, double em, 
 
 Layout lay_out(const FrameView& view, int width, const Font& font, double largest_em) {
   if (width < smallest_width || width > largest_side)
-    throw Error(ExitCode::usage, "width = " + std::to_string(width) + ": expected " +
-                                     std::to_string(smallest_width) + " ... " + std::to_string(largest_side) +
-                                     " px");
+    throw Error(ExitCode::usage,
+                fmt::format("width = {}: expected {} ... {} px", width, smallest_width, largest_side));
   if (!view.furniture) return lay_out_bed(view, width);
   const double wanted_em = std::max(10.0, std::round(width / letters_per_width));
   for (double em = std::min(wanted_em, largest_em); em >= smallest_em; em -= 0.5)
     if (std::optional<Layout> layout = lay_out_with(view, width, em, font)) return *layout;
-  throw Error(ExitCode::usage, "width = " + std::to_string(width) +
-                                   ": caption and legend of this map do not fit; ask for a larger width");
+  throw Error(
+      ExitCode::usage,
+      fmt::format("width = {}: caption and legend of this map do not fit; ask for a larger width", width));
 }
 
 }  // namespace talus

@@ -1,6 +1,5 @@
 #pragma once
-/// Where everything goes: from a view and a width to rectangles in pixels. Pure: no picture is needed to test
-/// it.
+/// The layout of a picture: from a view and a width to rectangles in pixels, without drawing.
 
 #include <limits>
 #include <string>
@@ -23,7 +22,7 @@ struct Point {
   double x = 0.0, y = 0.0;
 };
 
-/// From metres in the frame of the bed to pixels: a turn clockwise, then a scale.
+/// From metres in the frame of the bed to pixels: a clockwise turn, then a scale.
 struct Camera {
   double scale = 1.0;     ///< px per m
   double origin_x = 0.0;  ///< where (0, 0) lies: px from the left
@@ -36,7 +35,7 @@ struct Camera {
   }
 };
 
-/// A part of a picture that shows a part of a plane. What lies outside of either is not drawn.
+/// A part of a picture that shows a part of a plane. Nothing outside of either is drawn.
 struct Window {
   Camera camera;
   Box box;                                                    ///< whole pixels
@@ -68,7 +67,7 @@ struct PlacedTrace {
   double event = std::numeric_limits<double>::quiet_NaN();  ///< x of the dashed line
 };
 
-/// One picture. Boxes of what the view does not ask for are empty.
+/// One picture. Boxes of parts that the view does not ask for are empty.
 struct Layout {
   int width = 0, height = 0;  ///< px
   double em = 0.0;            ///< font size, px
@@ -86,8 +85,8 @@ inline constexpr int smallest_width = 200;
 inline constexpr int largest_side = 16384;
 
 /// Lays out a picture `width` px wide: caption, bed, legends, traces. The height follows from the aspect of
-/// the bed. The font grows with the width, up to `largest_em`, and shrinks where a text would not fit. Throws
-/// Error(usage) where nothing legible fits, or where the picture is larger than largest_side.
+/// the bed. The font grows with the width, up to `largest_em`, and shrinks if a text would not fit. Throws
+/// Error(usage) if nothing legible fits, or if the picture is larger than largest_side.
 Layout lay_out(const FrameView& view, int width, const Font& font,
                double largest_em = std::numeric_limits<double>::infinity());
 

@@ -1,5 +1,5 @@
 #pragma once
-/// The parts that furniture is put together from, each laid out at (0, 0).
+/// The parts of the furniture, each laid out at (0, 0).
 
 #include <string>
 #include <vector>

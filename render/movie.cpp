@@ -1,19 +1,18 @@
 #include "render/movie.h"
 
-#include <fcntl.h>
 #include <signal.h>
-#include <spawn.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
+#include <fmt/core.h>
 #include <vector>
 
+#include "core/child_program.h"
 #include "core/errors.h"
-
-extern char** environ;
+#include "render/whole_file.h"
 
 namespace talus {
 namespace {
@@ -63,38 +62,28 @@ std::vector<std::string> ffmpeg_arguments(const std::string& path, const std::st
                                         "error",        "-y",
                                         "-f",           "rawvideo",
                                         "-pix_fmt",     channels == 1 ? "gray" : "rgb24",
-                                        "-s",           std::to_string(width) + "x" + std::to_string(height),
+                                        "-s",           fmt::format("{}x{}", width, height),
                                         "-r",           std::to_string(fps),
                                         "-i",           "pipe:0"};
   for (std::string& argument : encoder_arguments(path, channels)) arguments.push_back(std::move(argument));
-  arguments.push_back(output);
+  // ffmpeg reads "pipe:1.gif" as a protocol and "-x.mp4" as an option, but nothing into what follows "file:".
+  arguments.push_back("file:" + output);
   return arguments;
 }
 
 /// Starts ffmpeg with its input at `input` and its messages at `messages`.
 pid_t start(const std::vector<std::string>& arguments, int input, int messages) {
-  std::vector<char*> pointers;
-  for (const std::string& argument : arguments) pointers.push_back(const_cast<char*>(argument.c_str()));
-  pointers.push_back(nullptr);
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  posix_spawn_file_actions_adddup2(&actions, messages, STDERR_FILENO);
-  pid_t child = -1;
-  const int error = posix_spawnp(&child, pointers[0], &actions, nullptr, pointers.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  if (error == ENOENT)
+  const pid_t program = start_program(arguments, {.in = input, .err = messages});
+  if (program < 0 && errno == ENOENT)
     throw Error(ExitCode::unavailable,
-                "ffmpeg is not installed, and movies are made by it; apt-get install ffmpeg, or "
-                "make single pictures with talus render");
-  if (error != 0) throw system_error(ExitCode::unavailable, "start", "ffmpeg", error);
-  return child;
+                "ffmpeg is not installed, so no movie can be made: apt-get install ffmpeg, or draw "
+                "single pictures with talus render");
+  if (program < 0) throw system_error(ExitCode::unavailable, "start", "ffmpeg", errno);
+  return program;
 }
 
 std::string size_text(int width, int height, int channels) {
-  return std::to_string(width) + " x " + std::to_string(height) + " px in " + std::to_string(channels) +
-         " channels";
+  return fmt::format("{} x {} px in {} channels", width, height, channels);
 }
 
 }  // namespace
@@ -132,8 +121,9 @@ Movie::~Movie() {
 
 void Movie::add(const Image& image) {
   if (image.width != width_ || image.height != height_ || image.channels != channels_)
-    throw Error(ExitCode::internal, "a frame of " + size_text(image.width, image.height, image.channels) +
-                                        " does not fit a movie of " + size_text(width_, height_, channels_));
+    throw Error(ExitCode::internal, fmt::format("a frame of {} does not fit a movie of {}",
+                                                size_text(image.width, image.height, image.channels),
+                                                size_text(width_, height_, channels_)));
   const std::uint8_t* data = image.pixels.data();
   for (std::size_t left = image.pixels.size(); left > 0;) {
     const ssize_t sent = send(pipe_, data, left, MSG_NOSIGNAL);
@@ -146,7 +136,13 @@ void Movie::add(const Image& image) {
 
 void Movie::finish() {
   if (close_and_wait() != 0) fail();
-  file_.commit();
+  file_.commit([this](const std::string& written) {  // ffmpeg ends well even where it could not write all
+    if (!is_whole_file(written, path_))
+      throw Error(ExitCode::io_error,
+                  path_ +
+                      ": ffmpeg has not written all of the movie; is the disk full, or the size of files "
+                      "limited?");
+  });
 }
 
 int Movie::close_and_wait() {
@@ -165,7 +161,8 @@ void Movie::fail() {
   const std::size_t size = std::fread(text.data(), 1, text.size(), messages_);
   std::string said(text.data(), size);
   while (!said.empty() && said.back() == '\n') said.pop_back();
-  throw Error(ExitCode::io_error, path_ + ": ffmpeg gave up" + (said.empty() ? "" : ": " + said));
+  throw Error(ExitCode::io_error,
+              fmt::format("{}: ffmpeg gave up{}", path_, said.empty() ? "" : ": " + said));
 }
 
 }  // namespace talus

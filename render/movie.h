@@ -6,25 +6,25 @@
 #include <cstdio>
 #include <string>
 
+#include "core/output_file.h"
 #include "render/image.h"
-#include "render/output_file.h"
 
 namespace talus {
 
-/// A movie under way: H.264 in a file that ends in .mp4, VP9 in .webm; in .gif 64 grays, or of each frame in
-/// colour its 256 best colours. The file appears under its name when finish returns; a movie that is not
+/// A movie being written: H.264 in a file that ends in .mp4, VP9 in .webm; in .gif 64 grays, or the 256 best
+/// colours of each frame in colour. The file appears under its name when finish returns; a movie that is not
 /// finished leaves nothing.
 class Movie {
  public:
   /// All frames have the size and number of channels given, 1 or 3; `fps` frames a second are shown.
   /// Throws Error(usage) at another ending or at four channels, for movies are not transparent;
-  /// Error(unavailable) without ffmpeg; Error(cannot_create).
+  /// Error(unavailable) without ffmpeg; Error(cannot_create) if the file cannot be created.
   Movie(const std::string& path, int width, int height, int channels, double fps);
   ~Movie();
   Movie(const Movie&) = delete;
   Movie& operator=(const Movie&) = delete;
 
-  /// Throws Error(io_error) with what ffmpeg said where it gave up.
+  /// Throws Error(io_error) with the message of ffmpeg if it gave up.
   void add(const Image& image);
   void finish();
 

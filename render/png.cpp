@@ -5,10 +5,11 @@
 
 #include <algorithm>
 #include <csetjmp>
+#include <fmt/core.h>
 #include <new>
 
 #include "core/errors.h"
-#include "render/output_file.h"
+#include "core/output_file.h"
 
 namespace talus {
 namespace {
@@ -33,8 +34,8 @@ int colour_type(int channels) {
   return channels == 1 ? PNG_COLOR_TYPE_GRAY : channels == 3 ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_RGB_ALPHA;
 }
 
-/// Rows without filter. Of gray maps, runs are all there is to find, and looking only for them is fastest; of
-/// colour, a run is a repeated pixel of several bytes, which takes the search for matches.
+/// Rows without filter. Gray maps compress by runs only, and looking only for runs is fastest; in
+/// colour a run is a repeated pixel of several bytes, which only the search for matches finds.
 void choose_compression(png_structp png, const Image& image) {
   constexpr int largest_memory_level = 9;
   png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_NONE);
@@ -44,7 +45,7 @@ void choose_compression(png_structp png, const Image& image) {
   png_set_compression_buffer_size(png, 1 << 16);
 }
 
-/// Returns false where libpng gives up: on jumping back, nothing here has a destructor.
+/// Returns false if libpng gives up; nothing that its jump skips has a destructor.
 bool encode(png_structp png, png_infop info, const Image& image, std::vector<PngEntry>& texts,
             std::vector<std::uint8_t>& bytes) {
   if (setjmp(png_jmpbuf(png))) return false;
@@ -65,16 +66,16 @@ void check(const Image& image) {
   if (image.width < 1 || image.height < 1 ||
       (image.channels != 1 && image.channels != 3 && image.channels != 4) ||
       image.pixels.size() != static_cast<std::size_t>(image.height) * image.row_bytes())
-    throw Error(ExitCode::internal, "an image of " + std::to_string(image.width) + " x " +
-                                        std::to_string(image.height) + " px with " +
-                                        std::to_string(image.channels) + " channels is no picture");
+    throw Error(ExitCode::internal, fmt::format("an image of {} x {} px with {} channels is no picture",
+                                                image.width, image.height, image.channels));
 }
 
 void check(const std::string& keyword, const std::string& text) {
   const auto printable = [](char c) { return c >= ' ' && c <= '~'; };
   if (keyword.empty() || keyword.size() > 79 || !std::ranges::all_of(keyword, printable) ||
       !std::ranges::all_of(text, printable))
-    throw Error(ExitCode::internal, "a PNG cannot hold the text \"" + text + "\" as \"" + keyword + "\"");
+    throw Error(ExitCode::internal,
+                fmt::format("a PNG cannot hold the text \"{}\" as \"{}\"", text, keyword));
 }
 
 /// As libpng takes texts; it does not change them.

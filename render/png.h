@@ -15,17 +15,20 @@ namespace talus {
 /// characters; both are printable ASCII.
 using PngTexts = std::vector<std::pair<std::string, std::string>>;
 
-/// The bytes of an 8-bit PNG: gray, RGB or RGBA as the image has channels. The compression is chosen for
-/// speed: of maps, better settings are ten times slower and hardly smaller.
-/// Throws Error(internal) where the image or a text is none that a PNG can hold.
+/// The bytes of an 8-bit PNG: gray, RGB or RGBA, depending on the channels. The compression is chosen for
+/// speed: for maps, better settings are ten times slower and save hardly any space.
+/// Throws Error(internal) if a PNG cannot hold the image or a text.
 std::vector<std::uint8_t> encode_png(const Image& image, const PngTexts& texts = {});
 
 /// Writes a PNG; an existing file is replaced once the new one is whole.
 /// Throws Error(cannot_create) or Error(io_error), and leaves no partial file.
 void write_png(const std::string& path, const Image& image, const PngTexts& texts = {});
 
-/// The first text of a keyword. None where the file is missing, no PNG, damaged or cut anywhere, or has no
+/// The first text of a keyword. None if the file is missing, is not a PNG, is damaged or truncated, or has no
 /// such keyword.
 std::optional<std::string> png_text(const std::string& path, const std::string& keyword);
+
+/// Whether all of a PNG decodes, with its check sums.
+bool is_whole_png(const std::string& path);
 
 }  // namespace talus

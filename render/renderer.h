@@ -13,7 +13,7 @@
 
 namespace talus {
 
-/// Whether a view is drawn in gray, in colour, or in colour on clear ground.
+/// Whether a view is drawn in gray, in colour, or in colour on a transparent background.
 PixelFormat pixel_format(const FrameView& view);
 
 /// Owns its target. Use it on the thread that made the context.
@@ -26,7 +26,7 @@ class Renderer {
   /// Throws Error as lay_out and the target do.
   Image draw(const FrameView& view, int width, double largest_em = std::numeric_limits<double>::infinity());
 
-  /// Draws without reading the picture back: it stays in the target, as large as the layout returned says.
+  /// Draws without reading the picture back: it stays in the target, with the size of the returned layout.
   Layout paint(const FrameView& view, int width, double largest_em = std::numeric_limits<double>::infinity());
 
   const Font& font() const { return font_; }

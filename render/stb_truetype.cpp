@@ -1,5 +1,5 @@
-/// The one place where the code of stb is compiled. Dear ImGui takes it from here as well, and packs with
-/// stb_rect_pack: without it stb_truetype would bring a packer of its own that is not compatible.
+/// The one place where the code of stb is compiled. Dear ImGui uses it from here as well, with
+/// stb_rect_pack; without that, stb_truetype would bring an incompatible packer of its own.
 #define STB_RECT_PACK_IMPLEMENTATION
 #include <stb/stb_rect_pack.h>
 #define STB_TRUETYPE_IMPLEMENTATION

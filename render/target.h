@@ -1,6 +1,5 @@
 #pragma once
-/// Where pictures are drawn: in an OpenGL context (gl_target.h), or nowhere, by tests that look at what is
-/// asked for.
+/// What pictures are drawn on: an OpenGL context (gl_target.h), or in tests a list of what was drawn.
 
 #include <span>
 
@@ -21,21 +20,21 @@ struct FurnitureVertex {
 enum class PixelFormat {
   gray,         ///< one channel: every colour drawn is a gray
   colour,       ///< three channels
-  transparent,  ///< four: what is not drawn on is clear
+  transparent,  ///< four: transparent where nothing is drawn
 };
 
-/// Draws go on top of each other in the order of the calls between begin and end.
+/// Later calls between begin and end draw over earlier ones.
 class Target {
  public:
   virtual ~Target() = default;
 
-  /// Begins a picture, white or clear. Throws Error(unavailable) where it is too large.
+  /// Begins a picture, white or transparent. Throws Error(unavailable) if it is too large.
   virtual void begin(int width, int height, PixelFormat format) = 0;
   /// What is seen through a window: cut at its edges.
   virtual void draw_discs(std::span<const Disc> discs, const Window& window) = 0;
   virtual void draw_lines(std::span<const Line> lines, const Window& window) = 0;
   virtual void draw_triangles(std::span<const FurnitureVertex> triangles, const GlyphAtlas& atlas) = 0;
-  /// The picture. Throws Error(internal) where drawing failed.
+  /// The picture. Throws Error(internal) if drawing failed.
   virtual Image end() = 0;
 };
 

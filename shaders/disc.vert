@@ -1,6 +1,6 @@
 #version 330 core
-// One triangle for each disc, around a circle half a pixel larger than the disc, so that its soft edge fits. A triangle
-// covers a third more than a square, but in software setting up two triangles costs more than that.
+// One triangle for each disc, around a circle half a pixel larger than the disc, which has room for its soft edge.
+// A triangle covers a third more than a square, but in software setting up two triangles costs more.
 layout(location = 0) in vec3 disc;  // centre x, y and radius, m, in the frame of the bed
 layout(location = 1) in vec4 fill;
 layout(location = 2) in vec4 rim;
@@ -8,7 +8,7 @@ layout(location = 2) in vec4 rim;
 uniform vec2 size;    // of the picture, px
 uniform vec3 camera;  // px per m; where the bed's origin lies, px from the left and from the top
 uniform vec2 turn;    // cosine and sine of the angle that the bed is turned by, clockwise
-uniform vec4 clip;    // x_min, x_max, y_min, y_max, m: what is cut where the bed is turned
+uniform vec4 clip;    // x_min, x_max, y_min, y_max, m: what is cut off if the bed is turned
 
 out vec2 offset;        // from the centre, px
 flat out float radius;  // px

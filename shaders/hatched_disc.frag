@@ -1,5 +1,5 @@
 #version 330 core
-// As disc.frag, with lines in the colour of the rim over the fill. Apart from it, as all other discs would pay for them.
+// As disc.frag, with lines in the colour of the rim over the fill; apart from it, so that other discs do not pay.
 in vec2 offset;
 flat in float radius;
 flat in vec4 fill_colour;
@@ -13,7 +13,7 @@ const float widest_rim = 2.0;  // px
 // Coverage of a pixel by a disc of that radius, px.
 float coverage(float r, float distance) { return clamp(r - distance + 0.5, 0.0, 1.0); }
 
-// Diagonal lines that run on from disc to disc; the share of this pixel that they cover.
+// The share of this pixel that is covered by diagonal lines, which continue from disc to disc.
 float hatch() {
   float period = max(0.8 * radius, 3.0);
   float across = (gl_FragCoord.x + gl_FragCoord.y) * 0.70710678;

@@ -7,14 +7,14 @@ layout(location = 2) in vec4 look;
 uniform vec2 size;    // of the picture, px
 uniform vec3 camera;  // px per m; where the bed's origin lies, px from the left and from the top
 uniform vec2 turn;    // cosine and sine of the angle that the bed is turned by, clockwise
-uniform vec4 clip;    // x_min, x_max, y_min, y_max, m: what is cut where the bed is turned
+uniform vec4 clip;    // x_min, x_max, y_min, y_max, m: what is cut off if the bed is turned
 
 out vec2 place;             // along the line and across it, px
 flat out float line_length;  // px
 flat out float reach;        // half the width, px
 flat out vec4 ink;
 
-const float thinnest = 0.35;  // px: what is thinner cannot be seen
+const float thinnest = 0.35;  // px: thinner lines cannot be seen
 
 vec2 project(vec2 p) { return camera.yz + camera.x * vec2(turn.x * p.x + turn.y * p.y, turn.y * p.x - turn.x * p.y); }
 

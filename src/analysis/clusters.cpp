@@ -27,12 +27,6 @@ void sort_by_size(Clusters& clusters) {
     if (label >= 0) label = place[label];
 }
 
-double mean_from(const Clusters& clusters, std::size_t first) {
-  double sum = 0.0;
-  for (std::size_t k = first; k < clusters.size.size(); ++k) sum += clusters.size[k];
-  return sum > 0.0 ? sum / static_cast<double>(clusters.size.size() - first) : nan;
-}
-
 double second_moment_from(const Clusters& clusters, std::size_t first) {
   double sum = 0.0, squares = 0.0;
   for (std::size_t k = first; k < clusters.size.size(); ++k) {
@@ -93,8 +87,13 @@ Clusters find_clusters(const std::vector<bool>& in_set, const std::vector<Link>&
   return clusters;
 }
 
-double mean_size(const Clusters& clusters) { return mean_from(clusters, 0); }
-double mean_size_of_others(const Clusters& clusters) { return mean_from(clusters, 1); }
+Index largest_size(const Clusters& clusters) { return clusters.size.empty() ? 0 : clusters.size.front(); }
+double largest_share(const Clusters& clusters) {
+  return static_cast<double>(largest_size(clusters)) / clusters.members;
+}
+double mean_size(const Clusters& clusters) {
+  return clusters.members > 0 ? static_cast<double>(clusters.members) / clusters.count() : nan;
+}
 double second_moment(const Clusters& clusters) { return second_moment_from(clusters, 0); }
 double second_moment_of_others(const Clusters& clusters) { return second_moment_from(clusters, 1); }
 

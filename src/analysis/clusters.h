@@ -25,9 +25,12 @@ struct Clusters {
 Clusters find_clusters(const std::vector<bool>& in_set, const std::vector<Link>& links,
                        const std::vector<double>& x, double period);
 
-/// Mean size, in grains; NaN where there are no clusters. "Of others": without the largest cluster.
+/// Grains of the largest cluster, 0 without any, and their share of the grains of the set, NaN without any.
+Index largest_size(const Clusters& clusters);
+double largest_share(const Clusters& clusters);
+
+/// Mean size, in grains; NaN where there are no clusters.
 double mean_size(const Clusters& clusters);
-double mean_size_of_others(const Clusters& clusters);
 
 /// Sum of s^2 / sum of s over the sizes s: the mean size of the cluster that a grain of the set is in; NaN
 /// where there are no clusters. "Of others": without the largest, as percolation theory has it.

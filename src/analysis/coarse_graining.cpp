@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 #include "analysis/neighbourhoods.h"
+#include "core/statistics.h"
 #include "stress/overload.h"
 #include "stress/stress_state.h"
 
@@ -25,19 +25,11 @@ bool is_within(const Tensor2& sum, double threshold) {
 }
 
 void summarise(CoarseGraining& result) {
-  double sum = 0.0;
-  double squares = 0.0;
-  for (double length : result.length)
-    if (!std::isnan(length)) {
-      sum += length;
-      result.largest = std::max(result.largest, length);
-    }
-  const auto count = static_cast<double>(result.overloaded);
-  result.mean = result.overloaded > 0 ? sum / count : nan;
-  if (result.overloaded == 0) result.largest = nan;
-  for (double length : result.length)
-    if (!std::isnan(length)) squares += (length - result.mean) * (length - result.mean);
-  result.standard_error = result.overloaded > 1 ? std::sqrt(squares / (count - 1.0) / count) : nan;
+  const Statistics lengths = statistics_of(result.length);
+  result.mean = lengths.mean;
+  result.standard_error = lengths.error;
+  result.largest = nan;
+  for (const double length : result.length) result.largest = std::fmax(result.largest, length);
 }
 
 /// l_c of an overloaded grain, m; nothing where the search reaches the cut.
@@ -49,7 +41,7 @@ std::optional<double> search_length(Neighbourhoods& neighbourhoods, Index grain,
     // Up to the next distance gamma_l stays what it is: the last neighbourhood up to l_min is the one there.
     if (found && l > rule.l_min) return false;
     found.reset();
-    if (is_within(sum, rule.end_ratio)) found = std::max(l, rule.l_min);
+    if (is_within(sum, rule.end_ratio)) found = std::max(l, rule.l_min);  // (T25)
     return !found || l < rule.l_min;
   });
   return found;
@@ -59,19 +51,24 @@ std::optional<double> search_length(Neighbourhoods& neighbourhoods, Index grain,
 
 Frame with_gamma_of_neighbourhoods(Frame frame, const RunStatics& statics, double l_min) {
   if (l_min == 0.0) return frame;
-  const std::vector<double> gamma = coarse_stress_ratio(frame, statics, l_min);
+  const std::vector<double> gamma = coarse_stress_ratio({frame, statics}, l_min);
   for (std::size_t i = 0; i < gamma.size(); ++i)
     if (!std::isnan(frame.gamma[i])) frame.gamma[i] = gamma[i];
   return frame;
 }
 
-CoarseGraining coarse_graining(const Frame& frame, const RunStatics& statics,
-                               const CoarseGrainingRule& rule) {
+double length_cut(const RunStatics& statics, double l_min, std::optional<double> cut) {
+  const double diameter = statics.mean_diameter;
+  const double asked = cut ? *cut * diameter : std::min(statics.depth, 0.5 * statics.length);
+  return std::max(l_min * diameter, statics.periodic ? std::min(asked, statics.length) : asked);
+}
+
+CoarseGraining coarse_graining(const BedFrame& bed, const CoarseGrainingRule& rule) {
   CoarseGraining result;
-  result.length.assign(static_cast<std::size_t>(statics.free_count), nan);
-  Neighbourhoods neighbourhoods(frame, statics);
-  for (Index i = 0; i < statics.free_count; ++i) {
-    if (!is_overloaded(frame.gamma[i], rule.threshold)) continue;
+  result.length.assign(static_cast<std::size_t>(bed.statics.free_count), nan);
+  Neighbourhoods neighbourhoods(bed);
+  for (Index i = 0; i < bed.statics.free_count; ++i) {
+    if (!is_overloaded(bed.frame.gamma[i], rule.threshold)) continue;
     const std::optional<double> length = search_length(neighbourhoods, i, rule);
     result.length[i] = length.value_or(rule.cut);
     ++result.overloaded;
@@ -81,10 +78,10 @@ CoarseGraining coarse_graining(const Frame& frame, const RunStatics& statics,
   return result;
 }
 
-std::vector<double> coarse_stress_ratio(const Frame& frame, const RunStatics& statics, double l) {
-  std::vector<double> result(static_cast<std::size_t>(statics.free_count), nan);
-  Neighbourhoods neighbourhoods(frame, statics);
-  for (Index i = 0; i < statics.free_count; ++i) {
+std::vector<double> coarse_stress_ratio(const BedFrame& bed, double l) {
+  std::vector<double> result(static_cast<std::size_t>(bed.statics.free_count), nan);
+  Neighbourhoods neighbourhoods(bed);
+  for (Index i = 0; i < bed.statics.free_count; ++i) {
     Tensor2 all;
     neighbourhoods.around(i, 0.5 * l, [&](double, const Tensor2& sum) {
       all = sum;
@@ -95,13 +92,12 @@ std::vector<double> coarse_stress_ratio(const Frame& frame, const RunStatics& st
   return result;
 }
 
-std::vector<double> overloaded_over_scale(const Frame& frame, const RunStatics& statics, double threshold,
-                                          std::span<const double> l) {
+std::vector<double> overloaded_over_scale(const BedFrame& bed, double threshold, std::span<const double> l) {
   std::vector<Index> overloaded(l.size(), 0);
   Index loaded = 0;
-  Neighbourhoods neighbourhoods(frame, statics);
-  for (Index i = 0; i < statics.free_count; ++i) {
-    if (std::isnan(frame.gamma[i])) continue;
+  Neighbourhoods neighbourhoods(bed);
+  for (Index i = 0; i < bed.statics.free_count; ++i) {
+    if (std::isnan(bed.frame.gamma[i])) continue;
     ++loaded;
     Tensor2 within;
     std::size_t next = 0;  // diameter that is not judged yet
@@ -121,10 +117,9 @@ std::vector<double> overloaded_over_scale(const Frame& frame, const RunStatics& 
   return shares;
 }
 
-NeighbourhoodCurve neighbourhood_curve(const Frame& frame, const RunStatics& statics, Index grain,
-                                       double largest) {
+NeighbourhoodCurve neighbourhood_curve(const BedFrame& bed, Index grain, double largest) {
   NeighbourhoodCurve curve;
-  Neighbourhoods(frame, statics).around(grain, 0.5 * largest, [&](double distance, const Tensor2& sum) {
+  Neighbourhoods(bed).around(grain, 0.5 * largest, [&](double distance, const Tensor2& sum) {
     curve.l.push_back(2.0 * distance);
     curve.gamma.push_back(stress_state(sum).ratio);
     return true;

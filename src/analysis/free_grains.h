@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/snapshot.h"
+#include "core/tensor.h"
 
 namespace talus {
 
@@ -15,11 +16,6 @@ inline std::vector<double> of_free_grains(const std::vector<double>& values, con
 /// Period along x, m; 0 where the bed is not periodic.
 inline double period_of(const RunStatics& statics) { return statics.periodic ? statics.length : 0.0; }
 
-inline void add_to(Tensor2& sum, const Tensor2& term) {
-  sum.xx += term.xx;
-  sum.xy += term.xy;
-  sum.yx += term.yx;
-  sum.yy += term.yy;
-}
+inline void add_to(Tensor2& sum, const Tensor2& term) { matrix(sum) += matrix(term); }
 
 }  // namespace talus

@@ -5,15 +5,11 @@
 #include <utility>
 
 namespace talus {
-namespace {
-
 std::vector<double> equal_edges(double from, double to, int bins) {
   std::vector<double> edges;
   for (int k = 0; k <= bins; ++k) edges.push_back(from + (to - from) * k / bins);
   return edges;
 }
-
-}  // namespace
 
 Histogram::Histogram(std::vector<double> ascending_edges)
     : edges(std::move(ascending_edges)), weight(edges.size() - 1, 0.0), squares(edges.size() - 1, 0.0) {}

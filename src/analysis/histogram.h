@@ -5,6 +5,9 @@
 
 namespace talus {
 
+/// The edges of equal bins.
+std::vector<double> equal_edges(double from, double to, int bins);
+
 /// Bins between ascending edges; the last bin includes its upper edge. Values outside are counted apart, NaN
 /// is not counted at all.
 struct Histogram {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/snapshot.h"
+#include "core/bed_frame.h"
 
 namespace talus {
 
@@ -15,11 +15,11 @@ struct Link {
 };
 
 /// Pairs of free grains that touch with a force. Floor grains and walls do not link.
-std::vector<Link> force_links(const Frame& frame, const RunStatics& statics);
+std::vector<Link> force_links(const BedFrame& bed);
 
 /// Pairs of free grains whose centres are closer than `reach` times the sum of their radii: nearest
 /// neighbours, whether they touch or not. With 1.1 the gap between them is less than a tenth of their mean
 /// diameter. Each pair once, with its nearest image. In the order of (a, b).
-std::vector<Link> neighbour_links(const Frame& frame, const RunStatics& statics, double reach = 1.1);
+std::vector<Link> neighbour_links(const BedFrame& bed, double reach = 1.1);
 
 }  // namespace talus

@@ -7,7 +7,7 @@
 
 #include "analysis/cells.h"
 #include "analysis/free_grains.h"
-#include "core/snapshot.h"
+#include "core/bed_frame.h"
 
 namespace talus {
 
@@ -28,11 +28,11 @@ std::size_t sort_nearest(std::vector<Near>& near, double low, double high, std::
 /// images the nearest counts.
 class Neighbourhoods {
  public:
-  Neighbourhoods(const Frame& frame, const RunStatics& statics)
-      : moments_(frame.internal_moment),
-        x_(of_free_grains(frame.x, statics)),
-        y_(of_free_grains(frame.y, statics)),
-        cells_(sort_into_cells(x_, y_, statics.mean_diameter, period_of(statics))) {}
+  explicit Neighbourhoods(const BedFrame& bed)
+      : moments_(bed.frame.internal_moment),
+        x_(of_free_grains(bed.frame.x, bed.statics)),
+        y_(of_free_grains(bed.frame.y, bed.statics)),
+        cells_(sort_into_cells(x_, y_, bed.statics.mean_diameter, period_of(bed.statics))) {}
 
   /// Adds the internal moments of the grains within `radius` (m) of a grain, itself among them: the nearest
   /// first, grains at one distance in the order of their ids. After each distance calls meet(distance, sum),
@@ -55,7 +55,7 @@ class Neighbourhoods {
       for (std::size_t k = 0; k < count; ++k) {
         const double distance = std::sqrt(near_[k].square);
         if (distance > radius) return;
-        add_to(sum, moments_[near_[k].grain]);
+        add_to(sum, moments_[near_[k].grain]);  // (T24)
         const bool last_of_distance = k + 1 == count || near_[k + 1].square > near_[k].square;
         if (last_of_distance && !meet(distance, sum)) return;
       }

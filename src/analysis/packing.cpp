@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "analysis/free_grains.h"
+#include "core/tensor.h"
 #include "core/trigonometry.h"
 #include "stress/bed.h"
 #include "stress/internal_moment.h"
@@ -13,7 +14,7 @@ namespace talus {
 namespace {
 
 Tensor2 over(const Tensor2& moment, double volume) {
-  return {moment.xx / volume, moment.xy / volume, moment.yx / volume, moment.yy / volume};
+  return tensor(matrix(moment) / volume);  // (T20)
 }
 
 /// Area of a disc below a height above its centre, m^2.
@@ -24,33 +25,33 @@ double area_below(double height, double radius) {
 
 }  // namespace
 
-double frame_volume(const Frame& frame, const RunStatics& statics) {
+double frame_volume(const BedFrame& bed) {
   constexpr double samples_per_diameter = 10.0;
   Grains grains;
-  grains.free_count = statics.free_count;
-  grains.x = frame.x;
-  grains.y = frame.y;
-  grains.radius = statics.radius;
+  grains.free_count = bed.statics.free_count;
+  grains.x = bed.frame.x;
+  grains.y = bed.frame.y;
+  grains.radius = bed.statics.radius;
   Boundary boundary;
-  boundary.periodic = statics.periodic;
-  boundary.length = statics.length;
-  return bed_volume(grains, boundary, statics.mean_diameter / samples_per_diameter);
+  boundary.periodic = bed.statics.periodic;
+  boundary.length = bed.statics.length;
+  return bed_volume(grains, boundary, bed.statics.mean_diameter / samples_per_diameter);
 }
 
-double bulk_solid_fraction(const Frame& frame, const RunStatics& statics, double volume) {
-  const double low = bulk_margin * statics.mean_diameter;
-  const double high = volume / statics.length - low;
+double bulk_solid_fraction(const BedFrame& bed, double volume) {
+  const double low = bulk_margin * bed.statics.mean_diameter;
+  const double high = volume / bed.statics.length - low;
   if (!(high > low)) return std::numeric_limits<double>::quiet_NaN();
   double area = 0.0;
-  for (Index i = 0; i < statics.free_count; ++i)
-    area +=
-        area_below(high - frame.y[i], statics.radius[i]) - area_below(low - frame.y[i], statics.radius[i]);
-  return area / (statics.length * (high - low));
+  for (Index i = 0; i < bed.statics.free_count; ++i)
+    area += area_below(high - bed.frame.y[i], bed.statics.radius[i]) -
+            area_below(low - bed.frame.y[i], bed.statics.radius[i]);
+  return area / (bed.statics.length * (high - low));
 }
 
-PackingStress packing_stress(const Frame& frame, const RunStatics& statics, double volume) {
+PackingStress packing_stress(const BedFrame& bed, double volume) {
   PackingStress stress;
-  stress.sigma = over(sum_of_moments(frame.internal_moment, 0, statics.free_count), volume);
+  stress.sigma = over(sum_of_moments(bed.frame.internal_moment, 0, bed.statics.free_count), volume);
   stress.state = stress_state(stress.sigma);
   stress.normal = stress.sigma.yy;
   stress.shear = -stress.sigma.yx;
@@ -58,21 +59,21 @@ PackingStress packing_stress(const Frame& frame, const RunStatics& statics, doub
   return stress;
 }
 
-std::vector<Tensor2> section_stresses(const Frame& frame, const RunStatics& statics, double volume,
-                                      int count) {
+std::vector<Tensor2> section_stresses(const BedFrame& bed, double volume, int count) {
   std::vector<Tensor2> sections(static_cast<std::size_t>(count));
-  for (Index i = 0; i < statics.free_count; ++i) {
+  for (Index i = 0; i < bed.statics.free_count; ++i) {
     // Rounding may put a centre at the very end.
-    const auto section = static_cast<int>(std::floor(frame.x[i] / statics.length * count));
-    add_to(sections[static_cast<std::size_t>(std::clamp(section, 0, count - 1))], frame.internal_moment[i]);
+    const auto section = static_cast<int>(std::floor(bed.frame.x[i] / bed.statics.length * count));
+    add_to(sections[static_cast<std::size_t>(std::clamp(section, 0, count - 1))],
+           bed.frame.internal_moment[i]);
   }
   for (Tensor2& section : sections) section = over(section, volume / count);
   return sections;
 }
 
-Histogram stress_ratio_distribution(const Frame& frame, const RunStatics& statics, int bins) {
+Histogram stress_ratio_distribution(const BedFrame& bed, int bins) {
   Histogram histogram(0.0, 1.0, bins);
-  for (double gamma : of_free_grains(frame.gamma, statics)) histogram.add(gamma);
+  for (double gamma : of_free_grains(bed.frame.gamma, bed.statics)) histogram.add(gamma);
   return histogram;
 }
 

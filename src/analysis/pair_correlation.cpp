@@ -97,30 +97,29 @@ PairCorrelation pair_correlation(const std::vector<double>& x, const std::vector
   return result;
 }
 
-PairCorrelation force_correlation(const Frame& frame, const RunStatics& statics, double largest, int bins) {
-  const FrameContacts& contacts = frame.contacts;
+PairCorrelation force_correlation(const BedFrame& bed, double largest, int bins) {
+  const FrameContacts& contacts = bed.frame.contacts;
   return pair_correlation(contacts.px, contacts.py,
-                          over_layer_mean(contacts.py, contacts.fn, layer_over_d * statics.mean_diameter),
-                          largest, bins, period_of(statics));
+                          over_layer_mean(contacts.py, contacts.fn, layer_over_d * bed.statics.mean_diameter),
+                          largest, bins, period_of(bed.statics));
 }
 
-PairCorrelation stress_ratio_correlation(const Frame& frame, const RunStatics& statics, double largest,
-                                         int bins) {
-  return pair_correlation(of_free_grains(frame.x, statics), of_free_grains(frame.y, statics),
-                          of_free_grains(frame.gamma, statics), largest, bins, period_of(statics));
+PairCorrelation stress_ratio_correlation(const BedFrame& bed, double largest, int bins) {
+  return pair_correlation(of_free_grains(bed.frame.x, bed.statics), of_free_grains(bed.frame.y, bed.statics),
+                          of_free_grains(bed.frame.gamma, bed.statics), largest, bins,
+                          period_of(bed.statics));
 }
 
-PairCorrelation mean_stress_correlation(const Frame& frame, const RunStatics& statics, double largest,
-                                        int bins) {
+PairCorrelation mean_stress_correlation(const BedFrame& bed, double largest, int bins) {
   std::vector<double> mean_stress;
-  for (Index i = 0; i < statics.free_count; ++i) {
-    const Tensor2& moment = frame.internal_moment[i];
-    mean_stress.push_back((moment.xx + moment.yy) / (pi * statics.radius[i] * statics.radius[i]));
+  for (Index i = 0; i < bed.statics.free_count; ++i) {
+    const Tensor2& moment = bed.frame.internal_moment[i];
+    mean_stress.push_back((moment.xx + moment.yy) / (pi * bed.statics.radius[i] * bed.statics.radius[i]));
   }
-  const std::vector<double> y = of_free_grains(frame.y, statics);
-  return pair_correlation(of_free_grains(frame.x, statics), y,
-                          over_layer_mean(y, mean_stress, layer_over_d * statics.mean_diameter), largest,
-                          bins, period_of(statics));
+  const std::vector<double> y = of_free_grains(bed.frame.y, bed.statics);
+  return pair_correlation(of_free_grains(bed.frame.x, bed.statics), y,
+                          over_layer_mean(y, mean_stress, layer_over_d * bed.statics.mean_diameter), largest,
+                          bins, period_of(bed.statics));
 }
 
 }  // namespace talus

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "core/snapshot.h"
+#include "core/bed_frame.h"
 
 namespace talus {
 
@@ -22,13 +22,11 @@ PairCorrelation pair_correlation(const std::vector<double>& x, const std::vector
 
 /// Of the normal forces, at the contact points; each over the mean of its layer, so that the weight of the
 /// grains above, which all forces at one depth share, is no correlation. Layers are two mean diameters thick.
-PairCorrelation force_correlation(const Frame& frame, const RunStatics& statics, double largest, int bins);
+PairCorrelation force_correlation(const BedFrame& bed, double largest, int bins);
 /// Of the stress ratios gamma of the free grains, at their centres.
-PairCorrelation stress_ratio_correlation(const Frame& frame, const RunStatics& statics, double largest,
-                                         int bins);
+PairCorrelation stress_ratio_correlation(const BedFrame& bed, double largest, int bins);
 /// Of the mean stresses of the free grains, trace of the internal moment over pi r^2, at their centres; each
 /// over the mean of its layer, like forces. A grain that carries nothing has 0.
-PairCorrelation mean_stress_correlation(const Frame& frame, const RunStatics& statics, double largest,
-                                        int bins);
+PairCorrelation mean_stress_correlation(const BedFrame& bed, double largest, int bins);
 
 }  // namespace talus

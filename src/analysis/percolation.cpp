@@ -10,7 +10,7 @@ namespace talus {
 namespace {
 
 /// The bed along x in equal columns, about a mean diameter wide.
-struct Columns {
+struct BedColumns {
   Index count = 1;
   double width = 0.0;  ///< m
   bool periodic = false;
@@ -22,20 +22,20 @@ struct Columns {
   }
 };
 
-Columns make_columns(const RunStatics& statics) {
+BedColumns make_columns(const RunStatics& statics) {
   const auto count = static_cast<Index>(std::max(1.0, std::round(statics.length / statics.mean_diameter)));
   return {count, statics.length / count, statics.periodic};
 }
 
 /// Height of the highest top of a grain in each column, m.
-std::vector<double> highest_tops(const Frame& frame, const RunStatics& statics, const Columns& columns) {
+std::vector<double> highest_tops(const BedFrame& bed, const BedColumns& columns) {
   std::vector<double> top(static_cast<std::size_t>(columns.count), 0.0);
-  for (Index i = 0; i < statics.free_count; ++i) {
-    const double radius = statics.radius[i];
-    const Index first = columns.at(frame.x[i] - radius);
-    const Index last = columns.at(frame.x[i] + radius);
+  for (Index i = 0; i < bed.statics.free_count; ++i) {
+    const double radius = bed.statics.radius[i];
+    const Index first = columns.at(bed.frame.x[i] - radius);
+    const Index last = columns.at(bed.frame.x[i] + radius);
     for (Index k = first;; k = (k + 1) % columns.count) {
-      top[k] = std::max(top[k], frame.y[i] + radius);
+      top[k] = std::max(top[k], bed.frame.y[i] + radius);
       if (k == last) break;
     }
   }
@@ -52,24 +52,24 @@ std::vector<bool> touching(const Clusters& clusters, const std::vector<bool>& ed
 
 }  // namespace
 
-BedEdges bed_edges(const Frame& frame, const RunStatics& statics) {
-  const auto count = static_cast<std::size_t>(statics.free_count);
-  const double d = statics.mean_diameter;
+BedEdges bed_edges(const BedFrame& bed) {
+  const auto count = static_cast<std::size_t>(bed.statics.free_count);
+  const double d = bed.statics.mean_diameter;
   BedEdges edges;
   for (auto* edge : {&edges.floor, &edges.surface, &edges.left, &edges.right}) edge->assign(count, false);
-  const Columns columns = make_columns(statics);
-  const std::vector<double> surface = highest_tops(frame, statics, columns);
+  const BedColumns columns = make_columns(bed.statics);
+  const std::vector<double> surface = highest_tops(bed, columns);
   for (std::size_t i = 0; i < count; ++i) {
-    const double radius = statics.radius[i];
-    edges.floor[i] = frame.y[i] < d;
-    edges.surface[i] = frame.y[i] + radius > surface[columns.at(frame.x[i])] - d;
-    edges.left[i] = !statics.periodic && frame.x[i] - radius < d;
-    edges.right[i] = !statics.periodic && frame.x[i] + radius > statics.length - d;
+    const double radius = bed.statics.radius[i];
+    edges.floor[i] = bed.frame.y[i] < d;
+    edges.surface[i] = bed.frame.y[i] + radius > surface[columns.at(bed.frame.x[i])] - d;
+    edges.left[i] = !bed.statics.periodic && bed.frame.x[i] - radius < d;
+    edges.right[i] = !bed.statics.periodic && bed.frame.x[i] + radius > bed.statics.length - d;
   }
-  const FrameContacts& contacts = frame.contacts;
+  const FrameContacts& contacts = bed.frame.contacts;
   for (Index c = 0; c < contacts.count(); ++c)
-    if (contacts.a[c] < statics.free_count && contacts.b[c] >= statics.free_count &&
-        contacts.b[c] < frame.grain_count())
+    if (contacts.a[c] < bed.statics.free_count && contacts.b[c] >= bed.statics.free_count &&
+        contacts.b[c] < bed.frame.grain_count())
       edges.floor[contacts.a[c]] = true;
   return edges;
 }
@@ -87,7 +87,7 @@ Spanning find_spanning(const Clusters& clusters, const BedEdges& edges) {
   return spanning;
 }
 
-DirectedPaths directed_paths(const Frame& frame, const RunStatics& statics, const std::vector<bool>& in_set,
+DirectedPaths directed_paths(const BedFrame& bed, const std::vector<bool>& in_set,
                              const std::vector<Link>& links, const BedEdges& edges, double direction,
                              double spread) {
   struct Step {
@@ -99,17 +99,18 @@ DirectedPaths directed_paths(const Frame& frame, const RunStatics& statics, cons
   std::vector<Step> steps;
   for (const Link& link : links) {
     if (!in_set[link.a] || !in_set[link.b]) continue;
-    const double dx = frame.x[link.b] + link.shift * statics.length - frame.x[link.a];
-    const double dy = frame.y[link.b] - frame.y[link.a];
+    const double dx = bed.frame.x[link.b] + link.shift * bed.statics.length - bed.frame.x[link.a];
+    const double dy = bed.frame.y[link.b] - bed.frame.y[link.a];
     const double advance = dx * along.x + dy * along.y;
     if (std::fabs(advance) < least * std::sqrt(dx * dx + dy * dy)) continue;
     steps.push_back(advance > 0.0 ? Step{link.a, link.b} : Step{link.b, link.a});
   }
   // Steps rise, so that in the order of the heights they start from, all paths to a grain are known before
   // one leads on from it.
-  std::sort(steps.begin(), steps.end(),
-            [&](const Step& one, const Step& other) { return frame.y[one.from] < frame.y[other.from]; });
-  std::vector<double> lowest(frame.y.begin(), frame.y.begin() + statics.free_count);
+  std::sort(steps.begin(), steps.end(), [&](const Step& one, const Step& other) {
+    return bed.frame.y[one.from] < bed.frame.y[other.from];
+  });
+  std::vector<double> lowest(bed.frame.y.begin(), bed.frame.y.begin() + bed.statics.free_count);
   std::vector<bool> from_floor = edges.floor;
   DirectedPaths paths;
   for (std::size_t i = 0; i < in_set.size(); ++i)
@@ -117,7 +118,7 @@ DirectedPaths directed_paths(const Frame& frame, const RunStatics& statics, cons
   for (const Step& step : steps) {
     lowest[step.to] = std::min(lowest[step.to], lowest[step.from]);
     if (from_floor[step.from]) from_floor[step.to] = true;
-    paths.height = std::max(paths.height, frame.y[step.to] - lowest[step.to]);
+    paths.height = std::max(paths.height, bed.frame.y[step.to] - lowest[step.to]);
     paths.spans = paths.spans || (from_floor[step.to] && edges.surface[step.to]);
   }
   return paths;

@@ -5,7 +5,7 @@
 
 #include "analysis/clusters.h"
 #include "analysis/links.h"
-#include "core/snapshot.h"
+#include "core/bed_frame.h"
 
 namespace talus {
 
@@ -16,7 +16,7 @@ struct BedEdges {
                                   ///< that reaches into the same column of the bed, about D wide
   std::vector<bool> left, right;  ///< edge less than D away from a side wall; none in a periodic bed
 };
-BedEdges bed_edges(const Frame& frame, const RunStatics& statics);
+BedEdges bed_edges(const BedFrame& bed);
 
 /// The largest cluster (the smallest label) that spans; -1 where none does.
 struct Spanning {
@@ -34,7 +34,7 @@ struct DirectedPaths {
 /// Paths of links between grains with `in_set` in which every step, from centre to centre, is within `spread`
 /// (rad) of `direction` (rad, to the bed), both so that each step rises: direction - spread > 0 and
 /// direction + spread < pi. The paper's "directed" percolation (section V C) is at 60 and 120 deg.
-DirectedPaths directed_paths(const Frame& frame, const RunStatics& statics, const std::vector<bool>& in_set,
+DirectedPaths directed_paths(const BedFrame& bed, const std::vector<bool>& in_set,
                              const std::vector<Link>& links, const BedEdges& edges, double direction,
                              double spread);
 

@@ -6,9 +6,9 @@
 #include <thread>
 #include <vector>
 
+#include "analysis/parameters.h"
+#include "analysis/record.h"
 #include "core/snapshot.h"
-#include "io/analysis_record.h"
-#include "session/analysis_parameters.h"
 
 namespace talus {
 
@@ -17,7 +17,6 @@ struct AnalysedRun {
   std::string path;
   std::string state;  ///< "stored", "read from the file", "not stored: ..."
   RunStatics statics;
-  std::vector<double> tilts;  ///< rad, of the frames
   Analysis analysis;
 };
 

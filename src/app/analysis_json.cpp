@@ -5,6 +5,8 @@
 namespace talus {
 namespace {
 
+bool is_of_grains(const Quantity& quantity) { return quantity.shape.find('N') != std::string::npos; }
+
 /// Numbers in nested lists: `extents` are the sizes from the outer to the inner, none for a single number.
 template <typename T>
 std::string nested(std::span<const T> numbers, std::span<const std::uint64_t> extents) {
@@ -16,30 +18,31 @@ std::string nested(std::span<const T> numbers, std::span<const std::uint64_t> ex
   return text + "]";
 }
 
-std::string data_set_text(const AnalysisField& field, const Analysis& analysis) {
-  const auto extents = dimensions(field.data_set, analysis.sizes);
+std::string values_text(const Quantity& quantity, const Analysis& analysis) {
+  const auto extents = dimensions(data_set_of(quantity), sizes_of(analysis));
   return std::visit(
       [&](const auto& array) { return nested(std::span(array), std::span<const std::uint64_t>(extents)); },
-      find_data_set(analysis, analysis_name(field)));
+      values_of(quantity, analysis));
 }
 
 }  // namespace
 
-std::string analysis_json(const AnalysedRun& run) {
+std::string analysis_json(const AnalysedRun& run, std::span<const Quantity> table) {
   const Analysis& analysis = run.analysis;
   json::Members parameters;
   for (const auto& [name, value] : analysis.parameters) parameters.emplace_back(name, json::quoted(value));
-  const std::uint64_t frames = run.tilts.size();
+  std::vector<double> tilts;
+  for (const FrameRecord& frame : analysis.frames) tilts.push_back(frame.tilt);
+  const std::uint64_t frames = tilts.size();
   json::Members members = {{"path", json::quoted(run.path)},
                            {"state", json::quoted(run.state)},
                            {"key", json::quoted(analysis.key)},
                            {"mean_diameter", json::number(run.statics.mean_diameter)},
                            {"parameters", json::object(parameters, 1)},
-                           {"tilt", nested(std::span<const double>(run.tilts), std::span(&frames, 1))}};
-  for (const AnalysisField& field : analysis_schema())
-    if (is_array(field) && is_present(field, analysis.sizes) &&
-        field.data_set.shape.find('N') == std::string::npos)
-      members.emplace_back(analysis_name(field), data_set_text(field, analysis));
+                           {"tilt", nested(std::span<const double>(tilts), std::span(&frames, 1))}};
+  for (const Quantity& quantity : table)
+    if (is_present(quantity, analysis) && !is_of_grains(quantity))
+      members.emplace_back(quantity.name, values_text(quantity, analysis));
   return json::object(members);
 }
 

@@ -1,8 +1,10 @@
 #pragma once
 /// The analysis of a run as text.
 
+#include <span>
 #include <string>
 
+#include "analysis/quantities.h"
 #include "app/analysed_run.h"
 
 namespace talus {
@@ -11,8 +13,8 @@ namespace talus {
 /// mean diameters, angles in degrees.
 std::string analysis_text(const AnalysedRun& run);
 
-/// All scalars and series of analysis_schema() under their names, in SI units, but not the values of single
+/// All scalars and series of the table under their names, in SI units, but not the values of single
 /// grains; arrays in the shape of the table.
-std::string analysis_json(const AnalysedRun& run);
+std::string analysis_json(const AnalysedRun& run, std::span<const Quantity> table = quantities());
 
 }  // namespace talus

@@ -5,6 +5,7 @@
 
 #include "app/analysis_report.h"
 #include "app/commands.h"
+#include "session/analysis_parameters.h"
 
 namespace talus {
 namespace {

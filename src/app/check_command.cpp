@@ -3,16 +3,18 @@
 
 #include <cmath>
 #include <cstdio>
+#include <fmt/core.h>
 #include <memory>
 
 #include "app/commands.h"
 #include "app/count_progress.h"
 #include "app/json.h"
 #include "core/errors.h"
+#include "core/visible_text.h"
 #include "io/run_repair.h"
+#include "scenario/keys.h"
 #include "session/estimate.h"
 #include "session/run_check.h"
-#include "session/scenario_keys.h"
 
 namespace talus {
 namespace {
@@ -23,7 +25,7 @@ struct CheckArguments {
   bool json = false;
 };
 
-std::string json_value(const ScenarioValue& value) {
+std::string json_value(const KeyValue& value) {
   if (const auto* whole = std::get_if<std::int64_t>(&value)) return json::number(*whole);
   if (const auto* number = std::get_if<double>(&value)) return json::number(*number);
   return json::quoted(std::get<std::string>(value));
@@ -56,6 +58,7 @@ void print_json(const CheckArguments& arguments, const Scenario& scenario, const
       {"time_step_s", json::number(expected.time_step)},
       {"deposition_steps", json::number(expected.deposition_steps)},
       {"tilt_steps", json::number(expected.tilt_steps)},
+      {"flow_steps", json::number(expected.flow_steps)},
       {"frames", json::number(expected.frames)},
       {"observable_rows", json::number(expected.observable_rows)},
       {"time_s", json::number(expected.seconds)},
@@ -72,28 +75,11 @@ void print_json(const CheckArguments& arguments, const Scenario& scenario, const
 }
 
 std::string duration(double seconds) {
-  char text[32];
-  if (seconds < 90.0)
-    std::snprintf(text, sizeof text, "%.0f s", std::ceil(seconds));
-  else if (seconds < 5400.0)
-    std::snprintf(text, sizeof text, "%.0f min", seconds / 60.0);
-  else if (seconds < 172800.0)
-    std::snprintf(text, sizeof text, "%.1f h", seconds / 3600.0);
-  else
-    std::snprintf(text, sizeof text, "%.0f days", seconds / 86400.0);
-  return text;
+  if (seconds < 90.0) return fmt::format("{:.0f} s", std::ceil(seconds));
+  if (seconds < 5400.0) return fmt::format("{:.0f} min", seconds / 60.0);
+  if (seconds < 172800.0) return fmt::format("{:.1f} h", seconds / 3600.0);
+  return fmt::format("{:.0f} days", seconds / 86400.0);
 }
-
-std::string size_text(double bytes) {
-  char text[32];
-  if (bytes < 1e9)
-    std::snprintf(text, sizeof text, "%.0f MB", std::ceil(bytes / 1e6));
-  else
-    std::snprintf(text, sizeof text, "%.1f GB", bytes / 1e9);
-  return text;
-}
-
-std::string count(std::int64_t number) { return std::to_string(number); }
 
 void print_line(const char* name, const std::string& text) {
   std::printf("#   %-11s %s\n", name, text.c_str());
@@ -103,18 +89,20 @@ void print_line(const char* name, const std::string& text) {
 void print_text(const CheckArguments& arguments, const Scenario& scenario, const Estimate& expected) {
   std::printf("# %s is valid\n\n%s\n", arguments.scenario.c_str(), resolved_toml(scenario).c_str());
   std::printf("# Estimates\n");
-  print_line("grains", count(expected.grains) + " free, " + count(expected.floor_grains) + " on the floor");
-  print_line("contacts", "about " + count(expected.contacts) + " at rest");
+  print_line("grains", fmt::format("{} free, {} on the floor", expected.grains, expected.floor_grains));
+  print_line("contacts", fmt::format("about {} at rest", expected.contacts));
   print_line("time step", short_text(expected.time_step) + " s (tilt.step / tilt.rate)");
-  print_line("steps",
-             "about " + count(expected.deposition_steps) + " of deposition, " +
-                 (scenario.tilt.end_angle ? "" : "about ") + count(expected.tilt_steps) + " of tilt" +
-                 (scenario.tilt.end_angle ? "" : " (failure at " + short_text(assumed_repose) + " deg)"));
+  print_line(
+      "steps",
+      fmt::format("about {} of deposition, {}{} of tilt{}{}", expected.deposition_steps,
+                  scenario.tilt.end_angle ? "" : "about ", expected.tilt_steps,
+                  scenario.tilt.end_angle ? "" : fmt::format(" (failure at {} deg)", assumed_repose),
+                  expected.flow_steps > 0 ? fmt::format(", at most {} of flow", expected.flow_steps) : ""));
   print_line("output",
-             count(expected.frames) + " frames, " + count(expected.observable_rows) + " rows of observables");
-  print_line("time", "about " + duration(expected.seconds) + " on one core");
+             fmt::format("{} frames, {} rows of observables", expected.frames, expected.observable_rows));
+  print_line("time", fmt::format("about {} on one core", duration(expected.seconds)));
   print_line("memory", "up to about " + size_text(expected.memory));
-  print_line("disk", "about " + size_text(expected.disk) + ", twice that while the run is packed");
+  print_line("disk", fmt::format("about {}, twice that while the run is packed", size_text(expected.disk)));
 }
 
 /// Throws `refusal` again, after it has said which pieces of the run are damaged.
@@ -127,7 +115,7 @@ void print_text(const CheckArguments& arguments, const Scenario& scenario, const
     std::printf("%s\n", json::object(members).c_str());
   } else {
     std::printf("%s: damaged\n", arguments.scenario.c_str());
-    for (const std::string& piece : pieces) std::printf("  fault: %s\n", piece.c_str());
+    for (const std::string& piece : pieces) std::printf("  fault: %s\n", visible(piece).c_str());
     if (pieces.empty()) std::printf("  every piece of the run itself is whole\n");
   }
   throw Error(refusal);
@@ -166,8 +154,12 @@ void print_run_json(const std::string& path, const RunFile& run, const RunCheck&
 void print_run(const std::string& path, const RunFile& run, const RunCheck& check) {
   std::printf("%s: %s, %s\n", path.c_str(), check.faults.empty() ? "whole" : "damaged",
               run.complete() ? "complete" : "not complete");
-  if (!run.lost().empty()) std::printf("  lost        %s (before it was repaired)\n", run.lost().c_str());
-  std::printf("  hashes      as they were written\n");
+  if (!run.lost().empty())
+    std::printf("  lost        %s (before it was repaired)\n", visible(run.lost()).c_str());
+  if (check.changed == 0)
+    std::printf("  hashes      as they were written\n");
+  else
+    std::printf("  hashes      wrong for %zu of the data sets and frames\n", check.changed);
   std::printf("  series      %zu frames, %zu rows of observables, %zu steps, %zu commands\n", check.frames,
               check.rows, check.steps, check.commands);
   std::printf("  overlap     at most %.2g D\n", check.largest_overlap);
@@ -176,7 +168,7 @@ void print_run(const std::string& path, const RunFile& run, const RunCheck& chec
               check.largest_imbalance, check.frames_at_rest);
   std::printf("  moments     differ from those of the contacts by at most %.2g of the largest\n",
               check.largest_moment_error);
-  for (const std::string& fault : check.faults) std::printf("  fault: %s\n", fault.c_str());
+  for (const std::string& fault : check.faults) std::printf("  fault: %s\n", visible(fault).c_str());
 }
 
 /// Throws Error(bad_data) where the run is damaged, after it has said how.
@@ -184,19 +176,17 @@ void check_run_file(const CheckArguments& arguments) {
   if (!arguments.settings.empty())
     throw Error(ExitCode::usage, arguments.scenario + " is a run: --set is for a scenario");
   const RunFile run = open_or_tell(arguments);
-  RunCheck check = [&] {
+  const RunCheck check = [&] {
     CountProgress progress("checking", run.all_frame_tilts().size(), arguments.json);
     return check_run(run, [&progress](std::size_t done) { progress.show(done); });
   }();
-  // Of a folder every file has been compared with its hash, and its writer may be at work.
-  const auto pieces = run.complete() ? damaged_pieces(arguments.scenario) : std::vector<std::string>{};
-  check.faults.insert(check.faults.begin(), pieces.begin(), pieces.end());
   if (arguments.json)
     print_run_json(arguments.scenario, run, check);
   else
     print_run(arguments.scenario, run, check);
   if (!check.faults.empty())
-    throw Error(ExitCode::bad_data, arguments.scenario + " is damaged: " + check.faults.front());
+    throw Error(ExitCode::bad_data,
+                fmt::format("{} is damaged: {}", arguments.scenario, check.faults.front()));
 }
 
 }  // namespace
@@ -214,7 +204,7 @@ void add_check_command(CLI::App& app) {
       ->add_option("--set", arguments->settings,
                    "Change a key of the scenario, e.g. --set contact.friction=0.3")
       ->allow_extra_args(false);
-  command->add_flag("--json", arguments->json, "As JSON, with units in the names");
+  command->add_flag("--json", arguments->json, "Print JSON, with units in the names");
   command->callback([arguments] {
     if (is_run(arguments->scenario)) return check_run_file(*arguments);
     const Scenario scenario = read_scenario(arguments->scenario, arguments->settings);

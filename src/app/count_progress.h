@@ -1,10 +1,12 @@
 #pragma once
-/// Progress of things that are made one by one: a line that is rewritten on a terminal, plain lines every few
-/// seconds in a log.
+/// Progress of things that are made one by one, on the line of a terminal, or now and then in a log.
 
 #include <chrono>
 #include <cstddef>
+#include <functional>
 #include <string>
+
+#include "app/status_line.h"
 
 namespace talus {
 
@@ -12,22 +14,19 @@ class CountProgress {
  public:
   /// `label` says what is done: "rendering".
   CountProgress(std::string label, std::size_t count, bool quiet);
-  ~CountProgress();
-  CountProgress(const CountProgress&) = delete;
-  CountProgress& operator=(const CountProgress&) = delete;
 
-  /// `done` of them are there. Most calls do nothing, as time since the last line is short.
+  /// `done` of them are there. Most calls do nothing, since little time has passed since the last.
   void show(std::size_t done);
 
  private:
   using Clock = std::chrono::steady_clock;
   std::string label_;
   std::size_t count_;
-  bool quiet_;
-  bool terminal_;
-  bool open_ = false;  ///< a line of the terminal waits for its end
+  StatusLine line_;
   Clock::time_point begin_ = Clock::now();
-  Clock::time_point shown_ = begin_;
 };
+
+/// Shows the progress of one who counts: to be called with how many are done, and how many there are in all.
+std::function<void(std::size_t done, std::size_t count)> count_shown(std::string label, bool quiet);
 
 }  // namespace talus

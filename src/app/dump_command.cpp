@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <fmt/core.h>
 #include <limits>
 #include <memory>
 
@@ -9,8 +10,8 @@
 #include "app/output_files.h"
 #include "core/errors.h"
 #include "core/trigonometry.h"
-#include "maps/frame_choice.h"
-#include "session/problem_file.h"
+#include "pictures/frame_choice.h"
+#include "problems/problem_file.h"
 
 namespace talus {
 namespace {
@@ -38,28 +39,25 @@ std::size_t choose_frame(const DumpArguments& arguments, const RunFile& run) {
     return frames_at(run.frame_tilts(), {arguments.at}, theta_c).front();
   }
   if (arguments.frame >= count)
-    throw Error(ExitCode::bad_data, arguments.run + " has " + std::to_string(count) + " frames, 0 to " +
-                                        std::to_string(count - 1) + "; there is no frame " +
-                                        std::to_string(arguments.frame));
+    throw Error(ExitCode::bad_data, fmt::format("{} has {} frames, 0 to {}; there is no frame {}",
+                                                arguments.run, count, count - 1, arguments.frame));
   return arguments.frame;
 }
 
 std::string step_text(const StepProblem& step, std::int64_t number) {
-  char text[96];
-  std::snprintf(text, sizeof text, "step %lld at %.3f deg", static_cast<long long>(number),
-                degrees(step.scales.tilt));
-  return text;
+  return fmt::format("step {} at {:.3f} deg", number, degrees(step.scales.tilt));
 }
 
 void dump(const DumpArguments& arguments) {
-  refuse_existing(arguments.output, arguments.overwrite);
+  output_target(arguments.output, output_of_run(arguments.run, arguments.overwrite));
   const RunFile run = RunFile::open(arguments.run);
   const std::size_t k = choose_frame(arguments, run);
   const std::int64_t number = run.frame(k).step + 1;
   const StepProblem step = problem_after_frame(run, k);
   const std::string from = step_text(step, number);
+  create_folder_of(arguments.output);
   write_problem(arguments.output, step,
-                "Talus, " + from + " of a run with seed " + std::to_string(run.header().seed));
+                fmt::format("Talus, {} of a run with seed {}", from, run.header().seed));
   std::printf("%s: %s, after frame %zu: %d contacts of %d bodies%s\n", arguments.output.c_str(), from.c_str(),
               k, step.problem.contact_count(), step.problem.body_count(),
               number == run.checkpoint().world.step + 1 ? ", to the last bit" : ", from single precision");
@@ -82,7 +80,7 @@ void add_dump_command(CLI::App& app) {
       ->add_option("-o,--output", arguments->output,
                    "Problem file to write (HDF5; see docs/problem_files.md)")
       ->required();
-  command->add_flag("--overwrite", arguments->overwrite, "Replace a file that exists");
+  command->add_flag("--overwrite", arguments->overwrite, "Replace an existing file");
   command->callback([arguments] { dump(*arguments); });
 }
 

@@ -1,16 +1,19 @@
 #include "app/figure_files.h"
 
-#include <unistd.h>
-
 #include <cmath>
 #include <filesystem>
+#include <fmt/core.h>
+#include <optional>
 
 #include "app/figure_text.h"
 #include "app/gnuplot.h"
+#include "core/descriptor.h"
 #include "core/errors.h"
-#include "render/output_file.h"
+#include "core/locked_file.h"
+#include "core/output_file.h"
 #include "render/png.h"
 #include "render/renderer.h"
+#include "render/whole_file.h"
 
 namespace talus {
 namespace {
@@ -19,24 +22,24 @@ namespace fs = std::filesystem;
 
 constexpr double dots_per_cm = map_resolution / 2.54;
 
-void create_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error)
-    throw Error(ExitCode::cannot_create, folder.string() + ": cannot create the folder: " + error.message());
-}
-
-/// A folder that vanishes with all that is still in it.
+/// A folder that vanishes with all that is still in it. One that a kill left is replaced.
 struct Workshop {
-  explicit Workshop(fs::path folder) : path(std::move(folder)) { create_folder(path); }
+  explicit Workshop(const fs::path& folder) : path(folder), lock(create_locked_folder(folder.string())) {
+    if (!lock)
+      throw Error(ExitCode::cannot_create,
+                  folder.stem().stem().string() +
+                      " is being drawn by another process in the same folder; wait for it to end, or choose "
+                      "another folder with -o");
+  }
   ~Workshop() {
     std::error_code ignored;
-    fs::remove_all(path, ignored);
+    if (lock) fs::remove_all(path, ignored);
   }
   Workshop(const Workshop&) = delete;
   Workshop& operator=(const Workshop&) = delete;
 
   fs::path path;
+  std::optional<Descriptor> lock;
 };
 
 void write_text(const fs::path& path, const std::string& text) {
@@ -51,6 +54,15 @@ void draw_maps(const Figure& figure, const fs::path& folder, double width) {
   for (const FigureMap& map : figure.maps)
     write_png((folder / file_of(figure, map)).string(),
               renderer.draw(map.view, static_cast<int>(std::lround(map.width * width * dots_per_cm))));
+}
+
+/// gnuplot ends well even where it could not write all.
+void require_whole(const Figure& figure, const fs::path& made, const fs::path& folder) {
+  for (const char* ending : {".pdf", ".svg", ".png"})
+    if (const std::string name = figure.name + ending; !is_whole_file((made / name).string(), name))
+      throw Error(ExitCode::io_error,
+                  (folder / name).string() +
+                      ": gnuplot has not written all of it; is the disk full, or the size of files limited?");
 }
 
 }  // namespace
@@ -68,20 +80,16 @@ void write_figure(const Figure& figure, std::span<const RunGroup> groups, const 
                   const FigureOptions& options) {
   const double width = figure_width(figure, options.columns);
   create_folder(folder);
-  const Workshop workshop(fs::path(folder) / (figure.name + ".part-" + std::to_string(getpid())));
+  const Workshop workshop(fs::path(folder) / (figure.name + temporary_ending));
   for (const Table& table : figure.tables)
     write_text(workshop.path / file_of(figure, table), csv_text(table));
   write_text(workshop.path / (figure.name + ".gp"), gnuplot_text(figure, width));
   write_text(workshop.path / (figure.name + ".json"), provenance_json(figure, groups, options.command_line));
   draw_maps(figure, workshop.path, width);
   run_gnuplot(workshop.path.string(), figure.name + ".gp");
-  for (const std::string& name : figure_files(figure)) {
-    std::error_code error;
-    fs::rename(workshop.path / name, fs::path(folder) / name, error);
-    if (error)
-      throw Error(ExitCode::cannot_create,
-                  (fs::path(folder) / name).string() + ": cannot create: " + error.message());
-  }
+  require_whole(figure, workshop.path, folder);
+  for (const std::string& name : figure_files(figure))
+    give_name((workshop.path / name).string(), (fs::path(folder) / name).string());
 }
 
 }  // namespace talus

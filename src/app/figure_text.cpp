@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/core.h>
 
 #include "app/json.h"
 #include "core/hash.h"
+#include "core/text.h"
 #include "core/version.h"
 #include "figures/scripts.h"
 
@@ -16,8 +18,9 @@ using json::quoted;
 std::string list_of(const std::vector<std::string>& values, int depth) {
   const std::string margin(2 * static_cast<std::size_t>(depth), ' ');
   std::string text = "[";
-  for (const std::string& value : values) text += (text.size() > 1 ? ",\n" : "\n") + margin + "  " + value;
-  return values.empty() ? "[]" : text + "\n" + margin + "]";
+  for (const std::string& value : values)
+    text += fmt::format("{}{}  {}", text.size() > 1 ? ",\n" : "\n", margin, value);
+  return values.empty() ? "[]" : fmt::format("{}\n{}]", text, margin);
 }
 
 std::string table_json(const Figure& figure, const Table& table) {
@@ -46,9 +49,7 @@ std::string run_json(const FigureRun& run, const std::string& group) {
 }  // namespace
 
 std::string csv_text(const Table& table) {
-  std::string text;
-  for (const Column& column : table.columns) text.append(text.empty() ? "" : ",").append(column.name);
-  text += '\n';
+  std::string text = joined(table.columns, ",", &Column::name) + "\n";
   const std::size_t rows = table.columns.empty() ? 0 : table.columns.front().values.size();
   for (std::size_t r = 0; r < rows; ++r)
     for (const Column& column : table.columns) {
@@ -82,12 +83,13 @@ double figure_width(const Figure& figure, int columns) {
 }
 
 std::string gnuplot_text(const Figure& figure, double width) {
-  std::string text = "# " + figure.title + "\n# To draw it again as PDF, SVG and PNG: gnuplot " +
-                     figure.name + ".gp\n\nfigure = \"" + figure.name + "\"\nwidth = " + short_text(width) +
-                     "  # cm\nheight = " + short_text(width * figure.height_over_width) + "\n";
-  for (const auto& [name, value] : figure.variables) text += name + " = " + value + "\n";
-  text.append("\n").append(figure_script("style")).append("\n").append(figure_script(figure.name));
-  return text + "\nunset output\npass = pass + 1\nif (pass <= 3) reread\n";
+  std::string text = fmt::format(
+      "# {0}\n# To draw it again as PDF, SVG and PNG: gnuplot {1}.gp\n\nfigure = \"{1}\"\nwidth = {2}  # "
+      "cm\nheight = {3}\n",
+      figure.title, figure.name, short_text(width), short_text(width * figure.height_over_width));
+  for (const auto& [name, value] : figure.variables) text += fmt::format("{} = {}\n", name, value);
+  return fmt::format("{}\n{}\n{}\nunset output\npass = pass + 1\nif (pass <= 3) reread\n", text,
+                     figure_script("style"), figure_script(figure.name));
 }
 
 }  // namespace talus

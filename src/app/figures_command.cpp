@@ -4,6 +4,7 @@
 #include <cctype>
 #include <cstdio>
 #include <filesystem>
+#include <fmt/core.h>
 #include <memory>
 
 #include "app/command_line.h"
@@ -13,10 +14,12 @@
 #include "app/figure_runs.h"
 #include "app/gnuplot.h"
 #include "app/output_files.h"
+#include "app/stop_signals.h"
 #include "core/errors.h"
 #include "figures/catalogue.h"
-#include "session/scenario_suggestion.h"
-#include "session/scenario_text.h"
+#include "scenario/suggestion.h"
+#include "scenario/text.h"
+#include "session/analysis_parameters.h"
 
 namespace talus {
 namespace {
@@ -40,7 +43,7 @@ std::string_view short_name(std::string_view name) {
 std::string long_form(const std::string& word) {
   const bool number = !word.empty() && word.size() <= 2 &&
                       std::ranges::all_of(word, [](unsigned char c) { return std::isdigit(c) != 0; });
-  return number ? std::string("fig").append(2 - word.size(), '0').append(word) : word;
+  return number ? fmt::format("fig{:0>2}", word) : word;
 }
 
 [[noreturn]] void refuse_name(const std::string& word) {
@@ -52,11 +55,10 @@ std::string long_form(const std::string& word) {
         least = distance;
         nearest = name;
       }
-  throw Error(ExitCode::usage, std::string("--only ")
-                                   .append(printable(word))
-                                   .append(": there is no such figure; did you mean ")
-                                   .append(nearest)
-                                   .append("? talus figures --help lists them"));
+  throw Error(ExitCode::usage,
+              fmt::format("--only {}: there is no such figure; did you mean {}? talus figures "
+                          "--help lists them",
+                          printable(word), nearest));
 }
 
 /// The recipes that are asked for, in the order of the catalogue.
@@ -97,11 +99,14 @@ void make(const FiguresArguments& arguments) {
       group_runs(open_figure_runs(arguments.runs, parameters, arguments.analysis));
   const std::vector<Figure> figures = make_figures(recipes, groups);
   const std::filesystem::path folder = arguments.folder;
+  OutputRule rule{arguments.overwrite};
+  for (const std::string& run : arguments.runs)
+    for (const std::string& input : output_of_run(run, false).inputs) rule.inputs.push_back(input);
   for (const Figure& figure : figures)
-    for (const std::string& file : figure_files(figure))
-      refuse_existing((folder / file).string(), arguments.overwrite);
+    for (const std::string& file : figure_files(figure)) output_target((folder / file).string(), rule);
   CountProgress progress("figures", figures.size(), arguments.analysis.quiet);
   for (std::size_t k = 0; k < figures.size(); ++k) {
+    stop_if_asked();
     write_figure(figures[k], groups, arguments.folder, {arguments.columns, command_line()});
     progress.show(k + 1);
   }
@@ -114,7 +119,7 @@ void make(const FiguresArguments& arguments) {
 std::string list_of_figures() {
   std::string text = "Figures:\n";
   for (const FigureRecipe& recipe : figure_catalogue())
-    text.append("  ").append(recipe.name).append(": ").append(recipe.title).append("\n");
+    text += fmt::format("  {}: {}\n", recipe.name, recipe.title);
   return text;
 }
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <fmt/core.h>
 #include <limits>
 #include <memory>
 
@@ -9,8 +10,9 @@
 #include "app/json.h"
 #include "core/errors.h"
 #include "core/trigonometry.h"
-#include "maps/frame_choice.h"
-#include "session/admissible_forces.h"
+#include "pictures/frame_choice.h"
+#include "problems/admissible_forces.h"
+#include "session/analysis_parameters.h"
 
 namespace talus {
 namespace {
@@ -41,7 +43,7 @@ template <typename Items, typename Text>
 std::string json_list(const Items& items, const Text& text) {
   std::string list;
   for (std::size_t i = 0; i < items.size(); ++i) list += (i > 0 ? ", " : "") + text(i);
-  return "[" + list + "]";
+  return fmt::format("[{}]", list);
 }
 
 std::string json_set(const ForceSet& set) {
@@ -85,12 +87,8 @@ std::string json_frame(const FrameForces& forces, std::size_t k) {
 }
 
 std::string title(const ForceQuantity& quantity) {
-  char text[64];
-  if (quantity.factor > 0.0)
-    std::snprintf(text, sizeof text, "%s at %g Gamma_c", quantity.name.c_str(), quantity.factor);
-  else
-    std::snprintf(text, sizeof text, "%s", quantity.name.c_str());
-  return text;
+  return quantity.factor > 0.0 ? fmt::format("{} at {:g} Gamma_c", quantity.name, quantity.factor)
+                               : quantity.name;
 }
 
 const char* verdict_of(const ForceSet& set) {
@@ -156,7 +154,7 @@ void add_search(CLI::App& command, ForceSearch& search) {
   command.add_option("--tol", search.tolerance, "Natural-map residual eta that all of them must reach")
       ->capture_default_str()
       ->check(CLI::Range(1e-15, 1.0));
-  command.add_option("--max-iterations", search.max_iterations, "Passes over all contacts, at most")
+  command.add_option("--max-iterations", search.max_iterations, "Iterations, at most")
       ->capture_default_str()
       ->check(CLI::Range(0, 1000000000));
   command.add_option("--seed", search.seed, "Seed of the random starts and orders")->capture_default_str();
@@ -167,7 +165,7 @@ void add_search(CLI::App& command, ForceSearch& search) {
 void add_forces_command(CLI::App& app) {
   auto arguments = std::make_shared<ForcesArguments>();
   CLI::App* command = app.add_subcommand(
-      "forces", "Find other forces that carry the same bed, and compare what is measured of them");
+      "forces", "Find other forces that carry the same bed, and compare what is measured with them");
   command->add_option("RUN", arguments->run, "Run file, or the name of a run that is not complete")
       ->required();
   command

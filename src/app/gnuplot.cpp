@@ -1,18 +1,15 @@
 #include "app/gnuplot.h"
 
-#include <fcntl.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <array>
 #include <cerrno>
 #include <cstdio>
+#include <fmt/core.h>
 #include <memory>
+#include <vector>
 
+#include "app/stop_signals.h"
+#include "core/child_program.h"
 #include "core/errors.h"
-
-extern char** environ;
 
 namespace talus {
 namespace {
@@ -22,26 +19,19 @@ struct CloseFile {
 };
 using File = std::unique_ptr<std::FILE, CloseFile>;
 
-/// Runs `gnuplot ARGUMENT` in a folder with all that it says in `messages`, and returns its wait status.
-int run(const std::string& folder, std::string argument, std::FILE* messages) {
-  std::string program = "gnuplot";
-  std::array<char*, 3> arguments = {program.data(), argument.data(), nullptr};
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_adddup2(&actions, fileno(messages), STDOUT_FILENO);
-  posix_spawn_file_actions_adddup2(&actions, fileno(messages), STDERR_FILENO);
-  posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
-  pid_t child = -1;
-  const int error = posix_spawnp(&child, program.c_str(), &actions, nullptr, arguments.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  if (error == ENOENT)
+/// Runs gnuplot with arguments in a folder with all that it says in `messages`, and returns its wait status.
+/// Settings of the user (~/.gnuplot, -d) do not count. Throws Error(stopped) where a signal asks for it.
+int run(const std::string& folder, const std::vector<std::string>& arguments, std::FILE* messages) {
+  std::vector<std::string> words = {"gnuplot"};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  const int to = fileno(messages);
+  const pid_t program = start_program(words, {.out = to, .err = to}, folder);
+  if (program < 0 && errno == ENOENT)
     throw Error(ExitCode::unavailable,
                 "gnuplot is not installed, and figures are drawn by it; apt-get install gnuplot-nox");
-  if (error != 0) throw system_error(ExitCode::unavailable, "start", "gnuplot", error);
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
+  if (program < 0) throw system_error(ExitCode::unavailable, "start", "gnuplot", errno);
+  const int status = wait_for_program(program, stop_if_asked);
+  stop_if_asked();  // Ctrl-C ends gnuplot too: that is no error of the figure
   return status;
 }
 
@@ -62,14 +52,14 @@ std::string text_of(std::FILE* file) {
 
 }  // namespace
 
-void require_gnuplot() { run(".", "--version", open_messages().get()); }
+void require_gnuplot() { run(".", {"--version"}, open_messages().get()); }
 
 void run_gnuplot(const std::string& folder, const std::string& script) {
   const File messages = open_messages();
-  if (run(folder, script, messages.get()) == 0) return;
+  if (run(folder, {"-d", script}, messages.get()) == 0) return;
   const std::string said = text_of(messages.get());
   throw Error(ExitCode::io_error,
-              script + ": gnuplot gave up" + (said.empty() ? std::string() : ": " + said));
+              fmt::format("{}: gnuplot gave up{}", script, said.empty() ? std::string() : ": " + said));
 }
 
 }  // namespace talus

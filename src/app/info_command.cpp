@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <fmt/core.h>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -12,10 +13,11 @@
 #include "core/errors.h"
 #include "core/hash.h"
 #include "core/trigonometry.h"
+#include "core/visible_text.h"
 #include "io/run_file.h"
+#include "scenario/scenario.h"
 #include "session/command.h"
 #include "session/run_header.h"
-#include "session/scenario.h"
 
 namespace talus {
 namespace {
@@ -154,24 +156,19 @@ void print_json(const RunInfo& info) {
   std::printf("%s\n", text.c_str());
 }
 
-void print_line(const char* name, const std::string& value) { std::printf("%-20s%s\n", name, value.c_str()); }
-
-std::string in_degrees(double angle) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3f deg", degrees(angle));
-  return text;
+/// What it says may come from the file.
+void print_line(const char* name, const std::string& value) {
+  std::printf("%-20s%s\n", name, visible(value).c_str());
 }
 
-std::string short_number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  return std::isnan(value) ? "none" : text;
-}
+std::string in_degrees(double angle) { return fmt::format("{:.3f} deg", degrees(angle)); }
+
+std::string short_number(double value) { return std::isnan(value) ? "none" : fmt::format("{:.4g}", value); }
 
 std::string rest_text(const RunInfo& info) {
   const double theta_r = figure(info.results, "theta_r");
   return std::isnan(theta_r) ? "none: no flow after failure has come to rest"
-                             : in_degrees(theta_r) + ", at a tilt of " + in_degrees(info.tilt);
+                             : fmt::format("{}, at a tilt of {}", in_degrees(theta_r), in_degrees(info.tilt));
 }
 
 void print_commands(const RunInfo& info) {
@@ -186,31 +183,31 @@ void print_commands(const RunInfo& info) {
 
 void print_text(const RunInfo& info) {
   const double theta_c = figure(info.results, "theta_c");
-  print_line("run", info.path + (info.complete ? "" : " (not complete, at " + in_degrees(info.tilt) + ")"));
+  print_line("run",
+             info.path + (info.complete ? "" : fmt::format(" (not complete, at {})", in_degrees(info.tilt))));
   if (!info.lost.empty()) print_line("lost", info.lost + " (the run was repaired)");
-  print_line("version", fact(info.provenance, "version") + " (" + fact(info.provenance, "git_hash") + ")");
+  print_line("version", version_of(info.provenance));
   print_line("seed", std::to_string(info.seed));
-  print_line("grains",
-             std::to_string(info.grains) + " free, " + std::to_string(info.floor_grains) + " on the floor");
-  print_line(
-      "frames",
-      std::to_string(info.frames) +
-          (info.frames == 0 ? ""
-                            : ", tilt " + in_degrees(info.tilt_first) + " to " + in_degrees(info.tilt_last)) +
-          (info.flow_frames == 0 ? "" : ", " + std::to_string(info.flow_frames) + " after failure"));
+  print_line("grains", fmt::format("{} free, {} on the floor", info.grains, info.floor_grains));
+  print_line("frames",
+             std::to_string(info.frames) +
+                 (info.frames == 0 ? ""
+                                   : fmt::format(", tilt {} to {}", in_degrees(info.tilt_first),
+                                                 in_degrees(info.tilt_last))) +
+                 (info.flow_frames == 0 ? "" : fmt::format(", {} after failure", info.flow_frames)));
   print_line("theta_c", std::isnan(theta_c) ? "none: the slope has not failed" : in_degrees(theta_c));
   if (find_value(info.results, "theta_r")) print_line("theta_r", rest_text(info));
   print_line("solver tolerance", short_number(info.solver_tolerance));
-  print_line("worst residual", short_number(info.residual_max) + " in the tilt, " +
-                                   std::to_string(info.unconverged_steps) + " of its steps not converged");
+  print_line("worst residual", fmt::format("{} in the tilt, {} of its steps not converged",
+                                           short_number(info.residual_max), info.unconverged_steps));
   print_line("steps", std::to_string(info.steps));
   if (!info.commands.empty()) print_commands(info);
   print_line("state hash", info.state_hash);
   std::printf("results (SI)\n");
   for (const auto& [name, value] : info.results)
-    std::printf("  %-30s%s\n", name.c_str(), short_number(value).c_str());
+    std::printf("  %-30s%s\n", visible(name).c_str(), short_number(value).c_str());
   std::printf("timing (s)\n");
-  for (const auto& [name, value] : info.timing) std::printf("  %-30s%.3f\n", name.c_str(), value);
+  for (const auto& [name, value] : info.timing) std::printf("  %-30s%.3f\n", visible(name).c_str(), value);
 }
 
 }  // namespace

@@ -3,27 +3,42 @@
 
 #include <cmath>
 #include <concepts>
-#include <cstdio>
+#include <fmt/core.h>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
-#include "session/scenario_text.h"
+#include "core/text.h"
+#include "core/visible_text.h"
+#include "scenario/text.h"
 
 namespace talus::json {
+
+/// \u001b of a control character of one or two bytes.
+inline std::string control_escape(std::string_view character) {
+  return fmt::format("\\u{:04x}", static_cast<unsigned char>(character.back()));
+}
 
 /// Names and values that are JSON already, in writing order.
 using Members = std::vector<std::pair<std::string, std::string>>;
 
-/// `text` in quotes. Bytes above 0x7f are left as they are: UTF-8 stays UTF-8.
-inline std::string quoted(const std::string& text) {
+/// A text in quotes. UTF-8 stays UTF-8; control characters are escaped, and of what is no UTF-8 each byte
+/// becomes U+FFFD.
+inline std::string quoted(const std::string& whole) {
   std::string result = "\"";
-  for (const char c : text) {
-    const auto code = static_cast<unsigned char>(c);
-    char escape[8] = {c, '\0'};
-    if (c == '"' || c == '\\') std::snprintf(escape, sizeof escape, "\\%c", c);
-    if (code < 0x20) std::snprintf(escape, sizeof escape, "\\u%04x", code);
-    result += escape;
+  std::string_view text = whole;
+  while (!text.empty()) {
+    const std::size_t length = character_length(text);
+    const std::string_view character = text.substr(0, length == 0 ? 1 : length);
+    const bool marked = character == "\"" || character == "\\";
+    if (length == 0)
+      result += "\\ufffd";
+    else if (is_control(character) && length <= 2)
+      result += control_escape(character);
+    else
+      result.append(marked ? "\\" : "").append(character);
+    text.remove_prefix(character.size());
   }
   return result + "\"";
 }
@@ -38,15 +53,13 @@ inline std::string object(const Members& members, int depth = 0) {
   const std::string margin(2 * static_cast<std::size_t>(depth), ' ');
   std::string text = "{";
   for (const auto& [name, value] : members)
-    text += (text.size() > 1 ? ",\n" : "\n") + margin + "  " + quoted(name) + ": " + value;
-  return text + "\n" + margin + "}";
+    text += fmt::format("{}{}  {}: {}", text.size() > 1 ? ",\n" : "\n", margin, quoted(name), value);
+  return fmt::format("{}\n{}}}", text, margin);
 }
 
 /// [ "text", ... ]
 inline std::string array(const std::vector<std::string>& texts) {
-  std::string list;
-  for (const std::string& text : texts) list.append(list.empty() ? "" : ", ").append(quoted(text));
-  return "[" + list + "]";
+  return fmt::format("[{}]", joined(texts, ", ", quoted));
 }
 
 }  // namespace talus::json

@@ -1,15 +1,36 @@
 /// The command line: parses, runs one subcommand, and turns errors into messages and exit codes.
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <string>
 
 #include "app/commands.h"
 #include "app/program_end.h"
+#include "app/stop_signals.h"
 #include "core/errors.h"
 #include "core/version.h"
+#include "scenario/suggestion.h"
+#include "scenario/text.h"
 
 namespace {
+
+/// A first word that is no command.
+void refuse_unknown_command(const CLI::App& app, const std::string& word) {
+  std::string nearest;
+  std::size_t least = std::string::npos;
+  if (word.starts_with('-')) return;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    const std::size_t distance = talus::edit_distance(word.substr(0, 60), command->get_name());
+    if (distance < least) nearest = command->get_name();
+    least = std::min(least, distance);
+  }
+  if (least == 0) return;
+  const std::string advice = least <= 2 ? "did you mean '" + nearest + "'? " : "";
+  throw talus::Error(talus::ExitCode::usage,
+                     "'" + talus::printable(word) + "' is no command; " + advice + "talus --help lists them");
+}
 
 void run(int argc, char** argv, CLI::App& app) {
   app.set_version_flag("--version", talus::version_text());
@@ -35,6 +56,7 @@ void run(int argc, char** argv, CLI::App& app) {
   talus::add_view_command(app);
   talus::add_replay_command(app);
   talus::add_repair_command(app);
+  if (argc > 1) refuse_unknown_command(app, argv[1]);
   app.parse(argc, argv);
 }
 
@@ -62,6 +84,7 @@ int run_and_tell(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  talus::end_on_signals();
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of its write, not the end
   try {
     return run_and_tell(argc, argv);

@@ -1,7 +1,6 @@
 #pragma once
 /// A run that is about to be computed: begun, or taken up where its last commit left it.
 
-#include <csignal>
 #include <string>
 #include <vector>
 
@@ -33,12 +32,5 @@ OpenRun start_run(const RunRequest& request);
 /// the settings say something else, and for a replay that was stopped before its end. No scenario file:
 /// whatever is stored.
 OpenRun resume_run(const RunRequest& request);
-
-/// Catches SIGINT and SIGTERM from now on and returns the flag that they set. The first asks the run to stop
-/// after its step; the second leaves at once with ExitCode::stopped (the store is whole at any time).
-const volatile std::sig_atomic_t* catch_stop_signals();
-
-/// Catches SIGUSR1 from now on and returns the flag that it sets: a wish for a checkpoint.
-volatile std::sig_atomic_t* catch_checkpoint_signal();
 
 }  // namespace talus

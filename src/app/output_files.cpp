@@ -1,25 +1,16 @@
 #include "app/output_files.h"
 
-#include <unistd.h>
-
-#include <cerrno>
-#include <filesystem>
-
-#include "core/errors.h"
+#include "io/run_store.h"
 
 namespace talus {
 
-void refuse_existing(const std::string& path, bool overwrite) {
-  if (!overwrite && std::filesystem::exists(path))
-    throw Error(ExitCode::cannot_create, path + " exists; give --overwrite to replace it, or another -o");
+OutputRule output_of_run(const std::string& run, bool overwrite) {
+  return {overwrite, {run, run_folder(run)}};
 }
 
-void create_folder(const std::string& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw Error(ExitCode::cannot_create, folder + ": cannot create the folder: " + error.message());
-  if (access(folder.c_str(), W_OK | X_OK) != 0)
-    throw system_error(ExitCode::cannot_create, "write in the folder", folder, errno);
+OutputRule output_of_scenario(const std::string& file, const Scenario& scenario) {
+  const std::string& bed = scenario.deposition.file;
+  return bed.empty() ? OutputRule{true, {file}} : OutputRule{true, {file, bed, run_folder(bed)}};
 }
 
 }  // namespace talus

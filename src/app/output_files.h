@@ -1,15 +1,19 @@
 #pragma once
-/// Files and folders that a command is about to write.
+/// Files that a command is about to write.
 
 #include <string>
 
+#include "core/output_file.h"
+#include "scenario/scenario.h"
+
 namespace talus {
 
-/// Throws Error(cannot_create) where a file exists, unless `overwrite`.
-void refuse_existing(const std::string& path, bool overwrite);
+/// The rule for what a command makes of a run: it replaces neither the file nor anything in the folder of the
+/// run.
+OutputRule output_of_run(const std::string& run, bool overwrite);
 
-/// Makes a folder with its parents where it is missing. Throws Error(cannot_create), also where files cannot
-/// be made in it.
-void create_folder(const std::string& folder);
+/// The rule for the run of a scenario, which may be replaced: not the scenario, and not the bed that it
+/// reads.
+OutputRule output_of_scenario(const std::string& file, const Scenario& scenario);
 
 }  // namespace talus

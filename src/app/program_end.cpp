@@ -2,17 +2,21 @@
 
 #include <unistd.h>
 
+#include <cctype>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <new>
+#include <string>
 #include <string_view>
 #include <system_error>
 
 #include "core/errors.h"
 #include "core/sanitizers.h"
+#include "core/visible_text.h"
+#include "io/file_in_use.h"
 
 namespace talus {
 namespace {
@@ -20,15 +24,34 @@ namespace {
 constexpr std::string_view out_of_memory =
     "talus: error: out of memory: use a smaller bed (bed.length, bed.depth)\n";
 
+/// Stopping on request is what was asked for, not an error: one plain sentence.
+int report_stopped(std::string sentence) {
+  if (!sentence.empty())
+    sentence[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(sentence[0])));
+  std::fprintf(stderr, "%s.\n", visible(sentence).c_str());
+  return static_cast<int>(ExitCode::stopped);
+}
+
 int report(ExitCode code, const char* message) {
-  std::fprintf(stderr, "talus: error: %s\n", message);
+  std::fprintf(stderr, "talus: error: %s\n", visible(message).c_str());
   return static_cast<int>(code);
 }
 
 /// Takes no memory, and may be called in a signal handler.
+void say(std::string_view text) {
+  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text.data(), text.size());
+}
+
 int report_out_of_memory() {
-  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, out_of_memory.data(), out_of_memory.size());
+  say(out_of_memory);
   return static_cast<int>(ExitCode::out_of_memory);
+}
+
+int report_malformed(std::string_view path) {
+  say("talus: error: ");
+  say(path);
+  say(": HDF5 crashes on it: the file is malformed, although its hash is right; restore it from a copy\n");
+  return static_cast<int>(ExitCode::bad_data);
 }
 
 /// For exceptions that main does not see: of a thread, or before main begins. There is none where even the
@@ -47,13 +70,15 @@ void tell_exit_out_of_memory() {
 /// By the sanitizers.
 constexpr bool crashes_are_reported = sanitizes_addresses || sanitizes_threads;
 
-/// Signals by which HDF5 ends the program where others of its allocations fail.
+/// Signals by which HDF5 ends the program where others of its allocations fail, or a file is malformed.
 constexpr int crash_signals[] = {SIGSEGV, SIGBUS, SIGABRT};
 
 /// A crash is that of a missing allocation where the last error of the system was one: errno stays until the
-/// next. Any other crash takes its usual course, and leaves a core.
+/// next. In HDF5 it is else that of the file that is being read. Any other crash takes its usual course, and
+/// leaves a core.
 void tell_crash(int signal) {
   if (errno == ENOMEM) _exit(report_out_of_memory());
+  if (file_in_use != nullptr) _exit(report_malformed(file_in_use));
   std::signal(signal, SIG_DFL);
   std::raise(signal);
 }
@@ -82,9 +107,10 @@ int report_exception() {
   try {
     throw;
   } catch (const LocatedError& error) {
-    std::fprintf(stderr, "%s\n", error.what());
+    std::fprintf(stderr, "%s\n", visible(error.what()).c_str());
     return static_cast<int>(error.code());
   } catch (const Error& error) {
+    if (error.code() == ExitCode::stopped) return report_stopped(error.what());
     return report(error.code(), error.what());
   } catch (const std::bad_alloc&) {
     return report_out_of_memory();

@@ -1,9 +1,10 @@
 #pragma once
-/// How the program ends when something goes wrong: a message and an exit code, also where main has no say.
+/// How the program ends when something goes wrong or it is stopped: a message and an exit code, also where
+/// main has no say.
 
 namespace talus {
 
-/// Tells the exception under way on stderr, and returns its exit code.
+/// Reports the exception under way on stderr, and returns its exit code.
 int report_exception();
 
 }  // namespace talus

@@ -1,30 +1,47 @@
 #include "app/progress.h"
 
-#include <unistd.h>
-
-#include <cstdio>
-#include <optional>
-
 #include "core/trigonometry.h"
+#include "session/estimate.h"
 
 namespace talus {
 namespace {
 
-/// Where a slope is expected to fail when its scenario does not say where to end, deg.
-constexpr double expected_repose = 20.0;
+constexpr double seconds_in_log = 10.0;
+
+/// Steps until the bed is at rest; 0 where they cannot be estimated without the file that the bed came from.
+double expected_deposition(const Scenario& scenario) {
+  if (scenario.deposition.method == DepositionMethod::file) return 0.0;
+  return static_cast<double>(estimate(scenario).deposition_steps);
+}
 
 }  // namespace
 
-ProgressLine::ProgressLine(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0) {}
+ProgressLine::ProgressLine(bool quiet) : line_(quiet, seconds_in_log) {}
+
+std::optional<double> ProgressLine::share(const Session& session, RunShown& shown) {
+  switch (shown.phase) {
+    case Phase::deposition:
+      if (!deposition_steps_) deposition_steps_ = expected_deposition(session.scenario());
+      if (*deposition_steps_ == 0.0) return std::nullopt;
+      return static_cast<double>(session.world().step) / *deposition_steps_;
+    case Phase::tilt: {
+      const std::optional<double> end = session.scenario().tilt.end_angle;
+      if (!end) shown.repose_assumed = assumed_repose;
+      return shown.tilt / end.value_or(assumed_repose);
+    }
+    case Phase::flow:
+    case Phase::done:
+      break;
+  }
+  return std::nullopt;
+}
 
 RunShown ProgressLine::shown(const RunProgress& progress) {
   const Session& session = progress.session;
   const World& world = session.world();
   const StepReport& report = session.last_report();
   RunShown shown;
-  shown.stage = session.phase() == Phase::deposition ? RunShown::Stage::deposition
-                : session.phase() == Phase::flow     ? RunShown::Stage::flow
-                                                     : RunShown::Stage::tilt;
+  shown.phase = session.phase() == Phase::done ? Phase::tilt : session.phase();
   shown.time = world.time;
   shown.tilt = degrees(world.tilt);
   shown.residual = report.solver.residual.eta;
@@ -32,34 +49,20 @@ RunShown ProgressLine::shown(const RunProgress& progress) {
   shown.velocity = report.rms_velocity / (world.gravity * time_step(session.scenario()));
   shown.contacts = report.contacts;
   shown.seconds = progress.wall_seconds;
-  const std::optional<double> asked = session.scenario().tilt.end_angle;
-  shown.end_expected = !asked;
-  shown.tilt_end = asked.value_or(expected_repose);
-  if (shown.stage == RunShown::Stage::tilt) {
-    if (tilt_started_at_ < 0.0) {
-      tilt_started_at_ = progress.wall_seconds;
-      tilt_started_from_ = shown.tilt;
-    }
-    const double speed =
-        (shown.tilt - tilt_started_from_) / (progress.wall_seconds - tilt_started_at_ + 1e-9);
-    if (speed > 0.0) shown.remaining = (shown.tilt_end - shown.tilt) / speed;
+  shown.share = share(session, shown);
+  if (!shown.share) return shown;
+  if (phase_ != shown.phase) {
+    phase_ = shown.phase;
+    phase_began_ = progress.wall_seconds;
+    phase_began_with_ = *shown.share;
   }
+  const double pace = (*shown.share - phase_began_with_) / (progress.wall_seconds - phase_began_ + 1e-9);
+  if (pace > 0.0) shown.remaining = (1.0 - *shown.share) / pace;
   return shown;
 }
 
 void ProgressLine::show(const RunProgress& progress) {
-  const double interval = terminal_ ? 0.2 : 10.0;
-  if (quiet_ || progress.wall_seconds - last_shown_ < interval) return;
-  last_shown_ = progress.wall_seconds;
-  const std::optional<int> width = terminal_ ? std::optional(terminal_columns()) : std::nullopt;
-  const std::string text = run_progress_text(shown(progress), width);
-  std::fprintf(stderr, terminal_ ? "\r\033[K%s" : "%s\n", text.c_str());
-  open_ = terminal_;
-}
-
-void ProgressLine::finish() {
-  if (open_) std::fputc('\n', stderr);
-  open_ = false;
+  if (line_.is_due()) line_.show(run_progress_text(shown(progress), line_.width()));
 }
 
 }  // namespace talus

@@ -1,22 +1,12 @@
 #include "app/progress_text.h"
 
-#include <sys/ioctl.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
+#include <fmt/core.h>
 
 namespace talus {
 namespace {
-
-template <typename... Values>
-std::string formatted(const char* pattern, Values... values) {
-  std::array<char, 96> text{};
-  std::snprintf(text.data(), text.size(), pattern, values...);
-  return text.data();
-}
 
 std::string joined(const std::vector<ProgressField>& fields, int largest_rank) {
   std::string line;
@@ -25,24 +15,7 @@ std::string joined(const std::vector<ProgressField>& fields, int largest_rank) {
   return line;
 }
 
-/// How far the tilt is; nothing beyond where a slope was expected to fail.
-void add_share(std::vector<ProgressField>& fields, const RunShown& shown, bool bar) {
-  if (shown.tilt > shown.tilt_end) return;
-  const double share = shown.tilt_end > 0.0 ? std::clamp(shown.tilt / shown.tilt_end, 0.0, 1.0) : 0.0;
-  if (bar) fields.push_back({progress_bar(share), 4});
-  fields.push_back({formatted("%.0f %%", std::floor(100.0 * share)), 3});
-  if (shown.remaining) fields.push_back({formatted("ETA %s", duration_text(*shown.remaining).c_str()), 1});
-  if (shown.end_expected) fields.push_back({formatted("if it fails at %.0f deg", shown.tilt_end), 6});
-}
-
 }  // namespace
-
-std::string duration_text(double seconds) {
-  const long whole = std::lround(seconds);
-  if (whole >= 3600) return formatted("%ld h %02ld min", whole / 3600, whole / 60 % 60);
-  if (whole >= 60) return formatted("%ld min %02ld s", whole / 60, whole % 60);
-  return formatted("%ld s", whole);
-}
 
 std::string fitted_line(const std::vector<ProgressField>& fields, std::optional<int> width) {
   int rank = 0;
@@ -56,40 +29,60 @@ std::string fitted_line(const std::vector<ProgressField>& fields, std::optional<
 }
 
 std::string progress_bar(double share) {
-  constexpr int cells = 20;
+  constexpr int cells = 14;
   const auto full = static_cast<std::size_t>(cells * std::clamp(share, 0.0, 1.0));
-  return formatted("[%s%s]", std::string(full, '#').c_str(), std::string(cells - full, '-').c_str());
+  return fmt::format("[{:#<{}}{:-<{}}]", "", full, "", cells - full);
 }
 
-std::string run_progress_text(const RunShown& shown, std::optional<int> width) {
+std::vector<ProgressField> progress_fields(std::optional<double> share, double elapsed,
+                                           std::optional<double> remaining, bool bar) {
   std::vector<ProgressField> fields;
-  switch (shown.stage) {
-    case RunShown::Stage::deposition:
-      fields.push_back({formatted("deposition  t = %.3f s", shown.time), 0});
-      break;
-    case RunShown::Stage::tilt:
-      fields.push_back({formatted("tilt %.3f deg", shown.tilt), 0});
-      add_share(fields, shown, width.has_value());
-      break;
-    case RunShown::Stage::flow:
-      fields.push_back({formatted("flow at %.3f deg", shown.tilt), 0});
-      break;
-  }
-  fields.push_back({formatted("(%s)", duration_text(shown.seconds).c_str()), 2});
-  fields.push_back({formatted("residual %.1e", shown.residual), 5});
-  if (shown.stage == RunShown::Stage::deposition)
-    fields.push_back({formatted("contacts %d", shown.contacts), 7});
-  else
-    fields.push_back({formatted("E_kin %.1e J", shown.kinetic_energy), 8});
-  fields.push_back({formatted("v = %.2e g h", shown.velocity), 7});
+  const bool known = share && *share >= 0.0 && *share <= 1.0;
+  if (known && bar) fields.push_back({progress_bar(*share), 4});
+  if (known) fields.push_back({fmt::format("{:.0f} %", std::floor(100.0 * *share)), 3});
+  fields.push_back({"elapsed " + duration_text(elapsed), 2});
+  if (known && remaining) fields.push_back({"ETA " + duration_text(*remaining), 1});
+  return fields;
+}
+
+std::string count_progress_text(const std::string& label, std::size_t done, std::size_t count, double elapsed,
+                                std::optional<int> width) {
+  std::optional<double> share, remaining;
+  if (count > 0) share = static_cast<double>(done) / static_cast<double>(count);
+  if (done > 0 && done < count)
+    remaining = elapsed / static_cast<double>(done) * static_cast<double>(count - done);
+  std::vector<ProgressField> fields = progress_fields(share, elapsed, remaining, width.has_value());
+  fields.insert(fields.begin(), {fmt::format("{} {}/{}", label, done, count), 0});
   return fitted_line(fields, width);
 }
 
-int terminal_columns() {
-  constexpr int usual = 80;
-  winsize size{};
-  const bool told = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
-  return (told ? size.ws_col : usual) - 1;  // the last column is left free: some terminals wrap there
+std::string run_progress_text(const RunShown& shown, std::optional<int> width) {
+  std::vector<ProgressField> fields =
+      progress_fields(shown.share, shown.seconds, shown.remaining, width.has_value());
+  std::string phase;
+  switch (shown.phase) {
+    case Phase::deposition:
+      phase = fmt::format("deposition {:.3f} s", shown.time);
+      break;
+    case Phase::tilt:
+      phase = fmt::format("tilt {:.3f} deg", shown.tilt);
+      break;
+    case Phase::flow:
+      phase = fmt::format("flow at {:.3f} deg", shown.tilt);
+      break;
+    case Phase::done:
+      break;
+  }
+  fields.insert(fields.begin(), {phase, 0});
+  if (shown.repose_assumed && shown.share && *shown.share <= 1.0)
+    fields.push_back({fmt::format("if it fails at {:.0f} deg", *shown.repose_assumed), 6});
+  fields.push_back({fmt::format("residual {:.1e}", shown.residual), 5});
+  if (shown.phase == Phase::deposition)
+    fields.push_back({fmt::format("contacts {}", shown.contacts), 7});
+  else
+    fields.push_back({fmt::format("E_kin {:.1e} J", shown.kinetic_energy), 8});
+  fields.push_back({fmt::format("v = {:.2e} g h", shown.velocity), 7});
+  return fitted_line(fields, width);
 }
 
 }  // namespace talus

@@ -5,7 +5,6 @@
 
 #include "app/commands.h"
 #include "io/run_repair.h"
-#include "session/run_check.h"
 
 namespace talus {
 namespace {
@@ -21,23 +20,16 @@ void print_lines(const char* name, const std::vector<std::string>& lines) {
 }
 
 void repair(const RepairArguments& arguments) {
-  const RepairReport report =
-      repair_run({arguments.run, arguments.output, arguments.overwrite,
-                  [](const RunFile& run) { return check_run(run, {}).faulty_frames; }});
+  const RepairReport report = repair_run({arguments.run, arguments.output, arguments.overwrite});
   if (report.was_whole) {
-    std::printf("%s is whole: there is nothing to repair, and nothing was written\n", arguments.run.c_str());
+    std::printf("%s is whole: there was nothing to repair, and nothing was written\n", arguments.run.c_str());
     return;
   }
   std::printf("%s: what is whole of %s\n", arguments.output.c_str(), arguments.run.c_str());
   print_lines("kept", report.kept);
   print_lines("lost", report.lost);
-  if (!report.verified)
-    std::printf(
-        "  its version has no hashes of its pieces: what can be read and can be was kept, unverified\n");
-  if (report.goes_on)
-    std::printf("continue it with: talus run --resume %s\n", arguments.output.c_str());
-  else if (report.of_folder)
-    std::printf("it cannot be continued; to compute it again, its scenario is in it: talus info\n");
+  if (report.of_folder)
+    std::printf("it cannot be continued; talus info prints its scenario, to compute it again\n");
 }
 
 }  // namespace
@@ -45,10 +37,12 @@ void repair(const RepairArguments& arguments) {
 void add_repair_command(CLI::App& app) {
   auto arguments = std::make_shared<RepairArguments>();
   CLI::App* command = app.add_subcommand(
-      "repair", "Make a new run of all that is whole of a damaged one, which is left as it is");
+      "repair", "Save what is undamaged of a damaged run as a new run; the old one is left as it is");
   command->add_option("run", arguments->run, "Run file, or the name of a run that is not complete")
       ->required();
-  command->add_option("-o,--output", arguments->output, "The new run (HDF5)")->required();
+  command
+      ->add_option("-o,--output", arguments->output, "The new run (HDF5); its folder is made where missing")
+      ->required();
   command->add_flag("--overwrite", arguments->overwrite, "Replace a run of this name");
   command->callback([arguments] { repair(*arguments); });
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <fmt/core.h>
 #include <memory>
 #include <optional>
 #include <thread>
@@ -10,7 +11,9 @@
 #include "app/command_line.h"
 #include "app/commands.h"
 #include "app/open_run.h"
+#include "app/output_files.h"
 #include "app/progress.h"
+#include "app/stop_signals.h"
 #include "core/errors.h"
 #include "core/hash.h"
 #include "io/run_file.h"
@@ -32,11 +35,12 @@ std::string fact(const Facts& facts, const std::string& name) {
 }
 
 std::string end_text(const World& world) {
-  return hash_text(state_hash(world)) + " after " + std::to_string(world.step) + " steps";
+  return fmt::format("{} after {} steps", hash_text(state_hash(world)), world.step);
 }
 
 /// A run is never replaced by its own replay.
 void refuse_same(const ReplayArguments& arguments) {
+  output_target(arguments.output, output_of_run(arguments.run, true));
   const auto whole = [](const std::string& path) {
     return std::filesystem::weakly_canonical(std::filesystem::absolute(path)).string();
   };
@@ -51,6 +55,12 @@ std::optional<RunStore> begin_output(const ReplayArguments& arguments, const Ses
                                      const RunFile& run) {
   if (arguments.output.empty()) return std::nullopt;
   refuse_same(arguments);
+  if (!arguments.overwrite && run_presence(arguments.output) != RunPresence::none)
+    throw Error(
+        ExitCode::cannot_create,
+        fmt::format("{} exists already; replace it with --overwrite, or choose another output with -o",
+                    arguments.output));
+  create_folder_of(arguments.output);
   RunHeader header =
       run_header(session, {run.header().scenario_given, fact(run.header().provenance, "scenario_file"),
                            command_line(), arguments.threads});
@@ -64,11 +74,10 @@ void compare(const ReplayArguments& arguments, const RunFile& run, const World& 
   if (!arguments.quiet)
     std::printf("stored      %s\nrecomputed  %s\n", end_text(stored).c_str(), end_text(recomputed).c_str());
   if (state_hash(stored) == state_hash(recomputed)) return;
-  const Facts& provenance = run.header().provenance;
   throw Error(ExitCode::internal,
-              arguments.run + ": its scenario and commands give another end state than the " +
-                  "stored one; it was computed by version " + fact(provenance, "version") + " (" +
-                  fact(provenance, "git_hash") + "), which may give other bits");
+              fmt::format("{}: its scenario and commands give another end state than the stored one; it was "
+                          "computed by version {}, which may give other bits",
+                          arguments.run, version_of(run.header().provenance)));
 }
 
 void replay_run(const ReplayArguments& arguments) {
@@ -84,18 +93,21 @@ void replay_run(const ReplayArguments& arguments) {
   std::optional<RunStore> store = begin_output(arguments, session, run);
   ProgressLine line(arguments.quiet);
   RunControl control;
-  control.stop = catch_stop_signals();
+  control.stop = stop_request();
   control.on_step = [&line](const RunProgress& progress) { line.show(progress); };
   if (!arguments.quiet)
     std::printf("%s: %lld steps, %zu commands\n", arguments.run.c_str(),
                 static_cast<long long>(run.checkpoint().world.step), commands.size());
-  const RunEnd end =
-      replay(session, store ? &*store : nullptr, commands, run.checkpoint().world.step, control);
+  const RunEnd end = [&] {
+    const CommitOnSignals commit;
+    return replay(session, store ? &*store : nullptr, commands, run.checkpoint().world.step, control);
+  }();
   line.finish();
   if (end == RunEnd::stopped)
-    throw Error(ExitCode::stopped, "stopped after " + std::to_string(session.world().step) + " of " +
-                                       std::to_string(run.checkpoint().world.step) +
-                                       " steps: nothing was compared; replay it again from its beginning");
+    throw Error(
+        ExitCode::stopped,
+        fmt::format("stopped after {} of {} steps: nothing was compared; replay it again from its beginning",
+                    session.world().step, run.checkpoint().world.step));
   compare(arguments, run, session.world());
 }
 
@@ -113,7 +125,10 @@ void add_replay_command(CLI::App& app) {
       ->add_option("--threads", arguments->threads, "Threads of the solver; the result does not depend on it")
       ->capture_default_str()
       ->check(CLI::Range(1, 256));
-  command->add_flag("--overwrite", arguments->overwrite, "Replace a run of this name")->needs(output);
+  command
+      ->add_flag("--overwrite", arguments->overwrite,
+                 "Replace a run of this name; the old file is kept until the new run is complete")
+      ->needs(output);
   command->add_flag("-q,--quiet", arguments->quiet, "Print errors only");
   command->callback([arguments] { replay_run(*arguments); });
 }

@@ -4,21 +4,27 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <fmt/core.h>
+#include <functional>
 #include <memory>
-#include <span>
-#include <thread>
+#include <optional>
 
 #include "app/commands.h"
+#include "app/count_progress.h"
+#include "app/figure_files.h"
+#include "app/figure_runs.h"
+#include "app/figure_text.h"
 #include "app/gnuplot.h"
-#include "app/missing_runs.h"
-#include "app/open_run.h"
-#include "app/progress.h"
-#include "app/reproduction_figures.h"
-#include "app/reproduction_report.h"
-#include "app/reproduction_values.h"
+#include "app/output_files.h"
+#include "app/pool_line.h"
+#include "app/stop_signals.h"
 #include "core/errors.h"
+#include "core/output_file.h"
+#include "ensemble/built_in_scenarios.h"
+#include "ensemble/reproduction_report.h"
+#include "ensemble/reproduction_values.h"
+#include "figures/catalogue.h"
 #include "io/durable_file.h"
-#include "reproduction/built_in_scenarios.h"
 #include "session/estimate.h"
 
 namespace talus {
@@ -30,56 +36,107 @@ struct ReproduceArguments {
   bool quick = false;
   std::string folder;
   std::string seeds;
-  int jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  int jobs = default_jobs();
 };
 
-void write_text(const fs::path& path, const std::string& text) {
-  write_durably(path.string(), std::as_bytes(std::span(text)), path.string() + ".part");
-}
-
-std::string scenario_path(const std::string& folder, const ReproducedBed& bed) {
-  return (fs::path(folder) / "scenarios" / (bed.scenario_name + ".toml")).string();
-}
-
 /// The built-in scenarios as files: `talus run` reads them, and so can a user.
-void write_scenarios(const ReproductionPlan& plan, const std::string& folder) {
-  make_folders((fs::path(folder) / "scenarios").string());
-  for (const ReproducedBed& bed : plan.beds)
-    write_text(scenario_path(folder, bed), std::string(built_in_scenario(bed.scenario_name)));
-}
-
-std::vector<WantedRun> wanted_runs(const ReproductionPlan& plan, const WorkOptions& options) {
-  std::vector<WantedRun> runs;
-  for (const ReproducedRun& run : plan.runs) {
-    const ReproducedBed& bed = plan.beds[run.bed];
-    runs.push_back(
-        {run.name, run_path(options, run), scenario_path(options.folder, bed), bed.settings, run.scenario});
-  }
-  return runs;
+void write_scenarios(const ReproductionPlan& plan) {
+  create_folder(parent_folder(plan.variants.front().scenario_file));
+  for (const Variant& bed : plan.variants)
+    write_text(bed.scenario_file,
+               std::string(built_in_scenario(fs::path(bed.scenario_file).stem().string())));
 }
 
 /// What is still to be run, and how long that may take.
-void announce(const ReproductionPlan& plan, const WorkOptions& options) {
+void announce(const ReproductionPlan& plan, int jobs) {
   double seconds = 0.0;
-  std::size_t missing = 0;
-  for (const ReproducedRun& run : plan.runs) {
-    if (run_presence(run_path(options, run)) == RunPresence::packed) continue;
-    seconds += estimate(run.scenario).seconds;
-    ++missing;
-  }
+  for (const Member& member : plan.members) seconds += estimate(member.scenario).seconds;
+  const std::vector<std::size_t> complete = complete_members(plan);
+  for (const std::size_t m : complete) seconds -= estimate(plan.members[m].scenario).seconds;
   std::fprintf(stderr, "%zu of %zu runs to compute, about %s on %d processor%s; then analyses and figures\n",
-               missing, plan.runs.size(), duration_text(seconds / options.jobs).c_str(), options.jobs,
-               options.jobs == 1 ? "" : "s");
+               plan.members.size() - complete.size(), plan.members.size(),
+               duration_text(seconds / jobs).c_str(), jobs, jobs == 1 ? "" : "s");
+}
+
+/// Analyses of the runs, stored and others, and all that they give.
+ReproductionResult measure(const ReproductionPlan& plan, const std::string& folder, int jobs,
+                           const std::function<void()>& keep_on) {
+  const std::vector<Job> missing = missing_analyses(plan);
+  keep_on();
+  const std::vector<FailedJob> failed =
+      run_with_progress(missing, complete_members(plan).size(), jobs, "analysis", "analyses");
+  if (!failed.empty()) refuse(failed, "nothing is compared without their analysis");
+  std::optional<CountProgress> line;
+  return measure_runs(plan, {folder, jobs, keep_on, [&line](std::size_t done, std::size_t all) {
+                               if (!line) line.emplace("analyses of the threshold", all, false);
+                               line->show(done);
+                             }});
+}
+
+std::vector<RunGroup> open_groups(const ReproductionPlan& plan) {
+  std::vector<std::size_t> members = complete_members(plan);
+  // By bed, so that groups come in the order of the plan: the paper's preparation first.
+  std::ranges::stable_sort(members, {}, [&](std::size_t m) { return plan.members[m].variant; });
+  std::vector<std::string> paths;
+  for (const std::size_t m : members) paths.push_back(plan.members[m].path);
+  AnalysisOptions analysis;
+  analysis.quiet = true;
+  return group_runs(open_figure_runs(paths, AnalysisParameters(), analysis));
+}
+
+/// `talus figures` that makes the same figure.
+std::string command_of(const Figure& figure, const std::string& folder) {
+  std::string text = "talus figures";
+  for (const std::string& run : figure.runs) text += " " + run;
+  return fmt::format("{} --only {} -o {}", text, figure.name, folder);
+}
+
+bool holds(const fs::path& file, const std::string& text) {
+  return fs::exists(file) && read_text(file.string()) == text;
+}
+
+/// Whether all files of a figure are there, drawn from the same data in the same way.
+bool is_drawn(const Figure& figure, std::span<const RunGroup> groups, const fs::path& folder,
+              const FigureOptions& options) {
+  const auto there = [&](const std::string& file) { return fs::exists(folder / file); };
+  return std::ranges::all_of(figure_files(figure), there) &&
+         holds(folder / (figure.name + ".json"), provenance_json(figure, groups, options.command_line)) &&
+         holds(folder / (figure.name + ".gp"), gnuplot_text(figure, figure_width(figure, options.columns)));
+}
+
+/// Draws all figures of the catalogue that can be made of the complete, analysed runs and returns them as
+/// pictures of the report. A figure whose provenance and script are those that would be written is kept.
+std::vector<ReportPicture> draw_figures(const ReproductionPlan& plan, const std::string& folder,
+                                        const std::function<void()>& keep_on) {
+  const std::vector<RunGroup> groups = open_groups(plan);
+  const std::string into = (fs::path(folder) / "figures").string();
+  const auto catalogue = figure_catalogue();
+  std::vector<ReportPicture> pictures;
+  CountProgress progress("figures", catalogue.size(), false);
+  for (std::size_t k = 0; k < catalogue.size(); ++k) {
+    keep_on();
+    if (const auto figure = catalogue[k].make(groups)) {
+      const FigureOptions options{0, command_of(*figure, into)};
+      try {
+        if (!is_drawn(*figure, groups, into, options)) write_figure(*figure, groups, into, options);
+      } catch (const Error&) {
+        keep_on();  // Ctrl-C ends gnuplot too: that is no error of the figure
+        throw;
+      }
+      pictures.push_back(
+          {fmt::format("figures/{}.png", figure->name), figure->title, figure->caption, figure->wide});
+    }
+    progress.show(k + 1);
+  }
+  return pictures;
 }
 
 void write_report(const ReproductionResult& result, const std::vector<ReportPicture>& pictures,
-                  const std::string& folder) {
-  const ReportDocument document = reproduction_report(result, pictures);
-  write_text(fs::path(folder) / "values.csv", values_csv(result));
-  write_text(fs::path(folder) / "report.md", report_markdown(document));
-  write_text(fs::path(folder) / "report.html", report_html(document, folder));
+                  const fs::path& folder) {
+  write_text(folder / "values.csv", values_csv(result));
+  write_text(folder / "report.html", report_html(reproduction_report(result, pictures), folder));
   for (const std::string& item : reproduction_summary(result)) std::printf("- %s\n", item.c_str());
-  std::printf("The report is %s\n", (fs::path(folder) / "report.html").c_str());
+  std::printf("The report is %s\n", (folder / "report.html").c_str());
 }
 
 void reproduce(const ReproduceArguments& arguments) {
@@ -87,18 +144,22 @@ void reproduce(const ReproduceArguments& arguments) {
                              : arguments.quick         ? "reproduction-quick"
                                                        : "reproduction";
   const std::string seeds = !arguments.seeds.empty() ? arguments.seeds : arguments.quick ? "1" : "1-2";
-  const ReproductionPlan plan = plan_reproduction(arguments.quick, seeds);
+  const ReproductionPlan plan = plan_reproduction(arguments.quick, seeds, folder);
   require_gnuplot();
-  const WorkOptions options{folder, arguments.jobs, catch_stop_signals()};
-  write_scenarios(plan, folder);
-  announce(plan, options);
-  const std::vector<FailedRun> failed =
-      compute_missing(wanted_runs(plan, options), arguments.jobs, "reproduction");
+  const auto keep_on = [stop = stop_request()] {
+    if (*stop != 0)
+      throw Error(ExitCode::stopped, "the reproduction was stopped; repeat the command to continue");
+  };
+  write_scenarios(plan);
+  announce(plan, arguments.jobs);
+  const std::vector<Job> missing = missing_runs(plan, "reproduction");
+  keep_on();
+  const std::vector<FailedJob> failed =
+      run_with_progress(missing, plan.members.size(), arguments.jobs, "reproduction");
   const std::string consequence = "left out of the report";
-  if (failed.size() == plan.runs.size()) refuse(failed, consequence);
-  analyse_missing(plan, options);
-  const ReproductionResult result = measure_runs(plan, options);
-  write_report(result, draw_figures(plan, options), folder);
+  if (failed.size() == plan.members.size()) refuse(failed, consequence);
+  const ReproductionResult result = measure(plan, folder, arguments.jobs, keep_on);
+  write_report(result, draw_figures(plan, folder, keep_on), folder);
   if (!failed.empty()) refuse(failed, consequence);
 }
 
@@ -107,7 +168,8 @@ void reproduce(const ReproduceArguments& arguments) {
 void add_reproduce_command(CLI::App& app) {
   auto arguments = std::make_shared<ReproduceArguments>();
   CLI::App* command = app.add_subcommand(
-      "reproduce", "Run, analyse and draw the paper's beds, and write a report beside the paper");
+      "reproduce",
+      "Run, analyse and draw the beds of the paper, and write a report that compares them with it");
   command->add_flag(
       "--quick", arguments->quick,
       "Beds of half the depth, in some minutes; lengths cannot be compared with the paper then");

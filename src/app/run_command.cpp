@@ -3,19 +3,23 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <fmt/core.h>
 #include <memory>
 #include <optional>
 #include <thread>
 
 #include "app/commands.h"
-#include "app/live_maps.h"
+#include "app/map_options.h"
 #include "app/open_run.h"
 #include "app/progress.h"
+#include "app/seed_option.h"
+#include "app/stop_signals.h"
 #include "app/unconverged_steps.h"
 #include "app/wall_time.h"
 #include "core/errors.h"
 #include "core/hash.h"
 #include "core/trigonometry.h"
+#include "pictures/live_maps.h"
 #include "session/run_header.h"
 
 namespace talus {
@@ -25,8 +29,7 @@ struct RunArguments {
   std::string scenario;  ///< empty: that of the run
   std::string output;
   std::vector<std::string> settings;
-  std::uint64_t seed = 0;
-  bool has_seed = false;
+  std::string seed;  ///< empty: that of the scenario
   int threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   std::string max_wall;  ///< HH:MM; empty: no limit
   bool resume = false;
@@ -37,12 +40,13 @@ struct RunArguments {
 };
 
 std::string command_line(const RunArguments& arguments) {
-  std::string line = "talus run " + arguments.scenario + " -o " + arguments.output;
+  std::string line = fmt::format("talus run {} -o {}", arguments.scenario, arguments.output);
   for (const std::string& setting : arguments.settings) line += " --set " + setting;
   return line;
 }
 
-/// What the first argument names: a scenario, or with --resume alone a run, by its file or its folder.
+/// Tells what the first argument names: a scenario or, with --resume and without -o, the file or folder of a
+/// run.
 void settle_names(RunArguments& arguments) {
   const bool names_run =
       arguments.resume && arguments.output.empty() && !arguments.scenario.ends_with(".toml");
@@ -51,7 +55,7 @@ void settle_names(RunArguments& arguments) {
       arguments.output = std::filesystem::path(arguments.scenario).stem().string() + ".h5";
     return;
   }
-  if (!arguments.settings.empty() || arguments.has_seed)
+  if (!arguments.settings.empty() || !arguments.seed.empty())
     throw Error(ExitCode::usage,
                 "a run is resumed with the scenario that it began with: leave out --set and --seed");
   std::string& run = arguments.output;
@@ -61,8 +65,9 @@ void settle_names(RunArguments& arguments) {
   if (run.ends_with(run_folder(""))) run.resize(run.size() - run_folder("").size());
   if (run_presence(run) == RunPresence::none)
     throw Error(ExitCode::missing_input,
-                run + ": no run to go on with; expected a run file, or its folder " + run_folder(run) +
-                    " with a first commit; begin it with: talus run SCENARIO -o " + run);
+                fmt::format("{}: no run to go on with; expected a run file, or its folder {} with a first "
+                            "commit; begin it with: talus run SCENARIO -o {}",
+                            run, run_folder(run), run));
 }
 
 /// The settings of the scenario, the seed among them.
@@ -71,7 +76,7 @@ RunRequest request_of(const RunArguments& arguments) {
   request.scenario = arguments.scenario;
   request.output = arguments.output;
   request.settings = arguments.settings;
-  if (arguments.has_seed) request.settings.push_back("seed=" + std::to_string(arguments.seed));
+  if (!arguments.seed.empty()) request.settings.push_back(fmt::format("seed={}", arguments.seed));
   request.threads = arguments.threads;
   request.overwrite = arguments.overwrite;
   request.command_line = command_line(arguments);
@@ -89,14 +94,13 @@ void print_rest(const Session& session) {
 }
 
 void print_end(const RunArguments& arguments, const Session& session) {
-  const StepRemark remark = remark_on(session.solver_record(), session.world().step);
-  if (!remark.text.empty() && !(remark.usual && arguments.quiet))
-    std::fprintf(stderr, "talus: %s: %s\n", remark.usual ? "note" : "warning", remark.text.c_str());
+  const StepRemark remark = remark_on(session.schedule().record, session.world().step);
+  if (!remark.usual) std::fprintf(stderr, "talus: warning: %s\n", remark.text.c_str());
   for (std::size_t k = 0; k < guard_count; ++k)
-    if (const std::int64_t steps = session.guard_warnings().steps[k]; steps > 0)
+    if (const std::int64_t steps = session.schedule().warnings.steps[k]; steps > 0)
       std::fprintf(stderr, "talus: warning: guards.%s was broken in %lld steps, first in step %lld\n",
                    std::string(guard_names[k]).c_str(), static_cast<long long>(steps),
-                   static_cast<long long>(session.guard_warnings().first[k]));
+                   static_cast<long long>(session.schedule().warnings.first[k]));
   if (arguments.quiet) return;
   const std::optional<double> theta_c = session.angle_of_repose();
   if (theta_c)
@@ -104,11 +108,12 @@ void print_end(const RunArguments& arguments, const Session& session) {
   else
     std::printf("The slope stands at %.3f deg.\n", degrees(session.world().tilt));
   if (theta_c && session.scenario().tilt.after_failure != AfterFailure::stop) print_rest(session);
+  if (remark.usual && !remark.text.empty()) std::printf("%s\n", remark.text.c_str());
   std::printf("%s: %lld steps, state hash %s\n", arguments.output.c_str(),
               static_cast<long long>(session.world().step), hash_text(state_hash(session.world())).c_str());
 }
 
-/// What is drawn while the run computes, if anything. Refuses before the run is touched.
+/// The maps that are drawn while the run computes, if any. Refuses before the run is touched.
 std::optional<LiveMaps> prepare_maps(const RunArguments& arguments, const RunRequest& request, bool resumed) {
   if (arguments.frames.empty()) return std::nullopt;
   const MapPlan plan = plan_live_maps(arguments.maps);
@@ -119,7 +124,9 @@ std::optional<LiveMaps> prepare_maps(const RunArguments& arguments, const RunReq
                  "talus: note: the angle of repose is not known before the slope fails: maps are scaled by "
                  "%g deg; --theta-c DEG gives another\n",
                  assumed_theta_c);
-  return std::optional<LiveMaps>(std::in_place, plan, arguments.frames, resumed, arguments.overwrite);
+  return std::optional<LiveMaps>(
+      std::in_place, plan, arguments.frames, resumed, arguments.overwrite,
+      [](const std::string& failure) { std::fprintf(stderr, "talus: warning: %s\n", failure.c_str()); });
 }
 
 void begin_maps(LiveMaps& maps, const OpenRun& open, const RunArguments& arguments) {
@@ -127,13 +134,15 @@ void begin_maps(LiveMaps& maps, const OpenRun& open, const RunArguments& argumen
   if (run_presence(arguments.output) == RunPresence::folder) maps.meet(RunFile::open(arguments.output));
 }
 
-/// Maps that could not be drawn are said last: the run is whole.
+/// Maps that could not be drawn are reported last, since the run itself is complete.
 void finish_maps(LiveMaps& maps, const RunArguments& arguments) {
   try {
     maps.finish();
   } catch (const Error& error) {
-    throw Error(error.code(), std::string(error.what()) + "; the run is complete, but not its maps in " +
-                                  arguments.frames + ": talus render draws them from " + arguments.output);
+    throw Error(
+        error.code(),
+        fmt::format("{}; the run is complete, but its maps in {} are not: talus render draws them from {}",
+                    error.what(), arguments.frames, arguments.output));
   }
 }
 
@@ -147,8 +156,8 @@ void draw_what_is_missing(const RunArguments& arguments) {
   maps->meet(file);
 }
 
-/// A run that is complete has nothing to resume but what a kill at its end may have left: its folder, and
-/// maps.
+/// Of a complete run only what a kill at its end may have left behind remains to be done: its folder is
+/// removed and missing maps are drawn.
 void resume_complete(const RunArguments& arguments) {
   RunFile::open(arguments.output);
   discard_folder(arguments.output);
@@ -166,15 +175,15 @@ OpenRun open_run(const RunArguments& arguments, const RunRequest& request, bool 
   return open;
 }
 
-[[noreturn]] void tell_stopped(const RunArguments& arguments, const World& world, bool by_signal) {
-  throw Error(ExitCode::stopped, "stopped at " + std::to_string(degrees(world.tilt)) + " deg" +
-                                     (by_signal ? "" : " for --max-wall") +
-                                     "; continue with: talus run --resume " + arguments.output);
+[[noreturn]] void end_stopped(const RunArguments& arguments, const World& world, bool by_signal) {
+  throw Error(ExitCode::stopped,
+              fmt::format("stopped at {:.3f} deg{}; talus run --resume {} goes on", degrees(world.tilt),
+                          by_signal ? "" : " for --max-wall", arguments.output));
 }
 
 void run(const RunArguments& arguments) {
   RunControl control;
-  control.stop = catch_stop_signals();
+  control.stop = stop_request();
   control.checkpoint = catch_checkpoint_signal();
   if (!arguments.max_wall.empty()) control.max_wall = parse_wall_time("--max-wall", arguments.max_wall);
   const RunPresence presence = run_presence(arguments.output);
@@ -187,9 +196,12 @@ void run(const RunArguments& arguments) {
   ProgressLine line(arguments.quiet);
   control.on_step = [&line](const RunProgress& progress) { line.show(progress); };
   if (maps) control.on_frame = [&maps](const Frame& frame) { maps->add(frame); };
-  const RunEnd end = run_to_end(open.session, open.store, control);
+  const RunEnd end = [&] {
+    const CommitOnSignals commit;
+    return run_to_end(open.session, open.store, control);
+  }();
   line.finish();
-  if (end == RunEnd::stopped) tell_stopped(arguments, open.session.world(), *control.stop != 0);
+  if (end == RunEnd::stopped) end_stopped(arguments, open.session.world(), *control.stop != 0);
   print_end(arguments, open.session);
   if (maps) finish_maps(*maps, arguments);
 }
@@ -201,7 +213,7 @@ void add_run_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("run", "Compute a run: deposition, rest, tilt to failure");
   command
       ->add_option("scenario", arguments->scenario,
-                   "Scenario file (TOML; see docs/scenario.md); with --resume and without -o, a run")
+                   "Scenario file (TOML; see docs/scenario.md), or the run to resume")
       ->required();
   command->add_option("-o,--output", arguments->output,
                       "Run file to write (HDF5) [name of the scenario + .h5]");
@@ -209,25 +221,27 @@ void add_run_command(CLI::App& app) {
       ->add_option("--set", arguments->settings,
                    "Change a key of the scenario, e.g. --set contact.friction=0.3")
       ->allow_extra_args(false);
-  CLI::Option* seed = command->add_option("--seed", arguments->seed, "Seed of the random deposition");
+  add_seed_option(*command, arguments->seed);
   command
       ->add_option("--threads", arguments->threads, "Threads of the solver; the result does not depend on it")
       ->capture_default_str()
       ->check(CLI::Range(1, 256));
   CLI::Option* resume =
       command->add_flag("--resume", arguments->resume,
-                        "Continue from the last checkpoint: --resume RUN, with the scenario it "
-                        "began with; SCENARIO -o RUN --resume starts where there is none");
+                        "Continue from the last checkpoint: talus run --resume RUN. With SCENARIO "
+                        "-o RUN --resume the run is begun if it does not exist");
   command->add_option("--max-wall", arguments->max_wall,
-                      "Stop with a checkpoint in time for this wall time to suffice, HH:MM or HH:MM:SS");
-  command->add_flag("--overwrite", arguments->overwrite, "Replace a run of this name")->excludes(resume);
+                      "Stop with a checkpoint before this much wall time has passed, HH:MM or HH:MM:SS");
+  command
+      ->add_flag("--overwrite", arguments->overwrite,
+                 "Replace a run of this name; the old file is kept until the new run is complete")
+      ->excludes(resume);
   command->add_flag("-q,--quiet", arguments->quiet, "Print errors and warnings only");
   CLI::Option* frames =
       command->add_option("--frames", arguments->frames,
                           "Draw maps of each frame into this folder while the run computes; needs --map");
   add_map_options(*command, arguments->maps, MapOptionSet::drawn_live, frames);
-  command->callback([arguments, seed] {
-    arguments->has_seed = seed->count() > 0;
+  command->callback([arguments] {
     settle_names(*arguments);
     run(*arguments);
   });

@@ -8,10 +8,10 @@
 
 #include "app/commands.h"
 #include "app/json.h"
-#include "app/output_files.h"
-#include "session/problem_file.h"
-#include "solver/local_solvers.h"
-#include "solver/siconos_error.h"
+#include "core/output_file.h"
+#include "problems/local_solvers.h"
+#include "problems/problem_file.h"
+#include "problems/siconos_error.h"
 
 namespace talus {
 namespace {
@@ -63,7 +63,7 @@ void solve_bodies(const StepProblem& step, const SolveArguments& arguments, Solv
   result.bodies = step.problem.body_count();
   result.siconos_error = siconos_error(step.problem, solution);
   result.carried_weight = carried_weight(step, solution);
-  result.solution = local_solution(step.problem, solution);
+  result.solution = local_form(step.problem, solution);
 }
 
 void solve_local(const StoredProblem& stored, const SolveArguments& arguments, SolveResult& result) {
@@ -129,14 +129,16 @@ void print_text(const SolveArguments& arguments, const SolveResult& result) {
 }
 
 void run(const SolveArguments& arguments) {
-  if (!arguments.output.empty()) refuse_existing(arguments.output, arguments.overwrite);
+  if (!arguments.output.empty()) output_target(arguments.output, {arguments.overwrite, {arguments.problem}});
   const StoredProblem stored = read_problem(arguments.problem);
   const SolveResult result = solve(stored, arguments);
   if (arguments.json)
     print_json(arguments, result);
   else
     print_text(arguments, result);
-  if (!arguments.output.empty()) write_solution(arguments.problem, arguments.output, result.solution);
+  if (arguments.output.empty()) return;
+  create_folder_of(arguments.output);
+  write_solution(arguments.problem, arguments.output, result.solution);
 }
 
 void add_settings(CLI::App& command, SolverSettings& settings) {
@@ -152,7 +154,7 @@ void add_settings(CLI::App& command, SolverSettings& settings) {
   command.add_option("--tol", settings.tolerance, "Natural-map residual eta to reach")
       ->capture_default_str()
       ->check(CLI::Range(1e-15, 1.0));
-  command.add_option("--max-iterations", settings.max_iterations, "Passes over all contacts, at most")
+  command.add_option("--max-iterations", settings.max_iterations, "Iterations, at most")
       ->capture_default_str()
       ->check(CLI::Range(0, 1000000000));
   command
@@ -176,7 +178,7 @@ void add_solve_command(CLI::App& app) {
   add_settings(*command, arguments->settings);
   command->add_flag("--cold", arguments->cold, "Start from zero instead of the guess in the file");
   command->add_option("-o,--output", arguments->output, "Copy of the problem to write, with its /solution");
-  command->add_flag("--overwrite", arguments->overwrite, "Replace a file that exists");
+  command->add_flag("--overwrite", arguments->overwrite, "Replace an existing file");
   command->add_flag("--json", arguments->json, "As JSON; seconds are those of the solver alone");
   command->footer(
       "A solver that does not converge is a result: it is reported with its residual, and the exit code is "

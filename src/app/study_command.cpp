@@ -1,16 +1,15 @@
 /// `talus study`: a scenario with one thing changed at a time, each variation with the same seeds.
 
-#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <optional>
-#include <span>
-#include <thread>
 
 #include "app/commands.h"
-#include "app/missing_runs.h"
-#include "app/study_report.h"
+#include "app/json.h"
+#include "app/pool_line.h"
+#include "core/output_file.h"
+#include "ensemble/study_report.h"
 #include "io/durable_file.h"
 
 namespace talus {
@@ -23,29 +22,59 @@ struct StudyArguments {
   std::vector<std::string> settings;
   std::string seeds = "1-4";
   std::optional<double> reference;
-  int jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  int jobs = default_jobs();
   bool json = false;
 };
 
-std::vector<WantedRun> wanted_runs(const StudyPlan& plan, const std::string& folder) {
-  std::vector<WantedRun> runs;
-  for (const StudyRun& run : plan.runs)
-    runs.push_back({run.name, study_path(folder, run), plan.scenario_file,
-                    plan.variations[run.variation].settings, run.scenario});
+json::Members runs_json(const StudyResult& result) {
+  json::Members runs;
+  for (const StudyOutcome& outcome : result.outcomes) {
+    json::Members figures;
+    for (std::size_t k = 0; k < study_quantity_count; ++k)
+      figures.emplace_back(study_fields()[k].name, json::number(outcome.figures[k]));
+    figures.emplace_back("state_hash", json::quoted(outcome.state_hash));
+    figures.emplace_back("version", json::quoted(outcome.version));
+    runs.emplace_back(result.plan.members[outcome.member].name, json::object(figures, 2));
+  }
   return runs;
 }
 
-void write_text(const std::filesystem::path& path, const std::string& text) {
-  write_durably(path.string(), std::as_bytes(std::span(text)), path.string() + ".part");
+std::string comparison_json(const Comparison& found) {
+  static const char* const words[] = {"unknown", "within error", "differs"};
+  return json::object({{"seeds", json::number(found.value.count)},
+                       {"mean", json::number(found.value.mean)},
+                       {"error", json::number(found.value.error)},
+                       {"difference", json::number(found.difference.mean)},
+                       {"difference_error", json::number(found.difference.error)},
+                       {"verdict", json::quoted(words[static_cast<int>(verdict(found.difference))])}},
+                      3);
+}
+
+std::string study_json(const StudyResult& result) {
+  json::Members variations;
+  for (std::size_t v = 0; v < result.plan.variants.size(); ++v) {
+    json::Members quantities;
+    for (std::size_t k = 0; k < study_quantity_count; ++k)
+      quantities.emplace_back(study_fields()[k].name,
+                              comparison_json(compare(result, v, static_cast<StudyQuantity>(k))));
+    variations.emplace_back(result.plan.variants[v].name, json::object(quantities, 2));
+  }
+  return json::object({{"scenario", json::quoted(result.plan.variants.front().scenario_file)},
+                       {"reference_deg", json::number(result.reference)},
+                       {"variations", json::object(variations, 1)},
+                       {"runs", json::object(runs_json(result), 1)}});
 }
 
 void study(const StudyArguments& arguments) {
-  const StudyPlan plan = plan_study(arguments.scenario, arguments.settings, arguments.axes, arguments.seeds);
-  const std::vector<FailedRun> failed =
-      compute_missing(wanted_runs(plan, arguments.folder), arguments.jobs, "study");
-  if (failed.size() == plan.runs.size()) refuse(failed);
-  const StudyResult result = read_study(plan, arguments.folder, arguments.reference);
+  const StudyPlan plan =
+      plan_study(arguments.scenario, arguments.settings, arguments.axes, arguments.seeds, arguments.folder);
   const std::filesystem::path folder = arguments.folder;
+  for (const char* table : {"study.csv", "study.md"})
+    output_target((folder / table).string(), {true, {arguments.scenario}});
+  const std::vector<FailedJob> failed =
+      run_with_progress(missing_runs(plan, "study"), plan.members.size(), arguments.jobs, "study");
+  if (failed.size() == plan.members.size()) refuse(failed);
+  const StudyResult result = read_study(plan, arguments.reference);
   write_text(folder / "study.csv", study_csv(result));
   write_text(folder / "study.md", study_markdown(result));
   std::printf("%s\n", (arguments.json ? study_json(result) : study_markdown(result)).c_str());

@@ -1,5 +1,5 @@
 #pragma once
-/// What a run says of the steps that did not reach their tolerance.
+/// What a run reports of the steps that did not reach their tolerance.
 
 #include <cstdint>
 #include <string>
@@ -8,14 +8,14 @@
 
 namespace talus {
 
-/// Up to this share of all steps is usual: docs/solver.md.
+/// Up to this share of all steps is usual (docs/solver.md).
 inline constexpr double usual_unconverged_share = 0.02;
 
 struct StepRemark {
-  bool usual = true;  ///< a note; else a warning
+  bool usual = true;  ///< a plain statement; else a warning
   std::string text;   ///< empty where all steps converged
 };
-/// `steps`: of all the run.
+/// `steps` are those of the whole run.
 StepRemark remark_on(const SolverRecord& record, std::int64_t steps);
 
 }  // namespace talus

@@ -1,8 +1,9 @@
 /// `talus view`: a run in a window, as it is computed or from its file.
 
-#include <array>
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
+#include <fmt/core.h>
 #include <memory>
 #include <optional>
 #include <thread>
@@ -10,14 +11,17 @@
 
 #include "app/command_line.h"
 #include "app/commands.h"
-#include "app/open_run.h"
 #include "app/output_files.h"
+#include "app/seed_option.h"
+#include "app/stop_signals.h"
 #include "core/errors.h"
+#include "core/output_file.h"
 #include "gui/offscreen.h"
 #include "gui/window.h"
-#include "maps/map_kind.h"
-#include "render/output_file.h"
+#include "io/run_file.h"
+#include "pictures/map_kind.h"
 #include "render/png.h"
+#include "scenario/scenario.h"
 
 namespace talus {
 namespace {
@@ -45,7 +49,8 @@ std::pair<int, int> parse_size(const std::string& text) {
   const bool read = std::sscanf(text.c_str(), "%5dx%5d%n", &width, &height, &end) == 2;
   if (!read || static_cast<std::size_t>(end) != text.size() || width < 200 || height < 200 || width > 16384 ||
       height > 16384)
-    throw Error(ExitCode::usage, "--size " + text + ": expected WIDTHxHEIGHT in pixels, each 200 ... 16384");
+    throw Error(ExitCode::usage,
+                fmt::format("--size {}: expected WIDTHxHEIGHT in pixels, each 200 ... 16384", text));
   return {width, height};
 }
 
@@ -54,8 +59,8 @@ void show_first(ViewModel& model, const ViewArguments& arguments) {
   if (!arguments.map.empty()) model.state.map.layers = map_layers(arguments.map);
   if (!arguments.at.empty()) model.go_to_angle(arguments.at);
   if (arguments.grain && *arguments.grain >= model.statics().free_count)
-    throw Error(ExitCode::usage, "--grain " + std::to_string(*arguments.grain) + ": the grains are 0 to " +
-                                     std::to_string(model.statics().free_count - 1));
+    throw Error(ExitCode::usage, fmt::format("--grain {}: the grains are 0 to {}", *arguments.grain,
+                                             model.statics().free_count - 1));
   model.state.selected = arguments.grain;
 }
 
@@ -64,13 +69,14 @@ void take_screenshot(const ViewArguments& arguments) {
   using namespace std::chrono_literals;
   const auto [width, height] = parse_size(arguments.size);
   const std::optional<ContextKind> kind = context_kind(arguments.context);
-  refuse_existing(arguments.screenshot, arguments.overwrite);
+  output_target(arguments.screenshot, output_of_run(arguments.file, arguments.overwrite));
   ViewModel model = ViewModel::open(arguments.file, arguments.settings, "", false, command_line());
   show_first(model, arguments);
   OffscreenGui gui(model, width, height, static_cast<float>(arguments.scale), kind);
   for (int quiet = 0; quiet < 25; std::this_thread::sleep_for(20ms))
     quiet = model.update(0.0) ? 0 : quiet + 1;
   gui.settle();
+  create_folder_of(arguments.screenshot);
   write_png(arguments.screenshot, gui.frame());
 }
 
@@ -78,24 +84,22 @@ void take_screenshot(const ViewArguments& arguments) {
 std::string way_on(const Recording& run) {
   if (run.output.empty()) return {};
   if (run_presence(run.output) == RunPresence::packed)
-    return run.output + " holds the whole run; look at it again with: talus view " + run.output;
-  std::string line = "talus run " + run.scenario + " -o " + run.output;
+    return fmt::format("{} holds the whole run; look at it again with: talus view {}", run.output,
+                       run.output);
+  std::string line = fmt::format("talus run {} -o {}", run.scenario, run.output);
   for (const std::string& setting : run.settings)
     if (!setting.starts_with("seed=")) line += " --set " + setting;
-  return run.output + " holds the run so far; continue with: " + line + " --seed " +
-         std::to_string(run.seed) + " --resume";
+  return fmt::format("{} holds the run so far; continue with: {} --seed {} --resume", run.output, line,
+                     run.seed);
 }
 
 /// "NAME<tab>X0 Y0 X1 Y1" of each widget, px of the window, for scripts that click. Only where it differs
 /// from what was written before.
 void write_places(const std::string& path, const std::vector<WidgetPlace>& places, std::string& written) {
   std::string text;
-  std::array<char, 80> numbers{};
-  for (const WidgetPlace& place : places) {
-    std::snprintf(numbers.data(), numbers.size(), "\t%.0f %.0f %.0f %.0f\n", place.x0, place.y0, place.x1,
-                  place.y1);
-    text += place.name + numbers.data();
-  }
+  for (const WidgetPlace& place : places)
+    text +=
+        fmt::format("{}\t{:.0f} {:.0f} {:.0f} {:.0f}\n", place.name, place.x0, place.y0, place.x1, place.y1);
   if (text == written) return;
   OutputFile file(path);
   file.write({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
@@ -113,7 +117,7 @@ std::string close(ViewModel model) {
 }
 
 void save_picture(const std::string& path, GuiWindow& window, ViewModel& model) {
-  refuse_existing(path, false);
+  output_target(path, {.overwrite = false});
   write_png(path, window.draw_image(model.furnished_map(), picture_width));
   model.state.message = "written: " + path;
 }
@@ -151,21 +155,38 @@ void show(ViewModel& model, const std::string& places, GuiWindow& window,
   }
 }
 
+/// The rule for a run that the window records. What is wrong with the input is said where there is no
+/// display, too.
+OutputRule checked_input(const ViewArguments& arguments) {
+  const bool is_missing_run = is_run(arguments.file) && !std::filesystem::exists(arguments.file) &&
+                              run_presence(arguments.file) == RunPresence::none;
+  if (is_missing_run) throw Error(ExitCode::missing_input, arguments.file + ": no such run");
+  if (is_run(arguments.file)) return output_of_run(arguments.file, true);
+  return output_of_scenario(arguments.file, read_scenario(arguments.file, arguments.settings));
+}
+
 void view(const ViewArguments& arguments) {
   if (!arguments.screenshot.empty()) return take_screenshot(arguments);
   const auto [width, height] = parse_size(arguments.size);
-  const volatile std::sig_atomic_t* stop = catch_stop_signals();
+  const OutputRule rule = checked_input(arguments);
   GuiWindow window(width, height);  // not shown yet: without a display no run is begun
+  if (!arguments.output.empty()) {
+    output_target(arguments.output, rule);
+    create_folder_of(arguments.output);
+  }
   ViewModel model = ViewModel::open(arguments.file, arguments.settings, arguments.output, arguments.overwrite,
                                     command_line());
+  const CommitOnSignals commit;
   show_first(model, arguments);
   if (model.is_live() && arguments.output.empty())
     std::printf("Nothing is kept of this run until it is saved; talus view %s -o RUN.h5 records it.\n",
                 arguments.file.c_str());
   std::fflush(stdout);
+  const volatile std::sig_atomic_t* stop = stop_request();
   show(model, arguments.places, window, stop);
   const std::string kept = close(std::move(model));
-  if (*stop != 0) throw Error(ExitCode::stopped, kept.empty() ? "stopped" : "stopped; " + kept);
+  if (*stop != 0)
+    throw Error(ExitCode::stopped, kept.empty() ? "the window was closed by a signal" : "stopped; " + kept);
   if (!kept.empty()) std::printf("%s\n", kept.c_str());
 }
 
@@ -173,9 +194,9 @@ void view(const ViewArguments& arguments) {
 
 void add_view_command(CLI::App& app) {
   auto arguments = std::make_shared<ViewArguments>();
-  auto seed = std::make_shared<std::uint64_t>(0);
+  auto seed = std::make_shared<std::string>();
   CLI::App* command =
-      app.add_subcommand("view", "Look into a run in a window: a scenario as it is computed, or a run file");
+      app.add_subcommand("view", "Show a run in a window: a scenario as it is computed, or a run file");
   command->add_option("FILE", arguments->file, "Scenario (SCENARIO.toml) or run (RUN.h5)")->required();
   CLI::Option* output =
       command->add_option("-o,--output", arguments->output,
@@ -184,7 +205,7 @@ void add_view_command(CLI::App& app) {
       ->add_option("--set", arguments->settings,
                    "Change a key of the scenario, e.g. --set contact.friction=0.3")
       ->allow_extra_args(false);
-  CLI::Option* seed_option = command->add_option("--seed", *seed, "Seed of the random deposition");
+  add_seed_option(*command, *seed);
   command->add_flag("--overwrite", arguments->overwrite, "Replace a run, or screenshot, of this name");
   command->add_option("--at", arguments->at,
                       "Begin a replay at this angle in degrees, or at repose, the last frame before failure");
@@ -195,7 +216,7 @@ void add_view_command(CLI::App& app) {
   CLI::Option* screenshot =
       command
           ->add_option("--screenshot", arguments->screenshot,
-                       "Write a picture of the window as a PNG file and leave: needs no display")
+                       "Write a picture of the window as a PNG file and exit; needs no display")
           ->excludes(output);
   command->add_option("--scale", arguments->scale, "Size of text and widgets in the screenshot")
       ->capture_default_str()
@@ -206,8 +227,8 @@ void add_view_command(CLI::App& app) {
       ->needs(screenshot);
   command->add_option("--places", arguments->places, "Keep the places of the widgets in this file")
       ->group("");
-  command->callback([arguments, seed, seed_option] {
-    if (seed_option->count() > 0) arguments->settings.push_back("seed=" + std::to_string(*seed));
+  command->callback([arguments, seed] {
+    if (!seed->empty()) arguments->settings.push_back(fmt::format("seed={}", *seed));
     view(*arguments);
   });
 }

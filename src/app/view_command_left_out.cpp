@@ -6,7 +6,7 @@
 namespace talus {
 
 void add_view_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("view", "Look into a run in a window (left out of this build)");
+  CLI::App* command = app.add_subcommand("view", "Show a run in a window (left out of this build)");
   command->allow_extras();
   command->callback([] {
     throw Error(

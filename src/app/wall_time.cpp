@@ -1,6 +1,7 @@
 #include "app/wall_time.h"
 
 #include <cstdio>
+#include <fmt/core.h>
 
 #include "core/errors.h"
 
@@ -14,8 +15,8 @@ double parse_wall_time(const std::string& option, const std::string& text) {
          text.find_first_not_of("0123456789:") == std::string::npos;
   const double time = 3600.0 * hours + 60.0 * minutes + seconds;
   if (!read || minutes > 59 || seconds > 59 || time == 0.0)
-    throw Error(ExitCode::usage, option + " " + text + ": expected HH:MM or HH:MM:SS, more than 0, as in " +
-                                     option + " 23:30");
+    throw Error(ExitCode::usage, fmt::format("{} {}: expected HH:MM or HH:MM:SS, more than 0, as in {} 23:30",
+                                             option, text, option));
   return time;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Narrow phase: gaps and contact frames.
+/// Narrow phase: gaps and local frames (T3).
 
 #include "contact/neighbour_list.h"
 #include "core/contacts.h"
@@ -7,7 +7,7 @@
 namespace talus {
 
 /// Writes all pairs with a gap below `margin` (m) at the present positions, sorted by key, with normals and
-/// gaps; their forces are for recall_forces to set. Conventions as in Contacts. Two coincident centres get
+/// gaps; recall_forces sets their forces. The conventions are those of Contacts. Two coincident centres get
 /// the normal (0, 1).
 void detect_contacts(NeighbourList& list, const Grains& grains, const Boundary& boundary, double margin,
                      Contacts& contacts);

@@ -5,12 +5,12 @@
 namespace talus {
 namespace {
 
-/// The pair of contact c of one comes before that of contact d of the other.
+/// Whether the pair of contact c of one list comes before that of contact d of the other.
 bool before(const Contacts& one, Index c, const Contacts& other, Index d) {
   return one.a[c] < other.a[d] || (one.a[c] == other.a[d] && one.b[c] < other.b[d]);
 }
 
-/// How many contacts in a row, from c and from d on, are those of the same pairs.
+/// The number of consecutive contacts, from c and from d on, that belong to the same pairs.
 Index persisting(const Contacts& contacts, Index c, const Contacts& previous, Index d) {
   const Index longest = std::min(contacts.count() - c, previous.count() - d);
   Index run = 0;
@@ -33,7 +33,7 @@ void recall_forces(const Contacts& previous, Contacts& contacts) {
   Index c = 0;
   Index old = 0;
   while (c < count) {
-    // Nearly all contacts persist, so a merge goes in long runs.
+    // Nearly all contacts persist, so the merge proceeds in long runs.
     const Index run = persisting(contacts, c, previous, old);
     copy_forces(previous, old, run, contacts, c);
     c += run;

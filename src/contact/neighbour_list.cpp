@@ -19,13 +19,13 @@ bool covers(const NeighbourList& list, const Grains& grains, double reach) {
   for (std::size_t i = 0; i < grains.x.size(); ++i) {
     const double dx = grains.x[i] - list.x[i];
     const double dy = grains.y[i] - list.y[i];
-    // A grain that wrapped around the periodic edge seems to have moved far: its shifts are stale too.
+    // A grain that wrapped around the periodic edge seems to have moved far, and its shifts are stale too.
     if (!(dx * dx + dy * dy <= limit)) return false;
   }
   return true;
 }
 
-/// A position that is no number has a cell too: the step goes on to find that it is none, and says so.
+/// A position that is not a number has a cell too: the step goes on to find it and to report it.
 Index clamped(double cell, Index count) {
   return cell > 0.0 ? static_cast<Index>(std::min(cell, static_cast<double>(count - 1))) : 0;
 }
@@ -36,7 +36,7 @@ Index row_of(const Grid& grid, double y) { return clamped((y - grid.y0) / grid.c
 Grid make_grid(const Grains& grains, const Boundary& boundary, double cell) {
   const auto [x_min, x_max] = std::minmax_element(grains.x.begin(), grains.x.end());
   const auto [y_min, y_max] = std::minmax_element(grains.y.begin(), grains.y.end());
-  // Never more cells than a few a grain, however far a grain has flown.
+  // At most a few cells per grain, however far a grain has flown.
   const double limit = std::max(16.0, 4.0 * grains.count());
   Grid grid;
   grid.periodic = boundary.periodic;
@@ -56,7 +56,7 @@ Grid make_grid(const Grains& grains, const Boundary& boundary, double cell) {
 /// Counting sort of the grains into cells; within a cell they stay in the order of their ids.
 void fill_cells(NeighbourList& list, const Grains& grains, const Grid& grid) {
   const auto cells = static_cast<std::size_t>(grid.columns) * grid.rows;
-  list.cell_start.resize(cells + 1);  // not assigned: that would allocate for each row of cells more
+  list.cell_start.resize(cells + 1);  // not assigned, which would allocate for each additional row of cells
   std::fill(list.cell_start.begin(), list.cell_start.end(), 0);
   for (auto* field : {&list.cell_of_grain, &list.cell_grain}) field->resize(grains.x.size());
   for (auto* field : {&list.cell_x, &list.cell_y, &list.cell_radius}) field->resize(grains.x.size());
@@ -76,7 +76,7 @@ void fill_cells(NeighbourList& list, const Grains& grains, const Grid& grid) {
   list.cell_start[0] = 0;
 }
 
-// A neighbour as one number, b first, so that numbers sort as (b, shift) does.
+// A neighbour as one number, b first, so that the numbers sort like (b, shift).
 std::int64_t packed(Index b, int shift) { return 4 * static_cast<std::int64_t>(b) + shift + 1; }
 Index body_of(std::int64_t neighbour) { return static_cast<Index>(neighbour / 4); }
 std::int8_t shift_of(std::int64_t neighbour) { return static_cast<std::int8_t>(neighbour % 4 - 1); }
@@ -102,7 +102,7 @@ void search_cells(const NeighbourList& list, const Grains& grains, Index first_c
     const double dx = list.cell_x[k] + offset - x;
     const double dy = list.cell_y[k] - y;
     const double limit = reach + list.cell_radius[k] + search.range;
-    // Written in any case and kept or not: a branch here would be a coin toss.
+    // Written in any case and then kept or not: a branch would be unpredictable here.
     *end = packed(b, shift);
     end += static_cast<int>(b > a) & static_cast<int>(dx * dx + dy * dy < limit * limit);
   }
@@ -134,7 +134,7 @@ void search_planes(const Grains& grains, const Boundary& boundary, Search& searc
   }
 }
 
-/// Sorts the neighbours of one grain: a handful, so insertion sort.
+/// Sorts the neighbours of one grain. They are few, so insertion sort is fastest.
 void sort_neighbours(std::int64_t* first, std::int64_t* end) {
   for (std::int64_t* next = first; next != end; ++next) {
     const std::int64_t neighbour = *next;
@@ -165,14 +165,14 @@ void update_neighbour_list(NeighbourList& list, const Grains& grains, const Boun
   list.y = grains.y;
   if (grains.count() == 0) return;
   const double largest = *std::max_element(grains.radius.begin(), grains.radius.end());
-  // Rebuilds halve with each doubling of the skin, candidates grow by 5 %: here both cost the same.
+  // Doubling the skin halves the rebuilds and adds 5 % of candidates: here both cost the same.
   list.skin = 0.2 * largest;
-  // While the bed moves fast the reach changes from step to step: some room above it saves rebuilds.
+  // While the bed moves fast the reach changes from step to step; some room above it saves rebuilds.
   list.reach = 1.25 * reach;
   const double range = list.reach + list.skin;
   const Grid grid = make_grid(grains, boundary, 2.0 * largest + range);
   fill_cells(list, grains, grid);
-  // A grain sees each other one through three images at most; one place more for what is not kept.
+  // A grain sees each other one through at most three images; one place more holds what is not kept.
   list.near.resize(3 * grains.x.size() + boundary.planes.size() + 1);
   for (Index a = 0; a < grains.free_count; ++a) {
     Search search{.a = a, .range = range, .end = list.near.data()};

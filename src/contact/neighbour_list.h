@@ -11,7 +11,7 @@ namespace talus {
 
 /// All pairs of a free grain and another body whose gap was below `reach + skin` when the list was made,
 /// sorted by key (a, b, shift). Covers every pair with a gap below `reach` until a grain has moved by half
-/// the skin, so what is found through the list never depends on its age.
+/// the skin, so the pairs found with the list never depend on its age.
 struct NeighbourList {
   std::vector<Index> a, b;
   std::vector<std::int8_t> shift;
@@ -27,8 +27,8 @@ struct NeighbourList {
   std::vector<std::int64_t> near;  ///< the neighbours of one grain
 };
 
-/// Makes the list anew where it does not cover pairs up to a gap of `reach` at the present positions. A list
-/// serves one world: it does not see changed radii, planes or lengths.
+/// Rebuilds the list if it does not cover pairs up to a gap of `reach` at the present positions. A list
+/// belongs to one world: it does not notice changed radii, planes or lengths.
 void update_neighbour_list(NeighbourList& list, const Grains& grains, const Boundary& boundary, double reach);
 
 }  // namespace talus

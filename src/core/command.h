@@ -1,6 +1,6 @@
 #pragma once
-/// What a user does to a run while it goes on. A run is its scenario and its commands: replaying both gives
-/// the same bits.
+/// What a user does to a run while it goes on. A run follows from its scenario and its commands: replaying
+/// both gives the same bits.
 
 #include <cstdint>
 
@@ -18,7 +18,7 @@ enum class CommandKind : std::int8_t {
 inline constexpr std::int8_t command_kind_count = 4;
 
 struct Command {
-  std::int64_t step = 0;  ///< steps taken when it is applied: it acts from the next step on
+  std::int64_t step = 0;  ///< steps taken before it is applied: it acts from the next step on
   CommandKind kind = CommandKind::push;
   Index grain = -1;
   double x = 0.0, y = 0.0;

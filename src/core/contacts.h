@@ -1,5 +1,5 @@
 #pragma once
-/// The contacts of one step, and with their forces the contact memory.
+/// The contacts of one step, which with their forces are the contact memory.
 
 #include <cstdint>
 #include <vector>
@@ -18,7 +18,7 @@ enum class ContactStatus : std::int8_t {
 /// Contacts and near contacts in structure-of-arrays form, sorted by key (a, b, shift) with a < b.
 /// Conventions: the normal points from a to b; the tangent is the normal turned by +90 degrees,
 /// t = (-n_y, n_x); the force acts on b (and its opposite on a), so a compressive f_n is positive.
-/// Relative velocities are those of b seen from a, so U_n > 0 separates.
+/// Relative velocities are those of b relative to a, so contacts with U_n > 0 separate.
 struct Contacts {
   std::vector<Index> a, b;         ///< body ids; b may be a plane (see Boundary)
   std::vector<std::int8_t> shift;  ///< periodic image: b touches a from x_b + shift * length

@@ -1,5 +1,5 @@
 #pragma once
-/// Errors by cause. Each cause has the exit code that the command line leaves with (docs/errors.md).
+/// Errors by cause. Each cause has an exit code of the command line (docs/errors.md).
 
 #include <stdexcept>
 #include <string>
@@ -15,9 +15,9 @@ enum class ExitCode : int {
   unavailable = 69,    ///< no rendering context, display, shader, ffmpeg or gnuplot
   internal = 70,       ///< a defect of Talus, or a state that is not finite
   out_of_memory = 71,
-  cannot_create = 73,  ///< output exists already, is locked, or its folder does not take it
+  cannot_create = 73,  ///< output exists already, is locked, or its folder cannot be written
   io_error = 74,       ///< a read or write failed
-  stopped = 75,        ///< stopped on request; the run can be resumed
+  stopped = 75,        ///< stopped on request, which is not an error; the run can be resumed
 };
 
 /// An error with a message for the user. The message says what was found, where, what was expected, and
@@ -38,10 +38,10 @@ class LocatedError : public Error {
   using Error::Error;
 };
 
-/// `path: reason of errno`, as an Error with the given code.
+/// An Error with the given code and the message `path: cannot action: reason of errno`.
 Error system_error(ExitCode code, const std::string& action, const std::string& path, int errno_value);
 
-/// The same of a file or folder that cannot be made: io_error where the disk is full or fails, else
+/// The same for a file or folder that cannot be created: io_error if the disk is full or fails, otherwise
 /// cannot_create.
 Error creation_error(const std::string& action, const std::string& path, int errno_value);
 

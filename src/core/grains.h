@@ -32,7 +32,7 @@ struct Grains {
 };
 
 /// Appends a disk at rest and returns its id. A free grain may not follow a floor grain.
-/// `density` in kg/m^3; a fixed disk has the mass of its size but no inverse mass.
+/// `density` is in kg/m^3; a fixed disk has the mass that follows from its size, but the inverse mass 0.
 Index add_disk(Grains& grains, Vec2 centre, double radius, double density, bool fixed);
 
 }  // namespace talus

@@ -24,7 +24,7 @@ class Hasher {
   requires std::is_arithmetic_v<T>
   void add(T value) { add_bytes(&value, sizeof value); }
 
-  /// The number of elements goes in too, so that two arrays cannot trade elements unseen.
+  /// The number of elements is hashed too, so that moving elements between two arrays changes the hash.
   template <typename Container>
   void add_array(const Container& values) {
     add<std::uint64_t>(values.size());

@@ -6,13 +6,27 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <filesystem>
+#include <fmt/core.h>
 
 #include "core/errors.h"
 
 namespace talus {
 namespace {
 
-/// False where another process holds the file.
+/// Others may make and remove a file of the same name while one is being made. Where it never is what was
+/// opened, as on a file system that numbers its files anew at each look, this is where to give up.
+constexpr int attempts = 100;
+
+[[noreturn]] void give_up(const std::string& path) {
+  throw Error(
+      ExitCode::cannot_create,
+      fmt::format("{}: cannot lock: it was replaced by another file at each of {} attempts; choose an "
+                  "output on another file system",
+                  path, attempts));
+}
+
+/// False if another process holds the file.
 bool take_lock(const Descriptor& file, const std::string& path) {
   while (::flock(file.get(), LOCK_EX | LOCK_NB) != 0) {
     if (errno == EWOULDBLOCK) return false;
@@ -21,28 +35,72 @@ bool take_lock(const Descriptor& file, const std::string& path) {
   return true;
 }
 
+/// Whether a file or folder was left under a name by a process that was killed: no link, no device.
+bool is_left(const std::string& path, mode_t kind) {
+  struct stat status {};
+  return ::lstat(path.c_str(), &status) == 0 && (status.st_mode & S_IFMT) == kind;
+}
+
+/// What is there stays: Talus has not made it.
+[[noreturn]] void refuse_foreign(const std::string& path, const char* expected) {
+  throw Error(ExitCode::cannot_create,
+              path + " is in the way: Talus needs this name for a moment, for " + expected +
+                  ", and has not made what is there; remove it, or choose another output");
+}
+
+/// Opens what has this name without following a link, and without waiting for the other end of a FIFO.
+Descriptor open_found(const std::string& path, int flags) {
+  return Descriptor(::open(path.c_str(), flags | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
+}
+
 }  // namespace
 
 bool is_named(const std::string& path, const Descriptor& file) {
   struct stat opened {
   }, named{};
-  return ::fstat(file.get(), &opened) == 0 && ::stat(path.c_str(), &named) == 0 &&
+  return ::fstat(file.get(), &opened) == 0 && ::lstat(path.c_str(), &named) == 0 &&
          opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
 }
 
 std::optional<Descriptor> create_locked(const std::string& path) {
-  for (;;) {
+  for (int attempt = 0; attempt < attempts; ++attempt) {
     Descriptor made(::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
     if (made.get() < 0 && errno != EEXIST) throw creation_error("create", path, errno);
     const bool found = made.get() < 0;
-    Descriptor file = found ? Descriptor(::open(path.c_str(), O_RDWR | O_CLOEXEC)) : std::move(made);
-    if (file.get() < 0 && errno == ENOENT) continue;  // gone in this moment
+    if (found && !is_left(path, S_IFREG)) {
+      if (errno == ENOENT) continue;  // removed at this very moment
+      refuse_foreign(path, "a temporary file");
+    }
+    Descriptor file = found ? open_found(path, O_RDWR) : std::move(made);
+    if (file.get() < 0 && errno == ENOENT) continue;
     if (file.get() < 0) throw creation_error("create", path, errno);
     if (!take_lock(file, path)) return std::nullopt;
     if (!is_named(path, file)) continue;  // its last holder has renamed or removed it
     if (!found) return file;
     if (::unlink(path.c_str()) != 0) throw creation_error("replace", path, errno);
   }
+  give_up(path);
+}
+
+std::optional<Descriptor> create_locked_folder(const std::string& path) {
+  for (int attempt = 0; attempt < attempts; ++attempt) {
+    const bool made = ::mkdir(path.c_str(), 0777) == 0;
+    if (!made && errno != EEXIST) throw creation_error("create the folder", path, errno);
+    if (!made && !is_left(path, S_IFDIR)) {
+      if (errno == ENOENT) continue;
+      refuse_foreign(path, "a temporary folder");
+    }
+    Descriptor folder = open_found(path, O_RDONLY | O_DIRECTORY);
+    if (folder.get() < 0 && errno == ENOENT) continue;
+    if (folder.get() < 0) throw creation_error("open the folder", path, errno);
+    if (!take_lock(folder, path)) return std::nullopt;
+    if (!is_named(path, folder)) continue;
+    if (made) return folder;
+    std::error_code error;
+    std::filesystem::remove_all(path, error);
+    if (error) throw creation_error("replace the folder", path, error.value());
+  }
+  give_up(path);
 }
 
 }  // namespace talus

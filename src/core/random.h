@@ -1,5 +1,5 @@
 #pragma once
-/// Random numbers that are the same everywhere: std:: distributions differ between libraries.
+/// Random numbers that are the same everywhere, unlike std:: distributions, which differ between libraries.
 
 #include <cstdint>
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Which sanitizer the program is built with: under it limits of memory and ends by signals are others.
+/// Which sanitizer the program is built with; it changes limits of memory and what signals do.
 
 namespace talus {
 

@@ -1,5 +1,5 @@
 #pragma once
-/// What a run leaves behind: frames for maps and analysis, series of observables and of steps.
+/// What a run records: frames for maps and analysis, series of observables and of steps.
 
 #include <array>
 #include <cstdint>
@@ -57,15 +57,15 @@ struct RunStatics {
   double friction = 0.0;       ///< between grains
 };
 
-/// The statics of a frame with `count` grains, floor included: of a bed that is being poured, where the
-/// grains with the highest ids of the free ones have not arrived yet.
+/// The statics of a frame with `count` grains, floor included, of a bed that is being poured: the free grains
+/// with the highest ids have not arrived yet.
 RunStatics arrived_statics(const RunStatics& all, Index count);
 
 /// Named facts about a run, in writing order: provenance, timing, results.
 using Facts = std::vector<std::pair<std::string, std::string>>;
 using Figures = std::vector<std::pair<std::string, double>>;
 
-/// The value that goes by a name; none where nothing does.
+/// The value of that name, if there is one.
 template <typename Value>
 std::optional<Value> find_value(const std::vector<std::pair<std::string, Value>>& named,
                                 std::string_view name) {

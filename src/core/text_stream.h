@@ -6,8 +6,8 @@
 
 namespace talus {
 
-/// A stream over a text that throws where memory is missing. Others set a bit then, and look as if the text
-/// had ended.
+/// A stream over a text that throws when memory is missing. Other streams only set a bit, as if the text had
+/// ended.
 inline std::istringstream text_stream(const std::string& text) {
   std::istringstream stream(text);
   stream.exceptions(std::ios::badbit);

@@ -1,6 +1,6 @@
 #pragma once
-/// Sine, cosine and arctangent of our own, so that gravity and what a run records have the same bits on every
-/// machine: glibc's differ between processors with and without fused multiply-add.
+/// Our own sine, cosine and arctangent, so that gravity and what a run records have the same bits on every
+/// machine: those of glibc differ between processors with and without fused multiply-add.
 
 namespace talus {
 

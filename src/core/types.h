@@ -15,7 +15,8 @@ struct Vec2 {
   double y = 0.0;
 };
 
-/// A 2 x 2 tensor in the frame of the bed. `xy` is the component M_12 of the paper's M_ij.
+/// A 2 x 2 tensor in the frame of the bed. `xy` is the component M_12 of the paper's M_ij. Computed with as a
+/// matrix (core/tensor.h).
 struct Tensor2 {
   double xx = 0.0;
   double xy = 0.0;

@@ -1,5 +1,5 @@
 #pragma once
-/// The state of a simulation: a value that can be copied, compared by its hash, saved and restored.
+/// The state of a simulation, a value that can be copied, compared by its hash, saved and restored.
 
 #include <cstdint>
 
@@ -21,10 +21,10 @@ struct World {
   std::int64_t step = 0;  ///< steps taken since the beginning
 };
 
-/// Gravity in the frame of the bed, m/s^2.
+/// Gravity in the frame of the bed (T1), m/s^2.
 Vec2 gravity_vector(const World& world);
 
-/// A hash of all that the future of the world depends on, to the last bit.
+/// A hash of everything that the future of the world depends on, to the last bit.
 std::uint64_t state_hash(const World& world);
 
 /// sqrt of the mean squared velocity of the free grains, m/s; rotation counts with its rim velocity r omega.

@@ -9,7 +9,7 @@ DiscGrid::DiscGrid(const Boundary& boundary, double largest) : boundary_(boundar
   width_ = boundary.length / columns_;
 }
 
-void DiscGrid::add(const Disc& disc) {
+void DiscGrid::add(const PlacedDisc& disc) {
   const Index row = row_of(disc.y), column = std::clamp<Index>(column_of(disc.x), 0, columns_ - 1);
   const auto columns = static_cast<std::size_t>(columns_);
   if (row >= rows_) {
@@ -27,7 +27,7 @@ DiscGrid::Touch DiscGrid::first_touch(double x, double radius, double from) cons
     if (!plane.wall) touch.height = plane.offset + radius;
   const double reach = radius + largest_radius();
   const auto meet = [&](Index i) {
-    const Disc& disc = discs_[static_cast<std::size_t>(i)];
+    const PlacedDisc& disc = discs_[static_cast<std::size_t>(i)];
     const double across = std::fabs(separation(disc.x, x)), distance = radius + disc.radius;
     if (disc.y >= from || across >= distance) return;
     const double height = disc.y + std::sqrt((distance - across) * (distance + across));

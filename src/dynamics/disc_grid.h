@@ -12,7 +12,7 @@
 namespace talus {
 
 /// A disc; lengths in m.
-struct Disc {
+struct PlacedDisc {
   double x = 0.0, y = 0.0, radius = 0.0;
 };
 
@@ -30,8 +30,8 @@ class DiscGrid {
   /// `largest`: the largest diameter of a disc, m. No disc has its centre lower than one diameter below 0.
   DiscGrid(const Boundary& boundary, double largest);
 
-  void add(const Disc& disc);
-  const Disc& operator[](Index disc) const { return discs_[static_cast<std::size_t>(disc)]; }
+  void add(const PlacedDisc& disc);
+  const PlacedDisc& operator[](Index disc) const { return discs_[static_cast<std::size_t>(disc)]; }
   const Boundary& boundary() const { return boundary_; }
   double largest_radius() const { return 0.5 * height_; }
 
@@ -76,7 +76,7 @@ class DiscGrid {
   Boundary boundary_;
   double height_ = 0.0, width_ = 0.0;  ///< of a cell, m
   Index columns_ = 1, rows_ = 0;
-  std::vector<Disc> discs_;
+  std::vector<PlacedDisc> discs_;
   std::vector<std::vector<Index>> cells_;
 };
 

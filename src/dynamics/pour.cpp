@@ -4,25 +4,23 @@
 #include <cmath>
 #include <limits>
 
+#include "dynamics/disc_grid.h"
+
 namespace talus {
 namespace {
 
-struct Disc {
-  double x = 0.0, y = 0.0, radius = 0.0;  ///< m
-};
-
 /// Discs by where they are along the bed, so that a falling grain meets only those near its line.
-class Columns {
+class DiscColumns {
  public:
   /// `reach`: the largest diameter, m.
-  Columns(const World& world, double reach) : boundary_(world.boundary) {
+  DiscColumns(const World& world, double reach) : boundary_(world.boundary) {
     count_ = std::max<Index>(1, static_cast<Index>(std::min(std::floor(boundary_.length / reach), 1e8)));
     discs_.resize(static_cast<std::size_t>(count_));
     const Grains& grains = world.grains;
     for (Index i = 0; i < grains.count(); ++i) add({grains.x[i], grains.y[i], grains.radius[i]});
   }
 
-  void add(const Disc& disc) { discs_[static_cast<std::size_t>(column_of(disc.x))].push_back(disc); }
+  void add(const PlacedDisc& disc) { discs_[static_cast<std::size_t>(column_of(disc.x))].push_back(disc); }
 
   /// Height at which a grain that falls along x first touches, m.
   double first_touch(double x, double radius) const {
@@ -44,7 +42,7 @@ class Columns {
   }
 
   void meet(Index column, double x, double radius, double& height) const {
-    for (const Disc& disc : discs_[static_cast<std::size_t>(column)]) {
+    for (const PlacedDisc& disc : discs_[static_cast<std::size_t>(column)]) {
       double dx = disc.x - x;
       if (boundary_.periodic) dx = std::remainder(dx, boundary_.length);
       const double distance = radius + disc.radius;
@@ -55,7 +53,7 @@ class Columns {
 
   const Boundary& boundary_;
   Index count_ = 1;
-  std::vector<std::vector<Disc>> discs_;
+  std::vector<std::vector<PlacedDisc>> discs_;
 };
 
 /// Puts free grains behind those that there are, before the floor's.
@@ -106,7 +104,7 @@ void let_arrive(std::span<const Arrival> arrivals, const PourRule& rule, double 
   for (const double radius : world.grains.radius) largest = std::max(largest, radius);
   for (Index i = first; i < due; ++i)
     largest = std::max(largest, arrivals[static_cast<std::size_t>(i)].radius);
-  Columns columns(world, 2.0 * largest);
+  DiscColumns columns(world, 2.0 * largest);
   Grains arrived;
   for (Index i = first; i < due; ++i) {
     const auto [radius, x] = arrivals[static_cast<std::size_t>(i)];

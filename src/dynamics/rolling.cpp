@@ -98,7 +98,7 @@ class Path {
     const auto take = [&](const std::optional<Stop>& stop) {
       if (stop && (!first || !is_before(first->direction, stop->direction, roll.side))) first = stop;
     };
-    const Disc& on = bed_[roll.on];
+    const PlacedDisc& on = bed_[roll.on];
     const double around = grain_.radius + bed_.largest_radius();
     const double from = on.x + roll.reach * roll.direction.x, to = on.x + roll.reach * roll.side;
     const double top = on.y + roll.reach * roll.direction.y;

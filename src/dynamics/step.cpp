@@ -3,30 +3,31 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <fmt/core.h>
 #include <limits>
 
 #include "contact/detection.h"
 #include "contact/memory.h"
 #include "core/errors.h"
-#include "dynamics/assemble.h"
+#include "dynamics/form_problem.h"
 
 namespace talus {
 namespace {
 
-/// Adds the wall time between its calls to the stages of a report.
+/// Adds the wall time between its calls to the stages.
 class StageClock {
  public:
-  explicit StageClock(StepReport& report) : report_(report), last_(Clock::now()) {}
+  explicit StageClock(StageSeconds& seconds) : seconds_(seconds), last_(Clock::now()) {}
 
   void end_of(Stage stage) {
     const Clock::time_point now = Clock::now();
-    report_.seconds[static_cast<std::size_t>(stage)] += std::chrono::duration<double>(now - last_).count();
+    seconds_[static_cast<std::size_t>(stage)] += std::chrono::duration<double>(now - last_).count();
     last_ = now;
   }
 
  private:
   using Clock = std::chrono::steady_clock;
-  StepReport& report_;
+  StageSeconds& seconds_;
   Clock::time_point last_;
 };
 
@@ -49,8 +50,9 @@ void wrap(Grains& grains, double length) {
   }
 }
 
-/// Moves the free grains along their present velocities; x stays in [0, length) of a periodic bed.
-void move(Grains& grains, const Boundary& boundary, double duration) {
+/// Moves the free grains along their present velocities, (T2) and (T17); x stays in [0, length) of a periodic
+/// bed.
+void advance_positions(Grains& grains, const Boundary& boundary, double duration) {
   advance(grains.x, grains.vx, duration, grains.free_count);
   advance(grains.y, grains.vy, duration, grains.free_count);
   advance(grains.angle, grains.omega, duration, grains.free_count);
@@ -85,8 +87,9 @@ double largest_overlap(const Contacts& contacts) {
   return largest(contacts.count(), [&contacts](Index c) { return -contacts.gap[c]; });
 }
 
-/// The first guess: forces of the last step times h.
-void guess_impulses(const Contacts& contacts, double h, ContactSolution& solution) {
+/// The first guess of the solve: the forces that persist from the last step, times h (T18).
+void recall_impulses(const Contacts& last, double h, Contacts& contacts, ContactSolution& solution) {
+  recall_forces(last, contacts);
   const auto count = static_cast<std::size_t>(contacts.count());
   solution.pn.resize(count);
   solution.pt.resize(count);
@@ -96,14 +99,15 @@ void guess_impulses(const Contacts& contacts, double h, ContactSolution& solutio
   }
 }
 
-void store_forces(const ContactSolution& solution, double h, Contacts& contacts) {
+/// As mean forces over the step, so that a change of h keeps the memory (T18).
+void store_impulses(const ContactSolution& solution, double h, Contacts& contacts) {
   for (std::size_t c = 0; c < solution.pn.size(); ++c) {
     contacts.fn[c] = solution.pn[c] / h;
     contacts.ft[c] = solution.pt[c] / h;
   }
 }
 
-void store_velocities(const ContactSolution& solution, Grains& grains) {
+void set_velocities(const ContactSolution& solution, Grains& grains) {
   std::copy_n(solution.vx.begin(), grains.free_count, grains.vx.begin());
   std::copy_n(solution.vy.begin(), grains.free_count, grains.vy.begin());
   std::copy_n(solution.omega.begin(), grains.free_count, grains.omega.begin());
@@ -119,50 +123,50 @@ bool finite(const ContactSolution& solution) {
   return finite(solution.vx) && finite(solution.vy) && finite(solution.omega);
 }
 
-void form_problem(World& world, const StepSettings& settings, StepWorkspace& workspace, StageClock& clock) {
-  const double h = settings.h;
-  Grains& grains = world.grains;
-  Contacts& contacts = workspace.contacts;
-  // Two grains can approach by twice the largest velocity; gravity adds g h to it within the step.
-  const double margin = settings.margin + 2.0 * h * (largest_velocity(grains) + world.gravity * h);
-  copy_positions(grains, workspace.before);
-  move(grains, world.boundary, 0.5 * h);
-  clock.end_of(Stage::move);
-  detect_contacts(workspace.neighbours, grains, world.boundary, margin, contacts);
-  clock.end_of(Stage::detect);
-  assemble(world, contacts, settings.law, h, workspace.problem);
-  clock.end_of(Stage::assemble);
-  recall_forces(world.contacts, contacts);
-  guess_impulses(contacts, h, workspace.solution);
-  clock.end_of(Stage::recall);
+/// Two grains can approach by twice the largest velocity, to which gravity adds g h within the step; m.
+double detection_margin(const World& world, const StepSettings& settings) {
+  return settings.margin + 2.0 * settings.h * (largest_velocity(world.grains) + world.gravity * settings.h);
 }
 
 }  // namespace
 
-void form_problem(World& world, const StepSettings& settings, StepWorkspace& workspace) {
-  StepReport unused;
-  StageClock clock(unused);
-  form_problem(world, settings, workspace, clock);
+StageSeconds begin_step(World& world, const StepSettings& settings, StepWorkspace& workspace) {
+  StageSeconds seconds{};
+  StageClock clock(seconds);
+  const double h = settings.h;
+  Grains& grains = world.grains;
+  Contacts& contacts = workspace.contacts;
+  const double margin = detection_margin(world, settings);
+  copy_positions(grains, workspace.before);
+  advance_positions(grains, world.boundary, 0.5 * h);  // the midpoint (T2)
+  clock.end_of(Stage::move);
+  detect_contacts(workspace.neighbours, grains, world.boundary, margin, contacts);  // local frames (T3)
+  clock.end_of(Stage::detect);
+  free_velocity(world, h, workspace.problem);                         // (T4)
+  form_problem(world, contacts, settings.law, h, workspace.problem);  // (T5), (T8), (T11), (T12)
+  clock.end_of(Stage::assemble);
+  recall_impulses(world.contacts, h, contacts, workspace.solution);  // (T18)
+  clock.end_of(Stage::recall);
+  return seconds;
 }
 
 StepReport step(World& world, const StepSettings& settings, StepWorkspace& workspace) {
   StepReport report;
-  StageClock clock(report);
+  report.seconds = begin_step(world, settings, workspace);
+  StageClock clock(report.seconds);
   const double h = settings.h;
   Grains& grains = world.grains;
-  Contacts& contacts = workspace.contacts;
-  form_problem(world, settings, workspace, clock);
-  report.solver = solve(workspace.problem, settings.solver, workspace.solver, workspace.solution);
+  report.solver = solve(workspace.problem, settings.solver, workspace.solver, workspace.solution);  // (T7)
   clock.end_of(Stage::solve);
   if (!finite(workspace.solution)) {
     copy_positions(workspace.before, grains);
-    throw Error(ExitCode::internal, "step " + std::to_string(world.step + 1) + ": a velocity is not finite");
+    throw Error(ExitCode::internal, fmt::format("step {}: a velocity is not finite", world.step + 1));
   }
-  store_forces(workspace.solution, h, contacts);
-  store_velocities(workspace.solution, grains);
-  std::swap(world.contacts, contacts);
+  store_impulses(workspace.solution, h, workspace.contacts);  // (T18)
+  std::swap(world.contacts, workspace.contacts);
+  set_velocities(workspace.solution, grains);  // (T6)
   clock.end_of(Stage::store);
-  move(grains, world.boundary, 0.5 * h);
+  advance_positions(grains, world.boundary, 0.5 * h);  // the end of the step (T17)
   ++world.step;
   world.time += h;
   report.contacts = world.contacts.count();

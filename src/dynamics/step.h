@@ -1,5 +1,5 @@
 #pragma once
-/// One step of Moreau and Jean.
+/// One step of Contact Dynamics (Moreau 1988; Jean 1999; docs/theory.md).
 
 #include <array>
 #include <string_view>
@@ -25,12 +25,15 @@ inline constexpr std::size_t stage_count = static_cast<std::size_t>(Stage::count
 inline constexpr std::array<std::string_view, stage_count> stage_names = {"move",   "detect", "assemble",
                                                                           "recall", "solve",  "store"};
 
+/// Wall time of each stage, s; never enters the state.
+using StageSeconds = std::array<double, stage_count>;
+
 struct StepReport {
   SolverReport solver;
-  Index contacts = 0;                         ///< in the problem
-  double largest_overlap = 0.0;               ///< m, at the midpoint
-  double rms_velocity = 0.0;                  ///< m/s, after the step
-  std::array<double, stage_count> seconds{};  ///< wall time of each stage; never enters the state
+  Index contacts = 0;            ///< in the problem
+  double largest_overlap = 0.0;  ///< m, at the midpoint
+  double rms_velocity = 0.0;     ///< m/s, after the step
+  StageSeconds seconds{};
 };
 
 /// Memory kept between steps; holds no state of the world.
@@ -43,13 +46,15 @@ struct StepWorkspace {
   SolverWorkspace solver;
 };
 
-/// The first part of a step: moves the grains to the midpoint, and leaves in the workspace their contacts,
-/// the problem of the step, and the first guess of its solution from the force memory.
-void form_problem(World& world, const StepSettings& settings, StepWorkspace& workspace);
+/// The step up to its solve: moves the grains to the midpoint, and leaves in the workspace their contacts,
+/// the problem of the step, and the recalled impulses as the first guess of its solution. Returns the time
+/// that its stages took.
+StageSeconds begin_step(World& world, const StepSettings& settings, StepWorkspace& workspace);
 
-/// Advances the world by h: move to the midpoint, detect contacts, assemble, recall forces, solve, store
-/// forces, move to the end (Moreau 1988, Jean 1999). Contacts of the world then hold the mean forces P/h of
-/// the step. Throws Error(internal) where a velocity is not finite; the world is then as before the step.
+/// Advances the world by h by the scheme of Moreau and Jean, (T1) to (T18) of docs/theory.md: midpoint
+/// positions, contacts and local frames, free velocities, contact problem, recalled impulses, solve, stored
+/// impulses, velocities, positions. Contacts of the world then hold the mean forces P/h of the step. Throws
+/// Error(internal) where a velocity is not finite; the world is then as before the step.
 StepReport step(World& world, const StepSettings& settings, StepWorkspace& workspace);
 
 }  // namespace talus

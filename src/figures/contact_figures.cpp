@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/core.h>
 
+#include "core/statistics.h"
 #include "core/trigonometry.h"
 #include "figures/failed_group.h"
 #include "figures/run_means.h"
-#include "session/study_statistics.h"
 
 namespace talus {
 namespace {
@@ -27,10 +28,11 @@ std::vector<State> states_of(const RunChoice& runs) {
   return {start, repose};
 }
 
-/// Adds the means of a data set, at both states, to a table.
-void add_means(Table& table, const RunChoice& runs, std::string_view data_set, const Column& column) {
+/// Adds the means of a quantity, at both states, to a table.
+void add_means(Table& table, const RunChoice& runs, std::vector<double> FrameRecord::*member,
+               const Column& column) {
   for (const State& state : states_of(runs))
-    for (Column& mean : row_means(runs, state.frames, data_set,
+    for (Column& mean : row_means(runs, state.frames, member,
                                   {column.name + state.name, column.unit, column.meaning + state.text, {}}))
       table.columns.push_back(std::move(mean));
 }
@@ -53,12 +55,11 @@ Figure figure_of(const FailedGroup& failed) {
 
 std::string states_text(const FailedGroup& failed) {
   const std::vector<State> states = states_of(failed.runs);
-  return " at theta = " + angle_text(mean_tilt(failed.runs, states[0])) +
-         " deg and at the last frame before failure (theta = " +
-         angle_text(mean_tilt(failed.runs, states[1])) +
-         (failed.runs.size() > 1 ? " deg in the mean): " : " deg): ") +
-         (failed.runs.size() > 1 ? "mean of " : "") + runs_text(failed.runs.size()) + " of " +
-         failed.group->label;
+  const bool several = failed.runs.size() > 1;
+  return fmt::format(" at theta = {} deg and at the last frame before failure (theta = {} deg{}): {}{} of {}",
+                     angle_text(mean_tilt(failed.runs, states[0])),
+                     angle_text(mean_tilt(failed.runs, states[1])), several ? " in the mean" : "",
+                     several ? "mean of " : "", runs_text(failed.runs.size()), failed.group->label);
 }
 
 constexpr const char* error_text = ", with the standard error over the runs as bars where there are several";
@@ -77,14 +78,14 @@ std::vector<Column> edge_columns(std::span<const double> edges, double unit, con
 }  // namespace
 
 std::vector<Column> row_means(const RunChoice& runs, std::span<const std::size_t> frames,
-                              std::string_view data_set, Column mean) {
+                              std::vector<double> FrameRecord::*member, Column mean) {
   Column error{mean.name + "_error", mean.unit, "its standard error over the runs", {}};
-  const std::size_t width = row_width(runs.front()->analysis, data_set);
+  const std::size_t width = (runs.front()->analysis.frames.at(frames[0]).*member).size();
   for (std::size_t k = 0; k < width; ++k) {
     std::vector<double> elements;
     for (std::size_t r = 0; r < runs.size(); ++r)
-      elements.push_back(row<double>(runs[r]->analysis, data_set, frames[r])[k]);
-    const MeanError result = mean_error(elements);
+      elements.push_back((runs[r]->analysis.frames.at(frames[r]).*member)[k]);
+    const Statistics result = statistics_of(elements);
     mean.values.push_back(result.mean);
     error.values.push_back(result.error);
   }
@@ -97,18 +98,18 @@ std::optional<Figure> contact_directions(std::span<const RunGroup> groups) {
   Figure figure = figure_of(*failed);
   figure.name = "contact-directions";
   figure.title = "Directions of contact normals";
-  figure.caption =
-      "Probability density of the direction of contact normals, to the bed," + states_text(*failed) +
-      ". Filled: each contact counted once; outlined: weighted with its normal force; thin "
-      "circle: uniform, 1/pi per rad. A normal and its opposite are one direction; 0, 60 and 120 deg are "
-      "marked.";
+  figure.caption = fmt::format(
+      "Probability density of the direction of contact normals, to the bed,{}. Filled: each contact counted "
+      "once; outlined: weighted with its normal force; thin circle: uniform, 1/pi per rad. A normal and its "
+      "opposite are one direction; 0, 60 and 120 deg are marked.",
+      states_text(*failed));
   figure.wide = true;
   figure.height_over_width = 0.48;
-  const auto edges = values<double>(failed->first().analysis, "contacts/direction_edge");
+  const std::vector<double>& edges = failed->first().analysis.direction_edge;
   Table table{"", edge_columns(edges, radians(1.0), {"direction", "deg", "the direction to the bed", {}})};
-  add_means(table, failed->runs, "contacts/direction_density",
+  add_means(table, failed->runs, &FrameRecord::direction_density,
             {"density", "1/rad", "probability density of the direction", {}});
-  add_means(table, failed->runs, "contacts/direction_density_by_force",
+  add_means(table, failed->runs, &FrameRecord::direction_density_by_force,
             {"by_force", "1/rad", "the same, contacts weighted with f_n,", {}});
   figure.tables = {std::move(table)};
   return figure;
@@ -120,13 +121,15 @@ std::optional<Figure> force_distribution(std::span<const RunGroup> groups) {
   Figure figure = figure_of(*failed);
   figure.name = "force-distribution";
   figure.title = "Distribution of the normal forces";
-  figure.caption = "Probability density of the normal force f over its mean <f>," + states_text(*failed) +
-                   error_text + "; (a) semilogarithmic, (b) double logarithmic.";
+  figure.caption = fmt::format(
+      "Probability density of the normal force f over its mean <f>,{}{}; (a) semilogarithmic, (b) double "
+      "logarithmic.",
+      states_text(*failed), error_text);
   figure.wide = true;
   figure.height_over_width = 0.4;
-  const auto edges = values<double>(failed->first().analysis, "contacts/force_edge");
+  const std::vector<double>& edges = failed->first().analysis.force_edge;
   Table table{"", edge_columns(edges, 1.0, {"force", "1", "the normal force over its mean", {}})};
-  add_means(table, failed->runs, "contacts/force_density",
+  add_means(table, failed->runs, &FrameRecord::force_density,
             {"density", "1", "probability density of f over <f>", {}});
   figure.tables = {std::move(table)};
   return figure;
@@ -138,21 +141,20 @@ std::optional<Figure> correlations(std::span<const RunGroup> groups) {
   Figure figure = figure_of(*failed);
   figure.name = "correlations";
   figure.title = "Correlation of forces and stresses over distance";
-  figure.caption =
-      "Correlation of the normal forces, of the stress ratio gamma of grains and of their mean "
-      "stress, over distance," +
-      states_text(*failed) + error_text +
-      ". Forces and mean stresses are over the mean of their layer of 2 D.";
+  figure.caption = fmt::format(
+      "Correlation of the normal forces, of the stress ratio gamma of grains and of their mean stress, over "
+      "distance,{}{}. Forces and mean stresses are over the mean of their layer of 2 D.",
+      states_text(*failed), error_text);
   figure.wide = true;
   figure.height_over_width = 0.4;
   Column distance{"r", "D", "distance between two contact points, or two centres", {}};
-  for (const double r : values<double>(failed->first().analysis, "correlation/distance"))
+  for (const double r : failed->first().analysis.correlation_distance)
     distance.values.push_back(r / failed->first().file.header().statics.mean_diameter);
   Table table{"", {std::move(distance)}};
-  add_means(table, failed->runs, "correlation/normal_force",
+  add_means(table, failed->runs, &FrameRecord::normal_force_correlation,
             {"force", "1", "correlation of normal forces", {}});
-  add_means(table, failed->runs, "correlation/gamma", {"gamma", "1", "correlation of gamma", {}});
-  add_means(table, failed->runs, "correlation/mean_stress",
+  add_means(table, failed->runs, &FrameRecord::gamma_correlation, {"gamma", "1", "correlation of gamma", {}});
+  add_means(table, failed->runs, &FrameRecord::mean_stress_correlation,
             {"stress", "1", "correlation of the mean stress of grains", {}});
   figure.tables = {std::move(table)};
   return figure;

@@ -12,10 +12,10 @@
 
 namespace talus {
 
-/// Means over runs, element by element, of row frames[r] of a data set of run r, with their standard errors:
-/// the columns NAME and NAME_error. All rows are of the same length.
+/// Means over runs, element by element, of what frame frames[r] of run r has, with their standard errors:
+/// the columns NAME and NAME_error. All are of the same length.
 std::vector<Column> row_means(const RunChoice& runs, std::span<const std::size_t> frames,
-                              std::string_view data_set, Column mean);
+                              std::vector<double> FrameRecord::*member, Column mean);
 
 /// Polar histogram of the directions of contact normals, each contact counted once, and weighted by f_n.
 std::optional<Figure> contact_directions(std::span<const RunGroup> groups);

@@ -18,29 +18,31 @@ void append_cut(std::vector<ContactLine>& lines, const ContactLine& line, double
 
 }  // namespace
 
-std::vector<ContactLine> contact_lines(const Frame& frame, const RunStatics& statics) {
+std::vector<ContactLine> contact_lines(const BedFrame& bed) {
+  const Frame& frame = bed.frame;
   const FrameContacts& contacts = frame.contacts;
   std::vector<ContactLine> lines;
   for (Index c = 0; c < contacts.count(); ++c) {
     const Index a = contacts.a[c], b = contacts.b[c];
     ContactLine line{frame.x[a], frame.y[a], contacts.px[c], contacts.py[c], c};
     if (b < frame.grain_count()) {
-      line.x2 = frame.x[b] + contacts.shift[c] * statics.length;
+      line.x2 = frame.x[b] + contacts.shift[c] * bed.statics.length;
       line.y2 = frame.y[b];
     }
     if (contacts.shift[c] == 0)
       lines.push_back(line);
     else
-      append_cut(lines, line, statics.length);
+      append_cut(lines, line, bed.statics.length);
   }
   return lines;
 }
 
-SurfaceLine surface_line(const Frame& frame, const RunStatics& statics) {
+SurfaceLine surface_line(const BedFrame& bed) {
+  const RunStatics& statics = bed.statics;
   Grains grains;
   grains.free_count = statics.free_count;
-  grains.x = frame.x;
-  grains.y = frame.y;
+  grains.x = bed.frame.x;
+  grains.y = bed.frame.y;
   grains.radius = statics.radius;
   Boundary boundary;
   boundary.periodic = statics.periodic;

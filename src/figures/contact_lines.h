@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "core/snapshot.h"
+#include "core/bed_frame.h"
 
 namespace talus {
 
@@ -15,12 +15,12 @@ struct ContactLine {
 
 /// From centre to centre, and from centre to contact point at a wall. A contact across the periodic edge is
 /// cut there: it has two lines. In the order of the contacts.
-std::vector<ContactLine> contact_lines(const Frame& frame, const RunStatics& statics);
+std::vector<ContactLine> contact_lines(const BedFrame& bed);
 
 /// The free surface (stress/free_surface.h), sampled every 0.25 D: x and y, m, from edge to edge.
 struct SurfaceLine {
   std::vector<double> x, y;
 };
-SurfaceLine surface_line(const Frame& frame, const RunStatics& statics);
+SurfaceLine surface_line(const BedFrame& bed);
 
 }  // namespace talus

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/core.h>
 #include <limits>
 
+#include "core/text.h"
 #include "core/trigonometry.h"
 #include "figures/group_table.h"
 #include "figures/run_means.h"
-#include "session/scenario_text.h"
+#include "scenario/text.h"
 
 namespace talus {
 namespace {
@@ -35,17 +37,17 @@ void add_estimate(std::vector<Column>& columns, const std::string& name, const s
   columns.push_back({name + "_high", "deg", "upper end of its range", {}});
 }
 
-std::vector<Column> empty_columns(std::span<const double> factors) {
+std::vector<Column> empty_columns(std::span<const RunThreshold> thresholds) {
   std::vector<Column> columns = {
       {"seed", "1", "seed of the run", {}},
       {"theta_r", "deg", "angle at rest", {}},
       {"theta_c", "deg", "angle of repose", {}},
   };
-  for (const double factor : factors) {
-    const std::string text = short_text(factor);
-    add_estimate(columns, "lc_jump_" + text, "the jump of l_c max, threshold " + text + " Gamma_c");
+  for (const RunThreshold& threshold : thresholds) {
+    const std::string text = short_text(threshold.factor);
+    add_estimate(columns, "lc_jump_" + text, fmt::format("the jump of l_c max, threshold {} Gamma_c", text));
     add_estimate(columns, "percolation_" + text,
-                 "percolation of the overloaded grains, threshold " + text + " Gamma_c");
+                 fmt::format("percolation of the overloaded grains, threshold {} Gamma_c", text));
   }
   add_estimate(columns, "dilation_volume", "the onset of dilation, volume");
   add_estimate(columns, "dilation_centre", "the onset of dilation, centre of mass");
@@ -55,26 +57,23 @@ std::vector<Column> empty_columns(std::span<const double> factors) {
 /// The values of a run, in the order of empty_columns. An angle that is told from the frame before it lies
 /// between the two; where there is no frame before it, it has no range.
 std::vector<double> row_of(const FigureRun& run) {
-  const auto value = [&run](const char* name, std::size_t k) {
-    return degrees(values<double>(run.analysis, name)[k]);
-  };
+  const Analysis& analysis = run.analysis;
   std::vector<double> row = {static_cast<double>(run.scenario.seed), degrees(angle_at_rest(run)),
-                             value("theta_c", 0)};
-  for (std::size_t f = 0; f < run.analysis.sizes.at('F'); ++f)
-    for (const auto& [name, error] : {std::pair("theta_d/lc_jump", "theta_d/lc_jump_error"),
-                                      std::pair("theta_d/percolation", "theta_d/percolation_error")}) {
-      const double angle = value(name, f);
-      const double spacing = value(error, f);
+                             degrees(analysis.theta_c)};
+  for (const RunThreshold& threshold : analysis.thresholds)
+    for (const auto& [tilt, error] : {std::pair(threshold.lc_jump, threshold.lc_jump_error),
+                                      std::pair(threshold.percolation, threshold.percolation_error)}) {
+      const double angle = degrees(tilt), spacing = degrees(error);
       row.insert(row.end(), {angle, std::isnan(spacing) ? angle : angle - spacing, angle});
     }
   for (std::size_t s = 0; s < 2; ++s)
-    row.insert(row.end(), {value("theta_d/dilation", s), value("theta_d/dilation_low", s),
-                           value("theta_d/dilation_high", s)});
+    row.insert(row.end(), {degrees(analysis.dilation[s]), degrees(analysis.dilation_low[s]),
+                           degrees(analysis.dilation_high[s])});
   return row;
 }
 
 std::vector<Column> columns_of(const RunChoice& runs) {
-  std::vector<Column> columns = empty_columns(values<double>(runs.front()->analysis, "threshold_factor"));
+  std::vector<Column> columns = empty_columns(runs.front()->analysis.thresholds);
   for (const FigureRun* run : runs) {
     const std::vector<double> row = row_of(*run);
     for (std::size_t k = 0; k < columns.size(); ++k) columns[k].values.push_back(row[k]);
@@ -83,24 +82,19 @@ std::vector<Column> columns_of(const RunChoice& runs) {
 }
 
 std::string factors_text(const FigureRun& run) {
-  std::string text;
-  for (const double factor : values<double>(run.analysis, "threshold_factor"))
-    text.append(text.empty() ? "" : " ").append(short_text(factor));
-  return text;
+  return joined(run.analysis.thresholds, " ",
+                [](const RunThreshold& threshold) { return short_text(threshold.factor); });
 }
 
 std::string caption_of(std::size_t runs, const FigureRun& shown, const std::string& label) {
-  return "Angle at rest theta_r, the dynamic angle of repose, of " + runs_text(runs) +
-         ", (a) over the angle of repose theta_c and (b, c, d) over theta_d by each of its estimators; the "
-         "line "
-         "is theta_r = theta. (b) and (c): jump of l_c max and percolation of the overloaded grains, filled "
-         "for "
-         "the first threshold, open for the last; bars reach to the frame before. (d): onset of dilation, "
-         "filled "
-         "by the volume, open by the centre of mass; bars are the range in which the strain is at its "
-         "minimum "
-         "within noise. (e) Tilt and velocity of the surface layer over the time since failure: " +
-         label + ", seed " + std::to_string(shown.scenario.seed) + ".";
+  return fmt::format(
+      "Angle at rest theta_r, the dynamic angle of repose, of {}, (a) over the angle of repose theta_c and "
+      "(b, c, d) over theta_d by each of its estimators; the line is theta_r = theta. (b) and (c): jump of "
+      "l_c max and percolation of the overloaded grains, filled for the first threshold, open for the last; "
+      "bars reach to the frame before. (d): onset of dilation, filled by the volume, open by the centre of "
+      "mass; bars are the range in which the strain is at its minimum within noise. (e) Tilt and velocity of "
+      "the surface layer over the time since failure: {}, seed {}.",
+      runs_text(runs), label, shown.scenario.seed);
 }
 
 /// Whole degrees, a degree and more beside all angles at rest.
@@ -159,7 +153,7 @@ std::optional<Figure> dynamic_angle_figure(std::span<const RunGroup> groups) {
     add_group_table(figure, group, runs, columns_of(runs));
     if (shown != nullptr) continue;
     shown = runs.front();
-    set_variable(figure, "factors", std::string(1, '"').append(factors_text(*shown)) + '"');
+    set_variable(figure, "factors", gnuplot_string(factors_text(*shown)));
     shown_label = group.label;
   }
   if (shown == nullptr) return std::nullopt;

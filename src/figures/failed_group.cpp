@@ -1,11 +1,12 @@
 #include "figures/failed_group.h"
 
 #include <cmath>
+#include <fmt/core.h>
 
 #include "core/trigonometry.h"
 #include "figures/run_means.h"
-#include "maps/frame_choice.h"
-#include "session/scenario_text.h"
+#include "pictures/frame_choice.h"
+#include "scenario/text.h"
 
 namespace talus {
 
@@ -16,7 +17,7 @@ std::optional<FailedGroup> first_failed_group(std::span<const RunGroup> groups) 
 }
 
 std::string first_run_text(const FailedGroup& failed) {
-  return failed.group->label + ", seed " + std::to_string(failed.first().scenario.seed);
+  return fmt::format("{}, seed {}", failed.group->label, failed.first().scenario.seed);
 }
 
 std::size_t repose_frame(const FigureRun& run) {

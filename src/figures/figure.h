@@ -2,6 +2,7 @@
 /// A figure as data: its tables, its maps, and what they were made from. A gnuplot script of the same name,
 /// assets/figures/NAME.gp, draws it; nothing here draws.
 
+#include <fmt/core.h>
 #include <string>
 #include <utility>
 #include <vector>
@@ -51,10 +52,10 @@ struct Figure {
 
 /// The files of a table and of a map, beside FIGURE.gp.
 inline std::string file_of(const Figure& figure, const Table& table) {
-  return figure.name + (table.name.empty() ? "" : "-") + table.name + ".csv";
+  return fmt::format("{}{}{}.csv", figure.name, table.name.empty() ? "" : "-", table.name);
 }
 inline std::string file_of(const Figure& figure, const FigureMap& map) {
-  return figure.name + "-" + map.name + ".png";
+  return fmt::format("{}-{}.png", figure.name, map.name);
 }
 
 }  // namespace talus

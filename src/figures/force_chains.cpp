@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/core.h>
 #include <numeric>
 
 #include "figures/contact_lines.h"
@@ -22,25 +23,28 @@ double mean_normal_force(const FrameContacts& contacts) {
   return std::accumulate(contacts.fn.begin(), contacts.fn.end(), 0.0) / contacts.count();
 }
 
-Table surface_table(const Frame& frame, const RunStatics& statics) {
-  const SurfaceLine line = surface_line(frame, statics);
+Table surface_table(const BedFrame& bed) {
+  const SurfaceLine line = surface_line(bed);
+  const double diameter = bed.statics.mean_diameter;
   Table table{"surface",
               {{"x", "D", "distance along the bed", {}}, {"y", "D", "height of the free surface", {}}}};
   for (std::size_t k = 0; k < line.x.size(); ++k) {
-    table.columns[0].values.push_back(rounded(line.x[k] / statics.mean_diameter));
-    table.columns[1].values.push_back(rounded(line.y[k] / statics.mean_diameter));
+    table.columns[0].values.push_back(rounded(line.x[k] / diameter));
+    table.columns[1].values.push_back(rounded(line.y[k] / diameter));
   }
   return table;
 }
 
 /// Appends the contacts and the surface of the bed, and what a script needs to draw them over the width of
 /// the figure. Returns the height of that map over its width.
-double add_contact_map(Figure& figure, const Frame& frame, const RunStatics& statics) {
-  figure.tables.push_back(force_table(frame, statics));
-  figure.tables.push_back(surface_table(frame, statics));
+double add_contact_map(Figure& figure, const BedFrame& bed) {
+  const RunStatics& statics = bed.statics;
+  figure.tables.push_back(force_table(bed));
+  figure.tables.push_back(surface_table(bed));
   const double length = statics.length / statics.mean_diameter;
   const double top = std::ceil(*std::ranges::max_element(figure.tables.back().columns[1].values)) + 0.5;
-  const double bottom = statics.free_count == frame.grain_count() ? 0.0 : -0.5;  // centres of floor grains
+  const double bottom =
+      statics.free_count == bed.frame.grain_count() ? 0.0 : -0.5;  // centres of floor grains
   const double margin = 0.01 * length;
   figure.wide = true;
   set_variable(figure, "bed_length", length);
@@ -48,40 +52,29 @@ double add_contact_map(Figure& figure, const Frame& frame, const RunStatics& sta
   set_variable(figure, "bed_top", top);
   set_variable(figure, "margin", margin);
   set_variable(figure, "periodic", statics.periodic ? 1.0 : 0.0);
-  set_variable(figure, "theta", gnuplot_quoted(angle_text(frame.tilt)));
+  set_variable(figure, "theta", gnuplot_quoted(angle_text(bed.frame.tilt)));
   const double map_height = (top - bottom + margin) / (length + 2.0 * margin);
   set_variable(figure, "map_height", map_height);
   return map_height;
 }
 
 std::string frame_text(const FailedGroup& failed, const Frame& frame) {
-  return first_run_text(failed) + ", at theta = " + angle_text(frame.tilt) +
-         " deg, the last frame before failure at theta_c = " + angle_text(theta_c_of(failed.first())) +
-         " deg";
+  return fmt::format("{}, at theta = {} deg, the last frame before failure at theta_c = {} deg",
+                     first_run_text(failed), angle_text(frame.tilt), angle_text(theta_c_of(failed.first())));
 }
 
-std::vector<Quantity> critical_quantities() {
-  return {{"share", "1", "share of the contacts whose friction is fully mobilised",
-           [](const FigureRun& run, std::size_t k) {
-             return row<double>(run.analysis, "contacts/critical_share", k)[0];
-           }},
-          {"largest", "1", "contacts in their largest cluster",
-           [](const FigureRun& run, std::size_t k) {
-             return static_cast<double>(row<Index>(run.analysis, "contacts/critical_largest", k)[0]);
-           }},
-          {"correlation_length", "D", "correlation length of their clusters",
-           [](const FigureRun& run, std::size_t k) {
-             return row<double>(run.analysis, "contacts/critical_correlation_length", k)[0] /
-                    run.file.header().statics.mean_diameter;
-           }}};
+std::vector<FrameColumn> critical_columns() {
+  return {column_of("share", quantity_of(&FrameRecord::critical_share)),
+          column_of("largest", quantity_of(&FrameRecord::critical_largest)),
+          column_of("correlation_length", quantity_of(&FrameRecord::critical_correlation_length))};
 }
 
 }  // namespace
 
-Table force_table(const Frame& frame, const RunStatics& statics) {
-  const FrameContacts& contacts = frame.contacts;
+Table force_table(const BedFrame& bed) {
+  const FrameContacts& contacts = bed.frame.contacts;
   const double mean = mean_normal_force(contacts);
-  std::vector<ContactLine> lines = contact_lines(frame, statics);
+  std::vector<ContactLine> lines = contact_lines(bed);
   std::ranges::stable_sort(lines, {}, [&](const ContactLine& line) { return contacts.fn[line.contact]; });
   Table table{
       "contacts",
@@ -91,7 +84,7 @@ Table force_table(const Frame& frame, const RunStatics& statics) {
        {"y2", "D", "the same, across the bed", {}},
        {"force", "1", "normal force over its mean", {}},
        {"critical", "1", "1 where friction is fully mobilised, else 0", {}}}};
-  const double diameter = statics.mean_diameter;
+  const double diameter = bed.statics.mean_diameter;
   for (const ContactLine& line : lines) {
     const double row[] = {rounded(line.x1 / diameter),
                           rounded(line.y1 / diameter),
@@ -112,16 +105,15 @@ std::optional<Figure> force_chains(std::span<const RunGroup> groups) {
   Figure figure;
   figure.name = "force-chains";
   figure.title = "Force chains just before failure";
-  figure.caption =
+  figure.caption = fmt::format(
       "Normal forces as lines between the centres of grains, their width proportional to the force, in ten "
       "classes of half the mean force, the last of them open; black: above the mean (strong network), gray: "
-      "up to it (weak); " +
-      frame_text(*failed, frame) +
-      ". Contacts across the periodic edge are cut there. The thin line is the "
-      "free surface.";
+      "up to it (weak); {}. Contacts across the periodic edge are cut there. The thin line is the free "
+      "surface.",
+      frame_text(*failed, frame));
   figure.runs = {run.path};
   figure.height_over_width =
-      add_contact_map(figure, frame, run.file.header().statics) + legend_height / figure_width;
+      add_contact_map(figure, {frame, run.file.header().statics}) + legend_height / figure_width;
   set_variable(figure, "tilt", frame.tilt);
   return figure;
 }
@@ -134,18 +126,17 @@ std::optional<Figure> critical_contacts_figure(std::span<const RunGroup> groups)
   Figure figure;
   figure.name = "critical-contacts";
   figure.title = "Contacts with fully mobilised friction";
-  figure.caption =
-      "Critical contacts, whose friction is fully mobilised. (a) Black: critical contacts, gray: the "
-      "others; " +
-      frame_text(*failed, frame) +
-      ". (b) Their share of the contacts, (c) contacts in their largest cluster, joined where they share a "
-      "free grain, (d) correlation length of their clusters, over the tilt theta, up to theta_c. ";
+  figure.caption = fmt::format(
+      "Critical contacts, whose friction is fully mobilised. (a) Black: critical contacts, gray: the others; "
+      "{}. (b) Their share of the contacts, (c) contacts in their largest cluster, joined where they share a "
+      "free grain, (d) correlation length of their clusters, over the tilt theta, up to theta_c. ",
+      frame_text(*failed, frame));
   figure.caption.append(means_caption);
   for (const RunGroup& group : groups)
-    add_group_table(figure, group, all_runs(group), means_over_runs(all_runs(group), critical_quantities()));
+    add_group_table(figure, group, all_runs(group), means_over_runs(all_runs(group), critical_columns()));
   set_more_keys(figure, 0);
   figure.height_over_width =
-      add_contact_map(figure, frame, run.file.header().statics) + curves_height / figure_width;
+      add_contact_map(figure, {frame, run.file.header().statics}) + curves_height / figure_width;
   return figure;
 }
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <span>
 
-#include "core/snapshot.h"
+#include "core/bed_frame.h"
 #include "figures/figure.h"
 #include "figures/run_group.h"
 
@@ -13,7 +13,7 @@ namespace talus {
 
 /// Contacts as lines (contact_lines.h), in D, with f_n over its mean, the smallest first, and whether their
 /// friction is fully mobilised. Coordinates are rounded to 1e-4 D.
-Table force_table(const Frame& frame, const RunStatics& statics);
+Table force_table(const BedFrame& bed);
 
 /// The force chains of the first run that has failed, at its last frame before theta_c.
 std::optional<Figure> force_chains(std::span<const RunGroup> groups);

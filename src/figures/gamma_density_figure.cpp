@@ -1,13 +1,14 @@
 #include <algorithm>
 #include <cmath>
+#include <fmt/core.h>
 
+#include "core/statistics.h"
 #include "core/trigonometry.h"
 #include "figures/contact_figures.h"
 #include "figures/group_table.h"
 #include "figures/overload_figures.h"
 #include "figures/run_means.h"
-#include "session/scenario_text.h"
-#include "session/study_statistics.h"
+#include "scenario/text.h"
 
 namespace talus {
 namespace {
@@ -17,16 +18,16 @@ constexpr double angles[] = {0.0, 10.0, 15.0};  // deg, as in the paper
 /// gamma, and its density at each angle that at least half of the runs reach.
 std::vector<Column> density_columns(const RunChoice& runs) {
   Column gamma{"gamma", "1", "middle of the bin", {}};
-  const auto edges = values<double>(runs.front()->analysis, "gamma/edge");
+  const std::vector<double>& edges = runs.front()->analysis.gamma_edge;
   for (std::size_t b = 0; b + 1 < edges.size(); ++b) gamma.values.push_back(0.5 * (edges[b] + edges[b + 1]));
   std::vector<Column> columns = {std::move(gamma)};
   for (const double angle : angles) {
     const auto [at_angle, frames] = frames_at_angle(runs, radians(angle));
     const std::string text = short_text(angle);
-    const std::string meaning = std::string("probability density of gamma at ").append(text).append(" deg, ");
+    const std::string meaning = fmt::format("probability density of gamma at {} deg, ", text);
     Column mean{"density_" + text, "1", meaning + runs_text(at_angle.size()), {}};
     if (2 * at_angle.size() >= runs.size()) {
-      for (Column& column : row_means(at_angle, frames, "gamma/density", std::move(mean)))
+      for (Column& column : row_means(at_angle, frames, &FrameRecord::gamma_density, std::move(mean)))
         columns.push_back(std::move(column));
     } else {
       mean.values.assign(edges.size() - 1, std::nan(""));
@@ -38,8 +39,8 @@ std::vector<Column> density_columns(const RunChoice& runs) {
 
 double mean_gamma_c(const RunChoice& runs) {
   std::vector<double> all;
-  for (const FigureRun* run : runs) all.push_back(values<double>(run->analysis, "gamma_c")[0]);
-  return mean_error(all).mean;
+  for (const FigureRun* run : runs) all.push_back(run->analysis.gamma_c);
+  return statistics_of(all).mean;
 }
 
 }  // namespace
@@ -61,7 +62,7 @@ std::optional<Figure> gamma_density_figure(std::span<const RunGroup> groups) {
     if (!group.periodic() || runs.empty()) continue;
     if (figure.tables.empty()) figure.caption.append(" ").append(reading_caption(*runs.front()));
     add_group_table(figure, group, runs, density_columns(runs));
-    set_variable(figure, "gamma_c_" + std::to_string(figure.tables.size()), mean_gamma_c(runs));
+    set_variable(figure, fmt::format("gamma_c_{}", figure.tables.size()), mean_gamma_c(runs));
   }
   if (figure.tables.empty()) return std::nullopt;
   figure.height_over_width = 0.7 * static_cast<double>(figure.tables.size());

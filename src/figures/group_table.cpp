@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <fmt/core.h>
 
 #include "figures/run_means.h"
+#include "scenario/text.h"
 #include "session/analysis_parameters.h"
-#include "session/scenario_text.h"
 
 namespace talus {
 namespace {
@@ -56,7 +57,7 @@ RunChoice all_runs(const RunGroup& group) {
 }
 
 RunChoice runs_with_threshold(const RunGroup& group) {
-  return choose(group, [](const FigureRun& run) { return run.analysis.sizes.at('F') > 0; });
+  return choose(group, [](const FigureRun& run) { return !run.analysis.thresholds.empty(); });
 }
 
 RunChoice failed_runs(const RunGroup& group) {
@@ -77,8 +78,9 @@ std::string reading_caption(const FigureRun& run) {
   const double l_min = from_facts(run.analysis.parameters).l_min;
   if (l_min == 0.0) return "gamma is that of single grains.";
   const std::string who = l_min == default_l_min ? "its first neighbours" : "its neighbours";
-  return "gamma of a grain is that of the grain together with " + who + ", a neighbourhood of diameter " +
-         short_text(l_min) + " D.";
+  return fmt::format(
+      "gamma of a grain is that of the grain together with {}, a neighbourhood of diameter {} D.", who,
+      short_text(l_min));
 }
 
 void set_variable(Figure& figure, const std::string& name, const std::string& value) {
@@ -103,9 +105,9 @@ std::string gnuplot_quoted(std::string_view text) {
   return quoted + "'";
 }
 
-std::string gnuplot_string(std::string_view text) { return std::string(1, '"').append(text).append(1, '"'); }
+std::string gnuplot_string(std::string_view text) { return fmt::format("\"{}\"", text); }
 
-std::string runs_text(std::size_t count) { return std::to_string(count) + (count == 1 ? " run" : " runs"); }
+std::string runs_text(std::size_t count) { return fmt::format("{} run{}", count, count == 1 ? "" : "s"); }
 
 void add_group_table(Figure& figure, const RunGroup& group, const RunChoice& runs,
                      std::vector<Column> columns) {
@@ -116,7 +118,8 @@ void add_group_table(Figure& figure, const RunGroup& group, const RunChoice& run
   const std::string g = std::to_string(groups);
   set_variable(figure, "groups", static_cast<double>(groups));
   set_variable(figure, "data_" + g, gnuplot_string(file_of(figure, figure.tables.back())));
-  set_variable(figure, "label_" + g, gnuplot_quoted(group.label + " (" + runs_text(runs.size()) + ")"));
+  set_variable(figure, "label_" + g,
+               gnuplot_quoted(fmt::format("{} ({})", group.label, runs_text(runs.size()))));
   set_variable(figure, "every_" + g,
                static_cast<double>(std::max<std::size_t>(1, rows / symbols_of_a_curve)));
   set_variable(figure, "theta_max", largest_tilt(figure));

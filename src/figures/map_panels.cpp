@@ -2,13 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/core.h>
 #include <string>
 
+#include "core/text.h"
 #include "core/trigonometry.h"
 #include "figures/failed_group.h"
 #include "figures/run_means.h"
-#include "maps/maps.h"
+#include "pictures/maps.h"
 #include "session/analysis_input.h"
+#include "session/analysis_parameters.h"
 #include "stress/overload.h"
 
 namespace talus {
@@ -36,38 +39,34 @@ Panels read_panels(const FigureRun& run) {
   panels.extent = bed_extent(run.file.header().statics);
   for (const std::size_t k : panels.choice) {
     panels.frames.push_back(analysed_frame(run.file, from_facts(run.analysis.parameters), k));
-    extend(panels.extent, panels.frames.back(), run.file.header().statics);
+    extend(panels.extent, {panels.frames.back(), run.file.header().statics});
   }
   return panels;
 }
 
 /// Share with gamma from this value on of the grains that carry something.
-double share_from(const Frame& frame, const RunStatics& statics, double gamma) {
-  return count_overloaded(frame, statics, gamma).fraction();
-}
+double share_from(const BedFrame& bed, double gamma) { return count_overloaded(bed, gamma).fraction(); }
 
 /// The angles of the panels, deg.
 std::string listed(const Panels& panels, const char* separator) {
-  std::string text;
-  for (const Frame& frame : panels.frames)
-    text.append(text.empty() ? "" : separator).append(angle_text(frame.tilt));
-  return text;
+  return joined(panels.frames, separator, [](const Frame& frame) { return angle_text(frame.tilt); });
 }
 
 /// What both captions end with.
 std::string bed_text(const FailedGroup& failed, const Panels& panels) {
   const double theta_c = theta_c_of(failed.first());
-  std::string text = "; " + first_run_text(failed) + ". From top to bottom theta = " + listed(panels, ", ") +
-                     " deg, the last of them the frame before failure at theta_c = " + angle_text(theta_c) +
-                     " deg";
+  std::string text = fmt::format(
+      "; {}. From top to bottom theta = {} deg, the last of them the frame before failure at theta_c = {} "
+      "deg",
+      first_run_text(failed), listed(panels, ", "), angle_text(theta_c));
   std::string beyond;
   for (const double tilt : paper_tilts)
     if (radians(tilt) >= theta_c) beyond.append(beyond.empty() ? "" : " and ").append(rounded_text(tilt, 0));
-  if (!beyond.empty()) text += "; the paper's " + beyond + " deg lies beyond it and is left out";
-  return text +
-         ". The bed is shown in its own frame, with the direction of gravity; hatched grains are the "
-         "floor. " +
-         reading_caption(failed.first());
+  if (!beyond.empty()) text += fmt::format("; the paper's {} deg lies beyond it and is left out", beyond);
+  return fmt::format(
+      "{}. The bed is shown in its own frame, with the direction of gravity; hatched grains are the floor. "
+      "{}",
+      text, reading_caption(failed.first()));
 }
 
 /// cm, of so many side by side.
@@ -114,20 +113,19 @@ Column tilt_column(const Panels& panels) {
 
 /// Of each panel, what there is to say of one threshold.
 std::vector<Column> threshold_columns(const Analysis& analysis, const Panels& panels, std::size_t f) {
-  const std::string factor = rounded_text(values<double>(analysis, "threshold_factor")[f], 3);
-  const std::string name = std::string("_").append(factor);
-  const std::string of = std::string(", threshold ").append(factor).append(" Gamma_c");
-  std::vector<Column> columns = {
-      {"p_o" + name, "1", "overloaded grains over those that carry something" + of, {}},
-      {"largest_share" + name, "1", "share of the overloaded grains in their largest cluster" + of, {}},
-      {"spans_depth" + name,
-       "1",
-       "1 where a cluster reaches from the floor to the surface, else 0" + of,
-       {}}};
-  for (const std::size_t k : panels.choice) {
-    columns[0].values.push_back(row<double>(analysis, "overloaded/fraction", k)[f]);
-    columns[1].values.push_back(row<double>(analysis, "clusters/largest_share", k)[f]);
-    columns[2].values.push_back(row<Index>(analysis, "clusters/spans_depth", k)[f]);
+  const std::string factor = rounded_text(analysis.thresholds[f].factor, 3);
+  std::vector<Column> columns;
+  for (const auto& [name, member] :
+       {std::pair<std::string, QuantityMember>("p_o_", &FrameThreshold::overloaded_fraction),
+        std::pair<std::string, QuantityMember>("largest_share_", &FrameThreshold::largest_share),
+        std::pair<std::string, QuantityMember>("spans_depth_", &FrameThreshold::spans_depth)}) {
+    const Quantity& quantity = quantity_of(member);
+    columns.push_back({name + factor,
+                       quantity.unit,
+                       fmt::format("{}, threshold {} Gamma_c", quantity.definition, factor),
+                       {}});
+    for (const std::size_t k : panels.choice)
+      columns.back().values.push_back(number_of(quantity, analysis.frames.at(k), f));
   }
   return columns;
 }
@@ -145,44 +143,32 @@ FrameChoice panel_frames(const std::vector<double>& tilts, double theta_c) {
   return choice;
 }
 
-std::vector<double> gamma_shades(const Frame& frame, const RunStatics& statics, double gamma_c) {
-  std::vector<double> shades;
-  for (Index i = 0; i < statics.free_count; ++i) shades.push_back(gamma_shade(frame.gamma[i], gamma_c));
-  return shades;
-}
-
-std::vector<double> overload_shades(const Frame& frame, const RunStatics& statics, double threshold) {
-  std::vector<double> shades;
-  for (Index i = 0; i < statics.free_count; ++i)
-    shades.push_back(is_overloaded(frame.gamma[i], threshold) ? 1.0 : 0.0);
-  return shades;
-}
-
 std::optional<Figure> gamma_maps(std::span<const RunGroup> groups) {
   const auto failed = first_failed_group(groups);
   if (!failed) return std::nullopt;
   const RunStatics& statics = failed->first().file.header().statics;
-  const double gamma_c = values<double>(failed->first().analysis, "gamma_c")[0];
+  const double gamma_c = failed->first().analysis.gamma_c;
   const Panels panels = read_panels(failed->first());
   Figure figure = panel_figure(*failed, panels, 1, 0.2);
   figure.name = "fig10-stress-ratio-maps";
   figure.title = "Maps of the stress ratio of each grain (paper, Fig. 10)";
-  figure.caption = "Stress ratio gamma of each grain: white below " + rounded_text(white_below, 2) +
-                   ", black from 2 Gamma_c = " + rounded_text(2.0 * gamma_c, 3) + " on, linear gray between" +
-                   bed_text(*failed, panels);
+  figure.caption = fmt::format(
+      "Stress ratio gamma of each grain: white below {}, black from 2 Gamma_c = {} on, linear gray between{}",
+      rounded_text(white_below, 2), rounded_text(2.0 * gamma_c, 3), bed_text(*failed, panels));
   set_variable(figure, "gamma_c", gamma_c);
   set_variable(figure, "white_below", white_below);
-  Column mean{"gamma_mean", "1", "mean gamma of the free grains that carry something", {}};
+  Column mean{"gamma_mean", "1", quantity_of(&FrameRecord::gamma_mean).definition, {}};
   Column share_white{"white", "1", "share of these grains that are white", {}};
   Column share_black{"black", "1", "share of them that are black", {}};
   for (std::size_t k = 0; k < panels.frames.size(); ++k) {
-    const Frame& frame = panels.frames[k];
-    figure.maps.push_back(
-        panel_map(std::to_string(k + 1),
-                  bare_map(frame, statics, gamma_shades(frame, statics, gamma_c), panels.extent), 1, 300.0));
-    mean.values.push_back(row<double>(failed->first().analysis, "gamma/mean", panels.choice[k])[0]);
-    share_white.values.push_back(1.0 - share_from(frame, statics, white_below));
-    share_black.values.push_back(share_from(frame, statics, 2.0 * gamma_c));
+    const BedFrame bed{panels.frames[k], statics};
+    const auto gamma = std::span(bed.frame.gamma).first(static_cast<std::size_t>(statics.free_count));
+    figure.maps.push_back(panel_map(std::to_string(k + 1),
+                                    bare_map(bed, looks_of(gamma_scale(gamma_c), gamma), panels.extent), 1,
+                                    300.0));
+    mean.values.push_back(failed->first().analysis.frames.at(panels.choice[k]).gamma_mean);
+    share_white.values.push_back(1.0 - share_from(bed, white_below));
+    share_black.values.push_back(share_from(bed, 2.0 * gamma_c));
   }
   figure.tables = {{"", {tilt_column(panels), mean, share_white, share_black}}};
   return figure;
@@ -193,7 +179,7 @@ std::optional<Figure> overload_maps(std::span<const RunGroup> groups) {
   if (!failed) return std::nullopt;
   const RunStatics& statics = failed->first().file.header().statics;
   const Analysis& analysis = failed->first().analysis;
-  const auto thresholds = values<double>(analysis, "threshold");
+  const std::vector<RunThreshold>& thresholds = analysis.thresholds;
   const Panels panels = read_panels(failed->first());
   Figure figure = panel_figure(*failed, panels, thresholds.size(), 0.5);
   figure.name = "fig13-overloaded-maps";
@@ -203,18 +189,18 @@ std::optional<Figure> overload_maps(std::span<const RunGroup> groups) {
   figure.tables = {{"", {tilt_column(panels)}}};
   std::string factors, limits;
   for (std::size_t f = 0; f < thresholds.size(); ++f) {
-    factors += " " + rounded_text(values<double>(analysis, "threshold_factor")[f], 3);
-    limits += " " + rounded_text(thresholds[f], 3);
+    factors += fmt::format(" {}", rounded_text(thresholds[f].factor, 3));
+    limits += fmt::format(" {}", rounded_text(thresholds[f].gamma, 3));
     for (Column& column : threshold_columns(analysis, panels, f))
       figure.tables[0].columns.push_back(std::move(column));
     for (std::size_t k = 0; k < panels.frames.size(); ++k) {
-      const Frame& frame = panels.frames[k];
-      const std::string number = std::to_string(f + 1) + "-" + std::to_string(k + 1);
-      figure.maps.push_back(panel_map(
-          number, bare_map(frame, statics, overload_shades(frame, statics, thresholds[f]), panels.extent),
-          thresholds.size(), 400.0));
-      set_variable(figure, "p_o_" + std::to_string(f + 1) + "_" + std::to_string(k + 1),
-                   row<double>(analysis, "overloaded/fraction", panels.choice[k])[f]);
+      const BedFrame bed{panels.frames[k], statics};
+      const std::string number = fmt::format("{}-{}", f + 1, k + 1);
+      figure.maps.push_back(panel_map(number,
+                                      bare_map(bed, overload_looks(bed, thresholds[f].gamma), panels.extent),
+                                      thresholds.size(), 400.0));
+      set_variable(figure, fmt::format("p_o_{}_{}", f + 1, k + 1),
+                   analysis.frames.at(panels.choice[k]).thresholds[f].overloaded_fraction);
     }
   }
   set_variable(figure, "factors", gnuplot_quoted(factors));

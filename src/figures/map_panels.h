@@ -7,17 +7,13 @@
 
 #include "figures/figure.h"
 #include "figures/run_group.h"
-#include "maps/frame_choice.h"
+#include "pictures/frame_choice.h"
 
 namespace talus {
 
 /// The frames nearest to 0, 5, 10 and 15 deg, those of them that are there and come before theta_c (rad),
 /// and the last one before theta_c. `tilts` as in frames_at.
 FrameChoice panel_frames(const std::vector<double>& tilts, double theta_c);
-
-/// Shades of the free grains in the map of gamma, and in that of grains with gamma >= threshold.
-std::vector<double> gamma_shades(const Frame& frame, const RunStatics& statics, double gamma_c);
-std::vector<double> overload_shades(const Frame& frame, const RunStatics& statics, double threshold);
 
 /// Paper, Fig. 10: gamma in gray, of the first run that has failed.
 std::optional<Figure> gamma_maps(std::span<const RunGroup> groups);

@@ -2,16 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/core.h>
 #include <string>
 
 #include "analysis/cells.h"
 #include "analysis/coarse_graining.h"
 #include "analysis/free_grains.h"
+#include "core/text.h"
 #include "core/trigonometry.h"
 #include "figures/failed_group.h"
 #include "figures/run_means.h"
-#include "maps/frame_choice.h"
+#include "pictures/frame_choice.h"
 #include "session/analysis_input.h"
+#include "session/analysis_parameters.h"
 
 namespace talus {
 namespace {
@@ -41,51 +44,49 @@ Table curve_table(const NeighbourhoodCurve& curve, double diameter) {
   return table;
 }
 
+std::vector<double> all_of(double RunThreshold::*member, const Analysis& analysis) {
+  std::vector<double> values;
+  for (const RunThreshold& threshold : analysis.thresholds) values.push_back(threshold.*member);
+  return values;
+}
+
 Table length_table(const Analysis& analysis, std::span<const double> lengths) {
-  const auto factors = values<double>(analysis, "threshold_factor");
-  const auto thresholds = values<double>(analysis, "threshold");
   return {"l_c",
-          {{"factor", "1", "threshold over Gamma_c", {factors.begin(), factors.end()}},
-           {"threshold", "1", "threshold", {thresholds.begin(), thresholds.end()}},
+          {{"factor", "1", "threshold over Gamma_c", all_of(&RunThreshold::factor, analysis)},
+           {"threshold", "1", "threshold", all_of(&RunThreshold::gamma, analysis)},
            {"l_c", "D", "smallest l with gamma_l <= threshold", {lengths.begin(), lengths.end()}}}};
 }
 
 /// Numbers with blanks between them, as a text of gnuplot.
 std::string word_list(std::span<const double> numbers) {
-  std::string text;
-  for (const double number : numbers) text.append(text.empty() ? "" : " ").append(rounded_text(number, 6));
-  return gnuplot_quoted(text);
+  return gnuplot_quoted(joined(numbers, " ", [](double number) { return rounded_text(number, 6); }));
 }
 
 std::string caption_of(const FailedGroup& failed, const Frame& frame, Index grain) {
-  return std::string("Left: grain ").append(std::to_string(grain)) + " of " + first_run_text(failed) +
-         " at theta = " + angle_text(frame.tilt) +
-         " deg, outlined, and the grains about it in the gray of their gamma. A neighbourhood of diameter l "
-         "has "
-         "all grains whose centres lie within the circle: thin circles every 2 D, thick ones at l_c. Right: "
-         "stress ratio gamma_l of the neighbourhood over l; l_c is the smallest l, "
-         "from that of gamma on, at which it is not above the threshold. Of the grains in the middle half of "
-         "the bed that are overloaded at each threshold, it "
-         "is "
-         "the one whose l_c are nearest to their means. " +
-         reading_caption(failed.first());
+  return fmt::format(
+      "Left: grain {} of {} at theta = {} deg, outlined, and the grains about it in the gray of their gamma. "
+      "A "
+      "neighbourhood of diameter l has all grains whose centres lie within the circle: thin circles every 2 "
+      "D, thick ones at l_c. Right: stress ratio gamma_l of the neighbourhood over l; l_c is the smallest l, "
+      "from that of gamma on, at which it is not above the threshold. Of the grains in the middle half of "
+      "the bed that are overloaded at each threshold, it is the one whose l_c are nearest to their means. {}",
+      grain, first_run_text(failed), angle_text(frame.tilt), reading_caption(failed.first()));
 }
 
 }  // namespace
 
-std::optional<Index> typical_grain(const Frame& frame, const RunStatics& statics,
-                                   std::span<const float> lengths, std::span<const double> means) {
-  const std::vector<double> y = of_free_grains(frame.y, statics);
+std::optional<Index> typical_grain(const BedFrame& bed, std::span<const FrameThreshold> thresholds) {
+  const std::vector<double> y = of_free_grains(bed.frame.y, bed.statics);
   if (y.empty()) return std::nullopt;
   const double top = *std::ranges::max_element(y);
   std::optional<Index> typical;
   double least = 0.0;
-  for (Index i = 0; i < statics.free_count; ++i) {
+  for (Index i = 0; i < bed.statics.free_count; ++i) {
     if (!in_middle_half(y[i], top)) continue;
-    if (!statics.periodic && !in_middle_half(frame.x[i], statics.length)) continue;
+    if (!bed.statics.periodic && !in_middle_half(bed.frame.x[i], bed.statics.length)) continue;
     double distance = 0.0;
-    for (std::size_t f = 0; f < means.size(); ++f)
-      distance += std::abs(static_cast<double>(lengths[f * statics.radius.size() + i]) / means[f] - 1.0);
+    for (const FrameThreshold& at : thresholds)
+      distance += std::abs(static_cast<double>(at.lc[i]) / at.lc_mean - 1.0);
     if (std::isnan(distance) || (typical && distance >= least)) continue;
     typical = i;
     least = distance;
@@ -93,19 +94,19 @@ std::optional<Index> typical_grain(const Frame& frame, const RunStatics& statics
   return typical;
 }
 
-Table grains_around(const Frame& frame, const RunStatics& statics, Index centre, double distance) {
+Table grains_around(const BedFrame& bed, Index centre, double distance) {
   Table table{"grains",
               {{"x", "D", "centre, from the overloaded grain, along the bed", {}},
                {"y", "D", "the same, across the bed", {}},
                {"radius", "D", "radius", {}},
                {"gamma", "1", "stress ratio; NaN where a grain carries nothing", {}}}};
-  const double diameter = statics.mean_diameter;
-  for (Index i = 0; i < statics.free_count; ++i) {
-    double dx = frame.x[i] - frame.x[centre];
-    dx += nearest_image(dx, period_of(statics)) * period_of(statics);
-    const double dy = frame.y[i] - frame.y[centre];
+  const double diameter = bed.statics.mean_diameter;
+  for (Index i = 0; i < bed.statics.free_count; ++i) {
+    double dx = bed.frame.x[i] - bed.frame.x[centre];
+    dx += nearest_image(dx, period_of(bed.statics)) * period_of(bed.statics);
+    const double dy = bed.frame.y[i] - bed.frame.y[centre];
     if (std::hypot(dx, dy) > distance) continue;
-    const double row[] = {dx / diameter, dy / diameter, statics.radius[i] / diameter, frame.gamma[i]};
+    const double row[] = {dx / diameter, dy / diameter, bed.statics.radius[i] / diameter, bed.frame.gamma[i]};
     for (std::size_t c = 0; c < std::size(row); ++c) table.columns[c].values.push_back(row[c]);
   }
   return table;
@@ -119,15 +120,14 @@ std::optional<Figure> neighbourhoods_figure(std::span<const RunGroup> groups) {
   const double diameter = statics.mean_diameter;
   const std::size_t k = shown_frame(run);
   const Frame frame = analysed_frame(run.file, from_facts(run.analysis.parameters), k);
-  const auto all_lengths = row<float>(run.analysis, "lc/length", k);
-  const auto grain = typical_grain(frame, statics, all_lengths, row<double>(run.analysis, "lc/mean", k));
+  const std::vector<FrameThreshold>& thresholds = run.analysis.frames.at(k).thresholds;
+  const BedFrame bed{frame, statics};
+  const auto grain = typical_grain(bed, thresholds);
   if (!grain) return std::nullopt;
 
   std::vector<double> lengths;  // D
-  for (std::size_t f = 0; f < values<double>(run.analysis, "threshold").size(); ++f)
-    lengths.push_back(all_lengths[f * statics.radius.size() + *grain] / diameter);
-  const double shown =
-      largest_shown(*std::ranges::max_element(lengths), values<double>(run.analysis, "lc/cut")[0] / diameter);
+  for (const FrameThreshold& at : thresholds) lengths.push_back(at.lc[*grain] / diameter);
+  const double shown = largest_shown(*std::ranges::max_element(lengths), run.analysis.lc_cut / diameter);
   Figure figure;
   figure.name = "fig11-neighbourhoods";
   figure.title = "Growing neighbourhoods of an overloaded grain (paper, Fig. 11)";
@@ -135,15 +135,13 @@ std::optional<Figure> neighbourhoods_figure(std::span<const RunGroup> groups) {
   figure.runs = {run.path};
   figure.wide = true;
   figure.height_over_width = 0.5;
-  figure.tables = {curve_table(neighbourhood_curve(frame, statics, *grain, shown * diameter), diameter),
-                   grains_around(frame, statics, *grain, (0.5 * shown + 0.5) * diameter),
+  figure.tables = {curve_table(neighbourhood_curve(bed, *grain, shown * diameter), diameter),
+                   grains_around(bed, *grain, (0.5 * shown + 0.5) * diameter),
                    length_table(run.analysis, lengths)};
   set_variable(figure, "shown", shown);
   set_variable(figure, "grain_radius", statics.radius[*grain] / diameter);
-  const auto factors = values<double>(run.analysis, "threshold_factor");
-  const auto thresholds = values<double>(run.analysis, "threshold");
-  set_variable(figure, "factors", word_list(factors));
-  set_variable(figure, "thresholds", word_list(thresholds));
+  set_variable(figure, "factors", word_list(all_of(&RunThreshold::factor, run.analysis)));
+  set_variable(figure, "thresholds", word_list(all_of(&RunThreshold::gamma, run.analysis)));
   set_variable(figure, "lengths", word_list(lengths));
   return figure;
 }

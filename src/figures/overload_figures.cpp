@@ -2,61 +2,53 @@
 
 #include <algorithm>
 #include <array>
+#include <fmt/core.h>
 
+#include "ensemble/paper_values.h"
 #include "figures/group_table.h"
-#include "figures/paper_values.h"
 #include "figures/run_means.h"
-#include "session/scenario_text.h"
+#include "scenario/text.h"
 
 namespace talus {
 namespace {
 
 using enum PaperQuantity;
 
-/// The value of a data set "T F" of a run.
-double threshold_value(const FigureRun& run, std::string_view name, std::size_t frame, std::size_t f) {
-  return row<double>(run.analysis, name, frame)[f];
-}
-
 /// Factors of the thresholds over Gamma_c, as text: those of all runs are the same.
 std::vector<std::string> factors_of(const FigureRun& run) {
   std::vector<std::string> factors;
-  for (const double factor : values<double>(run.analysis, "threshold_factor"))
-    factors.push_back(short_text(factor));
+  for (const RunThreshold& threshold : run.analysis.thresholds)
+    factors.push_back(short_text(threshold.factor));
   return factors;
 }
 
 /// "Gamma_c" and "2 Gamma_c" in enhanced text.
 std::string threshold_label(const std::string& factor) {
-  return std::string("'{/:Italic γ} ≥ ").append(factor == "1" ? "" : factor + " ").append("Γ_c'");
+  return fmt::format("'{{/:Italic γ}} ≥ {}Γ_c'", factor == "1" ? "" : factor + " ");
 }
 
-/// A data set "T F" in units of `unit(run)`, as a quantity of threshold f.
-template <typename Unit>
-Quantity quantity_of(const std::string& name, const std::string& unit_text, const std::string& meaning,
-                     std::string_view data_set, const std::string& factor, std::size_t f, Unit unit) {
-  return {name + "_" + factor, unit_text,
-          std::string(meaning).append(" for gamma >= ").append(factor).append(" Gamma_c"),
-          [=](const FigureRun& run, std::size_t frame) {
-            return threshold_value(run, data_set, frame, f) / unit(run);
-          }};
+/// A quantity at threshold f, which is `factor` Gamma_c.
+FrameColumn threshold_column(const std::string& name, const QuantityMember& member, const std::string& factor,
+                             std::size_t f) {
+  FrameColumn column = column_of(fmt::format("{}_{}", name, factor), quantity_of(member), f);
+  column.meaning += fmt::format(", for gamma >= {} Gamma_c", factor);
+  return column;
 }
 
-double one(const FigureRun&) { return 1.0; }
-double mean_diameter(const FigureRun& run) { return run.file.header().statics.mean_diameter; }
+/// Columns by their names.
+using NamedMembers = std::vector<std::pair<std::string, QuantityMember>>;
 
-/// Adds the tables of periodic beds with thresholds; `quantities(factor, f)` are those of threshold f.
-template <typename Quantities>
-void add_periodic_groups(Figure& figure, std::span<const RunGroup> groups, const Quantities& quantities) {
+/// Adds the tables of periodic beds, with these columns for each threshold.
+void add_periodic_groups(Figure& figure, std::span<const RunGroup> groups, const NamedMembers& members) {
   for (const RunGroup& group : groups) {
     const RunChoice runs = runs_with_threshold(group);
     if (!group.periodic() || runs.empty()) continue;
     const std::vector<std::string> factors = factors_of(*runs.front());
-    std::vector<Quantity> all;
+    std::vector<FrameColumn> all;
     for (std::size_t f = 0; f < factors.size(); ++f) {
-      for (Quantity& quantity : quantities(factors[f], f)) all.push_back(std::move(quantity));
-      set_variable(figure, "factor_" + std::to_string(f + 1), gnuplot_string(factors[f]));
-      set_variable(figure, "threshold_" + std::to_string(f + 1), threshold_label(factors[f]));
+      for (const auto& [name, member] : members) all.push_back(threshold_column(name, member, factors[f], f));
+      set_variable(figure, fmt::format("factor_{}", f + 1), gnuplot_string(factors[f]));
+      set_variable(figure, fmt::format("threshold_{}", f + 1), threshold_label(factors[f]));
     }
     set_variable(figure, "thresholds", static_cast<double>(factors.size()));
     if (figure.tables.empty()) figure.caption.append(" ").append(reading_caption(*runs.front()));
@@ -91,9 +83,7 @@ std::optional<Figure> overloaded_fraction_figure(std::span<const RunGroup> group
       "Fraction p_o of overloaded grains among those that carry something over the tilt theta, for each "
       "threshold: gamma >= Gamma_c = sin(theta_c) as printed in the paper, and multiples of it.";
   figure.caption.append(paper_text).append(" ").append(means_caption);
-  add_periodic_groups(figure, groups, [](const std::string& factor, std::size_t f) {
-    return std::vector{quantity_of("p_o", "1", "overloaded fraction", "overloaded/fraction", factor, f, one)};
-  });
+  add_periodic_groups(figure, groups, {{"p_o", &FrameThreshold::overloaded_fraction}});
   if (figure.tables.empty()) return std::nullopt;
   figure.tables.push_back(
       {"paper",
@@ -113,16 +103,13 @@ std::optional<Figure> length_figure(std::span<const RunGroup> groups) {
       "tilt "
       "theta; a column for each threshold. Dashed line: the cut at which the search for l_c ends.";
   figure.caption.append(paper_text).append(" ").append(means_caption);
-  add_periodic_groups(figure, groups, [](const std::string& factor, std::size_t f) {
-    return std::vector{quantity_of("mean", "D", "mean l_c", "lc/mean", factor, f, mean_diameter),
-                       quantity_of("max", "D", "largest l_c", "lc/max", factor, f, mean_diameter)};
-  });
+  add_periodic_groups(figure, groups, {{"mean", &FrameThreshold::lc_mean}, {"max", &FrameThreshold::lc_max}});
   if (figure.tables.empty()) return std::nullopt;
   set_more_keys(figure, 2);
   double cut = 0.0;
   for (const RunGroup& group : groups)
     for (const FigureRun* run : group.periodic() ? runs_with_threshold(group) : RunChoice{})
-      cut = std::max(cut, values<double>(run->analysis, "lc/cut")[0] / mean_diameter(*run));
+      cut = std::max(cut, run->analysis.lc_cut / run->file.header().statics.mean_diameter);
   set_variable(figure, "cut", cut);
   figure.tables.push_back(
       {"paper",

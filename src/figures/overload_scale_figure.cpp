@@ -1,14 +1,16 @@
 #include <algorithm>
 #include <cmath>
+#include <fmt/core.h>
 
 #include "analysis/coarse_graining.h"
+#include "core/statistics.h"
 #include "core/trigonometry.h"
 #include "figures/failed_group.h"
 #include "figures/overload_figures.h"
 #include "figures/run_means.h"
+#include "scenario/text.h"
 #include "session/analysis_input.h"
-#include "session/scenario_text.h"
-#include "session/study_statistics.h"
+#include "session/analysis_parameters.h"
 
 namespace talus {
 namespace {
@@ -30,8 +32,8 @@ std::vector<double> shares_of(const FigureRun& run, std::size_t k, std::vector<d
   AnalysisParameters parameters = from_facts(run.analysis.parameters);
   parameters.l_min = 0.0;
   for (double& l : scales) l *= statics.mean_diameter;
-  return overloaded_over_scale(analysed_frame(run.file, parameters, k), statics,
-                               values<double>(run.analysis, "gamma_c")[0], scales);
+  return overloaded_over_scale({analysed_frame(run.file, parameters, k), statics}, run.analysis.gamma_c,
+                               scales);
 }
 
 /// The mean over some runs, at one frame of each, and its error; none where fewer than half of `all` are
@@ -46,7 +48,7 @@ std::vector<Column> mean_shares(const FramesAtAngle& at, std::size_t all, const 
   for (std::size_t s = 0; s < scales.size(); ++s) {
     std::vector<double> each;
     for (const std::vector<double>& of_run : shares) each.push_back(of_run[s]);
-    const MeanError result = mean_error(each);
+    const Statistics result = statistics_of(each);
     mean.values.push_back(result.mean);
     error.values.push_back(result.error);
   }
@@ -55,17 +57,18 @@ std::vector<Column> mean_shares(const FramesAtAngle& at, std::size_t all, const 
 
 std::vector<Column> scale_columns(const RunChoice& runs) {
   const RunStatics& statics = runs.front()->file.header().statics;
-  const std::vector<double> scales =
-      scales_up_to(std::min(statics.depth, 0.5 * statics.length) / statics.mean_diameter);
+  const std::vector<double> scales = scales_up_to(length_cut(statics, 0.0) / statics.mean_diameter);
   std::vector<Column> columns = {{"l", "D", "diameter of the neighbourhood; 0: the grain alone", scales}};
   const auto add = [&](const FramesAtAngle& at, const std::string& name, const std::string& where) {
     const std::string meaning = "share of the grains that carry something with gamma_l >= Gamma_c " + where;
-    for (Column& column : mean_shares(at, runs.size(), scales,
-                                      {"p_o_" + name, "1", meaning + ", " + runs_text(at.runs.size()), {}}))
+    for (Column& column :
+         mean_shares(at, runs.size(), scales,
+                     {"p_o_" + name, "1", fmt::format("{}, {}", meaning, runs_text(at.runs.size())), {}}))
       columns.push_back(std::move(column));
   };
   for (const double angle : angles)
-    add(frames_at_angle(runs, radians(angle)), short_text(angle), "at " + short_text(angle) + " deg");
+    add(frames_at_angle(runs, radians(angle)), short_text(angle),
+        fmt::format("at {} deg", short_text(angle)));
   FramesAtAngle failure{runs, {}};
   for (const FigureRun* run : runs) failure.frames.push_back(repose_frame(*run));
   add(failure, "failure", "in the last frame before failure");

@@ -6,19 +6,16 @@
 namespace talus {
 namespace {
 
-/// A data set of one number for each frame, of all groups.
+/// A quantity of frames, of all groups.
 std::optional<Figure> over_tilt(Figure figure, std::span<const RunGroup> groups, const Quantity& quantity) {
   if (groups.empty()) return std::nullopt;
   for (const RunGroup& group : groups) {
     const RunChoice runs = all_runs(group);
-    add_group_table(figure, group, runs, means_over_runs(runs, {&quantity, 1}));
+    const FrameColumn column = column_of("ratio", quantity);
+    add_group_table(figure, group, runs, means_over_runs(runs, {&column, 1}));
   }
   figure.caption.append(" ").append(means_caption);
   return figure;
-}
-
-double packing_value(const FigureRun& run, std::string_view name, std::size_t frame) {
-  return values<double>(run.analysis, name)[frame];
 }
 
 }  // namespace
@@ -30,11 +27,7 @@ std::optional<Figure> shear_stress_figure(std::span<const RunGroup> groups) {
   figure.caption =
       "Shear over normal stress of the packing, sigma_T / sigma_N, over the tangent of the tilt theta, up to "
       "theta_c. Dotted: sigma_T / sigma_N = tan(theta), equilibrium of a periodic bed (paper, Eq. 10).";
-  return over_tilt(
-      std::move(figure), groups,
-      {"ratio", "1", "sigma_T / sigma_N of the packing", [](const FigureRun& run, std::size_t frame) {
-         return packing_value(run, "packing/sigma_t_over_n", frame);
-       }});
+  return over_tilt(std::move(figure), groups, quantity_of(&FrameRecord::sigma_t_over_n));
 }
 
 std::optional<Figure> stress_ratio_figure(std::span<const RunGroup> groups) {
@@ -45,10 +38,7 @@ std::optional<Figure> stress_ratio_figure(std::span<const RunGroup> groups) {
       "Stress ratio Gamma = Q/P of the packing over the sine of the tilt theta, up to theta_c. Dotted: Gamma "
       "= "
       "sin(theta), equilibrium of a periodic bed (paper, Eq. 11).";
-  return over_tilt(std::move(figure), groups,
-                   {"ratio", "1", "Gamma = Q/P of the packing", [](const FigureRun& run, std::size_t frame) {
-                      return packing_value(run, "packing/stress_ratio", frame);
-                    }});
+  return over_tilt(std::move(figure), groups, quantity_of(&FrameRecord::stress_ratio));
 }
 
 }  // namespace talus

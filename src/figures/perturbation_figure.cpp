@@ -2,18 +2,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/core.h>
 #include <limits>
 
+#include "analysis/quantities.h"
+#include "core/statistics.h"
+#include "core/text.h"
 #include "core/trigonometry.h"
+#include "figures/group_table.h"
+#include "scenario/text.h"
 #include "session/perturbation_threshold.h"
-#include "session/scenario_text.h"
 
 namespace talus {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-double theta_c(const FigureRun& run) { return degrees(values<double>(run.analysis, "theta_c").front()); }
+double theta_c(const FigureRun& run) { return degrees(run.analysis.theta_c); }
 
 /// The trial of a strength; no value where there is none.
 const Trial* trial_of(const PerturbedState& state, double strength) {
@@ -45,34 +50,25 @@ void append_state(Table& table, const FigureRun& run, const PerturbedState& stat
 }
 
 /// theta_c - theta_d, deg, as the mean over the runs that have it; NaN where none has.
-double mean_distance(const RunGroup& group, std::string_view estimator) {
-  double sum = 0.0;
-  int count = 0;
-  for (const FigureRun& run : group.runs) {
-    const auto& sets = run.analysis.data_sets;
-    const auto found = sets.find(estimator);
-    if (found == sets.end()) continue;
-    const double distance = theta_c(run) - degrees(std::get<std::vector<double>>(found->second).front());
-    if (std::isnan(distance)) continue;
-    sum += distance;
-    ++count;
-  }
-  return count > 0 ? sum / count : none;
+double mean_distance(const RunGroup& group, const QuantityMember& estimator) {
+  std::vector<double> distances;
+  for (const FigureRun& run : group.runs)
+    distances.push_back(theta_c(run) - degrees(number_of(quantity_of(estimator), run.analysis, 0)));
+  return statistics_of(distances).mean;
 }
 
 std::string number_text(double value) { return std::isnan(value) ? "NaN" : short_text(value); }
 
 std::string caption_of(const RunGroup& group, const SurfacePatch& patch) {
-  return "Velocity, and kinetic energy, of the weakest push that starts an avalanche, over the distance to "
-         "the angle of repose; " +
-         group.label + ", " + std::to_string(group.runs.size()) +
-         (group.runs.size() == 1 ? " run" : " runs") + ". The grains of a patch of " + patch_text(patch) +
-         " D at the free surface are pushed downslope, in copies of the bed at rest. Bars go from the "
-         "largest push of a bisection that started no avalanche to the smallest that did. Open triangles up: "
-         "no "
-         "avalanche up to the largest push; triangles down: beds that the weakest push set off. Lines: "
-         "theta_d as the mean distance over the runs, by the jump of l_c max and by the end of the range in "
-         "which the volume strain is not above its minimum by more than its noise.";
+  return fmt::format(
+      "Velocity, and kinetic energy, of the weakest push that starts an avalanche, over the distance to the "
+      "angle of repose; {}, {}. The grains of a patch of {} D at the free surface are pushed downslope, "
+      "in copies of the bed at rest. Bars go from the largest push of a bisection that started no avalanche "
+      "to the smallest that did. Open triangles up: no avalanche up to the largest push; triangles down: "
+      "beds that the weakest push set off. Lines: theta_d as the mean distance over the runs, by the jump of "
+      "l_c max and by the end of the range in which the volume strain is not above its minimum by more than "
+      "its noise.",
+      group.label, runs_text(group.runs.size()), patch_text(patch));
 }
 
 }  // namespace
@@ -110,12 +106,10 @@ Figure perturbation_figure(const RunGroup& group, std::span<const PerturbationTa
   figure.wide = true;
   figure.height_over_width = 0.4;
   figure.tables = {perturbation_states(group, tables)};
-  std::string seeds;
-  for (const FigureRun& run : group.runs)
-    seeds.append(seeds.empty() ? "" : " ").append(std::to_string(run.scenario.seed));
-  figure.variables = {{"seeds", "\"" + seeds + "\""},
-                      {"theta_d_lc", number_text(mean_distance(group, "theta_d/lc_jump"))},
-                      {"theta_d_dilation", number_text(mean_distance(group, "theta_d/dilation_high"))}};
+  const std::string seeds = joined(group.runs, " ", [](const FigureRun& run) { return run.scenario.seed; });
+  figure.variables = {{"seeds", gnuplot_string(seeds)},
+                      {"theta_d_lc", number_text(mean_distance(group, &RunThreshold::lc_jump))},
+                      {"theta_d_dilation", number_text(mean_distance(group, &Analysis::dilation_high))}};
   return figure;
 }
 

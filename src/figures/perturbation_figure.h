@@ -1,7 +1,9 @@
 #pragma once
-/// The figure of perturbed runs: the weakest push that starts an avalanche over the distance to theta_c.
+/// The figure of perturbed runs and their tables: the weakest push that starts an avalanche over the distance
+/// to theta_c.
 
 #include <span>
+#include <string>
 
 #include "figures/figure.h"
 #include "figures/run_group.h"
@@ -17,5 +19,8 @@ Table perturbation_states(const RunGroup& group, std::span<const PerturbationTab
 /// distance to theta_c: by the jump of l_c max, and by the tilt from which on the volume strain is above its
 /// minimum by more than its noise (a flat minimum itself is hardly known).
 Figure perturbation_figure(const RunGroup& group, std::span<const PerturbationTable> tables);
+
+/// Tables in Markdown: the thresholds by their distance to theta_c, and each state.
+std::string perturbation_markdown(const RunGroup& group, std::span<const PerturbationTable> tables);
 
 }  // namespace talus

@@ -1,10 +1,11 @@
 #include "figures/run_group.h"
 
 #include <algorithm>
+#include <fmt/core.h>
 
 #include "core/errors.h"
-#include "session/scenario_keys.h"
-#include "session/scenario_text.h"
+#include "scenario/keys.h"
+#include "scenario/text.h"
 
 namespace talus {
 namespace {
@@ -25,16 +26,8 @@ Scenario essence(Scenario scenario) {
 }
 
 std::string bed_label(const Scenario& scenario) {
-  return std::string(scenario.bed.boundary == BedBoundary::periodic ? "PBC" : "WBC")
-      .append(", L = ")
-      .append(short_text(scenario.bed.length))
-      .append(" D");
-}
-
-std::string value_text(const ScenarioValue& value) {
-  if (const auto* number = std::get_if<double>(&value)) return short_text(*number);
-  if (const auto* text = std::get_if<std::string>(&value)) return *text;
-  return toml_text(value);
+  return fmt::format("{}, L = {} D", scenario.bed.boundary == BedBoundary::periodic ? "PBC" : "WBC",
+                     short_text(scenario.bed.length));
 }
 
 Scenario essence_of(const RunGroup& group) { return essence(group.runs.front().scenario); }
@@ -44,12 +37,12 @@ void tell_apart(std::vector<RunGroup>& groups) {
   std::vector<std::string> additions(groups.size());
   for (const ScenarioKey& key : scenario_keys())
     for (std::size_t g = 0; g < groups.size(); ++g) {
-      const ScenarioValue value = key.get(essence_of(groups[g]));
+      const KeyValue value = key.get(essence_of(groups[g]));
       const auto differs = [&](const RunGroup& other) {
         return other.label == groups[g].label && key.get(essence_of(other)) != value;
       };
       if (std::ranges::any_of(groups, differs))
-        additions[g].append(", ").append(full_name(key)).append(" = ").append(value_text(value));
+        additions[g] += fmt::format(", {} = {}", full_name(key), plain_text(value));
     }
   for (std::size_t g = 0; g < groups.size(); ++g) groups[g].label += additions[g];
 }
@@ -60,8 +53,8 @@ void sort_by_seed(RunGroup& group) {
   const auto twice = std::ranges::adjacent_find(group.runs, {}, seed);
   if (twice != group.runs.end())
     throw Error(ExitCode::bad_data,
-                twice->path + " and " + std::next(twice)->path +
-                    " are the same run: scenario and seed are the same; give one of them");
+                fmt::format("{} and {} are the same run: scenario and seed are the same; give one of them",
+                            twice->path, std::next(twice)->path));
 }
 
 }  // namespace

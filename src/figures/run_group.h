@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "io/analysis_record.h"
+#include "analysis/record.h"
 #include "io/run_file.h"
-#include "session/scenario.h"
+#include "scenario/scenario.h"
 
 namespace talus {
 

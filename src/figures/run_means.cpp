@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/statistics.h"
 #include "core/trigonometry.h"
-#include "session/study_statistics.h"
 
 namespace talus {
 namespace {
@@ -58,14 +58,14 @@ std::vector<Column> mean_columns(const CommonTilts& common, std::span<const std:
   for (const std::vector<Sample>& samples : common.samples) {
     std::vector<double> row;
     for (const auto& [run, frame] : samples) row.push_back(values[run][frame]);
-    const MeanError result = mean_error(row);
+    const Statistics result = statistics_of(row);
     mean.values.push_back(result.mean);
     error.values.push_back(result.error);
   }
   return {std::move(mean), std::move(error)};
 }
 
-double theta_c_of(const FigureRun& run) { return values<double>(run.analysis, "theta_c")[0]; }
+double theta_c_of(const FigureRun& run) { return run.analysis.theta_c; }
 
 std::size_t frame_nearest(const FigureRun& run, double tilt) {
   const auto& tilts = run.file.frame_tilts();
@@ -78,19 +78,27 @@ bool stands_at(const FigureRun& run, double tilt) {
   return std::isnan(theta_c) ? run.file.frame_tilts().back() > tilt - same_tilt : theta_c > tilt;
 }
 
+FrameColumn column_of(const std::string& name, const Quantity& quantity, std::size_t f) {
+  return {name, scaled_unit(quantity), quantity.definition,
+          [quantity, f](const FigureRun& run, std::size_t frame) {
+            return scaled(quantity, number_of(quantity, run.analysis.frames.at(frame), f),
+                          run.file.header().statics.mean_diameter);
+          }};
+}
+
 std::vector<Column> means_over_runs(std::span<const FigureRun* const> runs,
-                                    std::span<const Quantity> quantities) {
+                                    std::span<const FrameColumn> columns_of_frames) {
   std::vector<std::vector<double>> tilts;
   for (const FigureRun* run : runs) tilts.push_back(tilts_to_failure(*run));
   const CommonTilts common = common_tilts(tilts);
   std::vector<Column> columns = tilt_columns(common);
-  for (const Quantity& quantity : quantities) {
+  for (const FrameColumn& column : columns_of_frames) {
     std::vector<std::vector<double>> rows(runs.size());
     for (std::size_t r = 0; r < runs.size(); ++r)
       for (std::size_t frame = 0; frame < tilts[r].size(); ++frame)
-        rows[r].push_back(quantity.value(*runs[r], frame));
-    for (Column& column : mean_columns(common, rows, {quantity.name, quantity.unit, quantity.meaning, {}}))
-      columns.push_back(std::move(column));
+        rows[r].push_back(column.value(*runs[r], frame));
+    for (Column& mean : mean_columns(common, rows, {column.name, column.unit, column.meaning, {}}))
+      columns.push_back(std::move(mean));
   }
   return columns;
 }

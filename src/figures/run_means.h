@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/quantities.h"
 #include "figures/figure.h"
 #include "figures/run_group.h"
 
@@ -50,14 +51,16 @@ std::size_t frame_nearest(const FigureRun& run, double tilt);
 /// Whether the slope was tilted up to `tilt`, rad, before it failed.
 bool stands_at(const FigureRun& run, double tilt);
 
-/// A quantity of each frame of a run; what is not there is NaN.
-struct Quantity {
+/// A number of each frame of a run; what is not there is NaN.
+struct FrameColumn {
   std::string name, unit, meaning;  ///< as Column has them
   std::function<double(const FigureRun& run, std::size_t frame)> value;
 };
+/// A quantity of frames, in the unit of tables; at threshold f where it depends on one.
+FrameColumn column_of(const std::string& name, const Quantity& quantity, std::size_t f = 0);
 
-/// theta, n, and the mean and error of each quantity, over the frames of the runs up to the theta_c of each.
+/// theta, n, and the mean and error of each column, over the frames of the runs up to the theta_c of each.
 std::vector<Column> means_over_runs(std::span<const FigureRun* const> runs,
-                                    std::span<const Quantity> quantities);
+                                    std::span<const FrameColumn> columns_of_frames);
 
 }  // namespace talus

@@ -2,14 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/core.h>
 #include <numeric>
 
-#include "analysis/wall_fit.h"
+#include "core/statistics.h"
 #include "core/trigonometry.h"
+#include "ensemble/wall_fit.h"
 #include "figures/failed_group.h"
 #include "figures/run_means.h"
-#include "session/scenario_text.h"
-#include "session/study_statistics.h"
+#include "scenario/text.h"
 
 namespace talus {
 namespace {
@@ -34,7 +35,7 @@ std::vector<Angle> angles_of(const RunChoice& runs) {
   std::vector<Angle> angles;
   for (const double tilt : {0.0, 10.0})
     if (std::ranges::all_of(runs, [&](const FigureRun* run) { return stands_at(*run, radians(tilt)); })) {
-      angles.push_back({"{/:Italic θ} = " + short_text(tilt) + "°", {}});
+      angles.push_back({fmt::format("{{/:Italic θ}} = {}°", short_text(tilt)), {}});
       for (const FigureRun* run : runs) angles.back().frames.push_back(frame_nearest(*run, radians(tilt)));
     }
   angles.push_back({"{/:Italic θ_c}", {}});
@@ -45,7 +46,7 @@ std::vector<Angle> angles_of(const RunChoice& runs) {
 /// The middle of each section, in D.
 Column section_column(const FigureRun& run) {
   Column x{"x", "D", "middle of the section, from the upper wall downslope", {}};
-  const auto edges = values<double>(run.analysis, "sections/edge");
+  const std::vector<double>& edges = run.analysis.section_edge;
   for (std::size_t s = 0; s + 1 < edges.size(); ++s)
     x.values.push_back(0.5 * (edges[s] + edges[s + 1]) / run.file.header().statics.mean_diameter);
   return x;
@@ -56,12 +57,12 @@ std::vector<Column> section_stresses(const RunChoice& runs, const std::vector<st
                                      const std::string& name) {
   Column mean{name, "M g / (2 L)", "mean sigma_xx of the section", {}};
   Column error{name + "_error", mean.unit, "its standard error over the runs", {}};
-  for (std::size_t s = 0; s < row_width(runs.front()->analysis, "sections/sigma_xx"); ++s) {
+  for (std::size_t s = 0; s + 1 < runs.front()->analysis.section_edge.size(); ++s) {
     std::vector<double> stresses;
     for (std::size_t r = 0; r < runs.size(); ++r)
-      stresses.push_back(row<double>(runs[r]->analysis, "sections/sigma_xx", frames[r])[s] /
+      stresses.push_back(runs[r]->analysis.frames.at(frames[r]).section_sigma_xx[s] /
                          mean_weight(runs[r]->file.header().statics));
-    const MeanError result = mean_error(stresses);
+    const Statistics result = statistics_of(stresses);
     mean.values.push_back(result.mean);
     error.values.push_back(result.error);
   }
@@ -70,15 +71,14 @@ std::vector<Column> section_stresses(const RunChoice& runs, const std::vector<st
 
 /// What Fig. 7 shows of one group.
 struct WallGroup {
-  MeanError ratio;      ///< over the runs
+  Statistics ratio;     ///< over the runs
   double spread = 0.0;  ///< rms over the runs of the standard deviation in the window
   double depth = 0.0;   ///< mean height V / L before failure, D
 };
 
 double mean_depth(const FigureRun& run) {
   const RunStatics& statics = run.file.header().statics;
-  return values<double>(run.analysis, "packing/volume")[repose_frame(run)] / statics.length /
-         statics.mean_diameter;
+  return run.analysis.frames.at(repose_frame(run)).volume / statics.length / statics.mean_diameter;
 }
 
 WallGroup wall_group(const RunChoice& runs, std::vector<WallPoint>& points) {
@@ -93,7 +93,7 @@ WallGroup wall_group(const RunChoice& runs, std::vector<WallPoint>& points) {
     result.depth += mean_depth(*run) / n;
     points.push_back({mean_depth(*run) / run->scenario.bed.length, ratio.mean});
   }
-  result.ratio = mean_error(ratios);
+  result.ratio = statistics_of(ratios);
   result.spread = std::sqrt(squares);
   return result;
 }
@@ -131,12 +131,12 @@ std::optional<Figure> wall_stress_figure(std::span<const RunGroup> groups) {
   Figure figure;
   figure.name = "fig06-wall-stress";
   figure.title = "Stress sigma_xx along a bed between walls (paper, Fig. 6)";
-  figure.caption =
-      "Normal stress sigma_xx of sections along the bed over their distance x from the upper wall, " +
-      shortest->label +
-      ", in units of M g / (2 L), the mean of sigma_yy in the horizontal bed (M: mass of "
-      "the grains); theta_c: last frame before failure. Means over " +
-      runs_text(runs.size()) + ", error bars: standard errors over them, none for a single run.";
+  figure.caption = fmt::format(
+      "Normal stress sigma_xx of sections along the bed over their distance x from the upper wall, {}, in "
+      "units of M g / (2 L), the mean of sigma_yy in the horizontal bed (M: mass of the grains); theta_c: "
+      "last frame before failure. Means over {}, error bars: standard errors over them, none for a single "
+      "run.",
+      shortest->label, runs_text(runs.size()));
   Table table{"", {section_column(*runs.front())}};
   const std::vector<Angle> angles = angles_of(runs);
   for (std::size_t a = 0; a < angles.size(); ++a) {
@@ -147,21 +147,11 @@ std::optional<Figure> wall_stress_figure(std::span<const RunGroup> groups) {
   }
   for (const FigureRun* run : runs) figure.runs.push_back(run->path);
   set_variable(figure, "angles", static_cast<double>(angles.size()));
-  set_variable(figure, "bed", gnuplot_quoted(shortest->label + " (" + runs_text(runs.size()) + ")"));
+  set_variable(figure, "bed",
+               gnuplot_quoted(fmt::format("{} ({})", shortest->label, runs_text(runs.size()))));
   set_variable(figure, "length", runs.front()->scenario.bed.length);
   figure.tables = {std::move(table)};
   return figure;
-}
-
-RatioAtFailure ratio_at_failure(std::span<const ObservableRow> rows, double theta_c, double width) {
-  std::vector<double> ratios;
-  for (const ObservableRow& row : rows) {
-    const double tilt = at(row, Observable::tilt);
-    if (tilt > 0.0 && tilt <= theta_c && tilt > theta_c - radians(width))
-      ratios.push_back(at(row, Observable::sigma_t_over_n) * cosine(tilt) / sine(tilt));
-  }
-  const MeanError result = mean_error(ratios);
-  return {result.mean, result.error * std::sqrt(static_cast<double>(result.count))};
 }
 
 std::optional<Figure> wall_ratio_figure(std::span<const RunGroup> groups) {
@@ -183,20 +173,15 @@ std::optional<Figure> wall_ratio_figure(std::span<const RunGroup> groups) {
   }
   if (points.empty()) return std::nullopt;
   const WallFit fit = fit_wall_law(points);
-  const double depth = mean_error(depths).mean;
-  figure.caption =
+  const double depth = statistics_of(depths).mean;
+  figure.caption = fmt::format(
       "(sigma_T / sigma_N) / tan(theta) of beds between walls over their length L, mean over the last 0.5 "
-      "deg "
-      "before theta_c and over the runs of each length (" +
-      runs_text(points.size()) +
-      " in all). Error bars: standard error over the runs; for a single run the standard deviation within "
-      "the "
-      "0.5 deg. Lines: 1 - (k_L - k_0)/3 H/L (paper, Eq. 15), fitted to all runs by least squares, k_L - k_0 "
-      "= " +
-      plus_minus(fit) +
-      " (standard error), and with the paper's 2.5. H is the mean height V/L of each bed before "
-      "failure, as in the paper's integral over the depth; the lines have their mean, H = " +
-      rounded_text(depth, 1) + " D.";
+      "deg before theta_c and over the runs of each length ({} in all). Error bars: standard error over the "
+      "runs; for a single run the standard deviation within the 0.5 deg. Lines: 1 - (k_L - k_0)/3 H/L "
+      "(paper, Eq. 15), fitted to all runs by least squares, k_L - k_0 = {} (standard error), and with the "
+      "paper's 2.5. H is the mean height V/L of each bed before failure, as in the paper's integral over the "
+      "depth; the lines have their mean, H = {} D.",
+      runs_text(points.size()), plus_minus(fit), rounded_text(depth, 1));
   set_variable(figure, "k", fit.k);
   set_variable(figure, "k_text", gnuplot_quoted(plus_minus(fit)));
   set_variable(figure, "k_paper", paper_k);

@@ -18,7 +18,7 @@ DrawDataPainter::DrawDataPainter(const Gl& gl) : gl_(gl) {
 
 DrawDataPainter::~DrawDataPainter() { delete_batch(gl_, batch_); }
 
-/// Indices are resolved here: widgets are a few ten thousand corners, and the renderer needs no index
+/// Indices are resolved here: widgets have tens of thousands of corners, and the renderer needs no index
 /// buffers.
 void DrawDataPainter::upload(const ImDrawData& data) {
   corners_.clear();

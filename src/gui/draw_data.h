@@ -1,6 +1,6 @@
 #pragma once
-/// Draws what Dear ImGui has laid out, with the renderer's own OpenGL functions: alike in a window and
-/// without one. (The backends that come with ImGui load libGL, which breaks contexts in memory.)
+/// Draws what Dear ImGui has laid out, with the renderer's own OpenGL functions, in a window and without one.
+/// (The backends that come with ImGui load libGL, which breaks contexts in memory.)
 
 #include <imgui.h>
 
@@ -11,7 +11,7 @@
 
 namespace talus {
 
-/// What is drawn into.
+/// The surface that is drawn on.
 struct Surface {
   GLuint framebuffer = 0;     ///< 0: the window
   int width = 0, height = 0;  ///< px
@@ -19,8 +19,8 @@ struct Surface {
       false;  ///< row 0 is the top of the picture, as images have it; windows have it at the bottom
 };
 
-/// Owns its objects in the context that is current. Coordinates and textures are those of ImGui: a texture's
-/// id is its number, its row 0 the top, its alpha straight.
+/// Owns its objects in the current context. Coordinates and textures are those of ImGui: the id of a texture
+/// is its number, its row 0 is the top, its alpha is straight.
 class DrawDataPainter {
  public:
   explicit DrawDataPainter(const Gl& gl);
@@ -41,7 +41,7 @@ class DrawDataPainter {
   std::vector<ImDrawVert> corners_;  ///< of all triangles; kept to save allocations
 };
 
-/// A texture with one channel, set to be seen as gray (of a picture) or as a white of that alpha (of a font).
+/// A texture with one channel, shown as gray (pictures) or as white with that alpha (fonts).
 enum class OneChannel { gray, alpha };
 void widen(const Gl& gl, GLuint texture, OneChannel meaning);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// The font of the widgets: the one of the pictures.
+/// The font of the widgets, which is that of the pictures.
 
 #include <imgui.h>
 
@@ -9,7 +9,8 @@ namespace talus {
 inline constexpr float font_size = 16.0f;
 
 /// Adds the embedded font in font_size * scale to an atlas and bakes it. It has ASCII, Latin-1, Greek, super-
-/// and subscripts, arrows, mathematical signs and simple shapes: all that texts of pictures use, and more.
+/// and subscripts, arrows, mathematical signs and simple shapes: everything that texts of pictures use, and
+/// more.
 void add_embedded_font(ImFontAtlas& atlas, float scale);
 
 }  // namespace talus

@@ -37,16 +37,6 @@ constexpr std::array<NamedKey, 22> named_keys = {{{ImGuiKey_Tab, key_tab},
 /// Whether `key` is the left or right one of a pair: in GLFW's numbers the right one comes four later.
 bool is_modifier(int key, int left) { return key == left || key == left + 4; }
 
-}  // namespace
-
-#if IMGUI_VERSION_NUM < 18700
-
-void name_keys(ImGuiIO& io) {
-  for (const NamedKey& named : named_keys) io.KeyMap[named.name] = named.key;
-}
-
-namespace {
-
 void set_key(ImGuiIO& io, int key, bool down) {
   if (key < 0 || key >= IM_ARRAYSIZE(io.KeysDown)) return;
   io.KeysDown[key] = down;
@@ -79,6 +69,10 @@ void hand_over_event(ImGuiIO& io, const InputEvent& event) {
 
 }  // namespace
 
+void name_keys(ImGuiIO& io) {
+  for (const NamedKey& named : named_keys) io.KeyMap[named.name] = named.key;
+}
+
 void InputQueue::hand_over(ImGuiIO& io) {
   bool pressed = false;  // a button or key has changed: only the character that belongs to it may follow
   while (!events_.empty()) {
@@ -89,53 +83,5 @@ void InputQueue::hand_over(ImGuiIO& io) {
     events_.pop_front();
   }
 }
-
-#else  // 1.87 has a queue of its own
-
-void name_keys(ImGuiIO&) {}
-
-namespace {
-
-ImGuiKey name_of(int key) {
-  for (const NamedKey& named : named_keys)
-    if (named.key == key) return named.name;
-  if (key >= 'A' && key <= 'Z') return static_cast<ImGuiKey>(ImGuiKey_A + (key - 'A'));
-  if (key >= '0' && key <= '9') return static_cast<ImGuiKey>(ImGuiKey_0 + (key - '0'));
-  if (key >= key_f1 && key <= key_f12) return static_cast<ImGuiKey>(ImGuiKey_F1 + (key - key_f1));
-  return ImGuiKey_None;
-}
-
-void add_key(ImGuiIO& io, int key, bool down) {
-  if (is_modifier(key, key_left_shift)) io.AddKeyEvent(ImGuiMod_Shift, down);
-  if (is_modifier(key, key_left_control)) io.AddKeyEvent(ImGuiMod_Ctrl, down);
-  if (is_modifier(key, key_left_alt)) io.AddKeyEvent(ImGuiMod_Alt, down);
-  if (is_modifier(key, key_left_super)) io.AddKeyEvent(ImGuiMod_Super, down);
-  if (const ImGuiKey name = name_of(key); name != ImGuiKey_None) io.AddKeyEvent(name, down);
-}
-
-}  // namespace
-
-void InputQueue::hand_over(ImGuiIO& io) {
-  for (const InputEvent& event : events_) switch (event.kind) {
-      case InputEvent::Kind::position:
-        io.AddMousePosEvent(event.x, event.y);
-        break;
-      case InputEvent::Kind::button:
-        io.AddMouseButtonEvent(event.code, event.down);
-        break;
-      case InputEvent::Kind::wheel:
-        io.AddMouseWheelEvent(event.x, event.y);
-        break;
-      case InputEvent::Kind::key:
-        add_key(io, event.code, event.down);
-        break;
-      case InputEvent::Kind::character:
-        io.AddInputCharacter(static_cast<unsigned>(event.code));
-        break;
-    }
-  events_.clear();
-}
-
-#endif
 
 }  // namespace talus

@@ -1,5 +1,5 @@
 #pragma once
-/// Mouse and keys on their way to Dear ImGui: the same for a window and without one.
+/// Mouse and keys on their way to Dear ImGui, with and without a window.
 
 #include <imgui.h>
 
@@ -7,8 +7,8 @@
 
 namespace talus {
 
-/// Numbers of keys, as GLFW has them: printable keys are their ASCII code, letters as capitals. In ImGui
-/// before 1.87 they are the indices of io.KeysDown.
+/// Numbers of keys, as GLFW has them: printable keys are their ASCII code, letters as capitals. They are the
+/// indices of io.KeysDown.
 enum Key : int {
   key_space = 32,
   key_escape = 256,
@@ -25,8 +25,6 @@ enum Key : int {
   key_page_down = 267,
   key_home = 268,
   key_end = 269,
-  key_f1 = 290,
-  key_f12 = 301,
   key_keypad_enter = 335,
   key_left_shift = 340,
   key_left_control = 341,
@@ -36,7 +34,7 @@ enum Key : int {
   key_right_super = 347,
 };
 
-/// Something that a user did.
+/// An action of the user.
 struct InputEvent {
   enum class Kind { position, button, wheel, key, character };
   Kind kind = Kind::position;
@@ -45,21 +43,21 @@ struct InputEvent {
   bool down = false;         ///< button, key
 };
 
-/// Hands events over so that none is lost: a button or key that goes down and up between two pictures is down
-/// in one of them.
+/// Hands events over so that none is lost: a button or key that is pressed and released between two pictures
+/// is down in one of them.
 class InputQueue {
  public:
   void add(const InputEvent& event) { events_.push_back(event); }
-  /// Whether there are events that wait for another picture.
+  /// Whether events wait for another picture.
   bool waiting() const { return !events_.empty(); }
-  /// Before ImGui::NewFrame: hands over what one picture can take.
+  /// Hands over what one picture can take; to be called before ImGui::NewFrame.
   void hand_over(ImGuiIO& io);
 
  private:
   std::deque<InputEvent> events_;
 };
 
-/// Tells a new ImGui context what our key numbers mean.
+/// Tells a new ImGui context the meaning of our key numbers.
 void name_keys(ImGuiIO& io);
 
 }  // namespace talus

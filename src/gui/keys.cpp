@@ -14,12 +14,12 @@ struct KeyLine {
 
 constexpr KeyLine key_lines[] = {
     {"space", "play, pause"},
-    {"right, left", "a step or a frame on; a frame back (shift 10, ctrl 100)"},
+    {"right, left", "one step or frame forward; one frame back (shift 10, ctrl 100)"},
     {"home, end", "first, last frame"},
     {"d, j, p, c", "to θ_d; to the jump of ℓ_c; to where a cluster first spans; to θ_c"},
     {"< >", "speed of a replay"},
     {"1 ... 9", "the maps, in the order of their list"},
-    {"0", "nothing over the map"},
+    {"0", "no overlay"},
     {"o", "next overlay"},
     {"m", "next colours"},
     {"v", "displacement since the angle shown, or per degree"},

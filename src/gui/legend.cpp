@@ -11,7 +11,7 @@ ImU32 colour_of(const Colour& colour) {
   return IM_COL32(colour.red, colour.green, colour.blue, colour.alpha);
 }
 
-/// Goes to the next line where what comes next would not fit.
+/// Goes to the next line if what follows would not fit.
 void make_room(float width) {
   if (ImGui::GetCursorPosX() > ImGui::GetStyle().WindowPadding.x + 1.0f &&
       ImGui::GetContentRegionAvail().x < width)

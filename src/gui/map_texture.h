@@ -11,14 +11,14 @@ namespace talus {
 
 class MapTexture {
  public:
-  /// Takes a context that is current; `gl` are its functions.
+  /// Takes a current context; `gl` are its functions.
   MapTexture(std::unique_ptr<Context> context, const Gl& gl);
 
   /// The texture with a view, `width` px wide and as high as follows from it. A view without furniture is
   /// drawn again only where it has changed: without a GPU 8000 grains take some 6 ms.
   GLuint draw(const FrameView& view, int width);
 
-  /// A picture in memory, as talus render makes it.
+  /// A picture in memory, as talus render draws it.
   Image draw_image(const FrameView& view, int width);
 
  private:

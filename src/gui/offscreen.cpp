@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <fmt/core.h>
 
 #include "core/errors.h"
 
@@ -35,8 +36,9 @@ void OffscreenGui::resize(int width, int height) {
   gl.BindFramebuffer(GL_FRAMEBUFFER, surface_.framebuffer);
   gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture_, 0);
   if (gl.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
-    throw Error(ExitCode::unavailable, "the rendering context offers no window of " + std::to_string(width) +
-                                           " x " + std::to_string(height) + " px; ask for a smaller one");
+    throw Error(ExitCode::unavailable,
+                fmt::format("the rendering context offers no window of {} x {} px; ask for a smaller one",
+                            width, height));
   surface_.width = width;
   surface_.height = height;
   settle();
@@ -59,8 +61,7 @@ Image OffscreenGui::frame(double seconds) {
   gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
   gl.ReadPixels(0, 0, image.width, image.height, GL_RGB, GL_UNSIGNED_BYTE, image.pixels.data());
   if (const GLenum error = gl.GetError(); error != GL_NO_ERROR)
-    throw Error(ExitCode::internal,
-                "OpenGL reports error " + std::to_string(error) + " while drawing the window");
+    throw Error(ExitCode::internal, fmt::format("OpenGL reports error {} while drawing the window", error));
   return image;
 }
 
@@ -78,8 +79,7 @@ WidgetPlace OffscreenGui::place(std::string_view name) const {
     if (place.name == name) return place;
   std::string known;
   for (const WidgetPlace& place : places()) known += (known.empty() ? "" : ", ") + place.name;
-  throw Error(ExitCode::internal,
-              "no widget \"" + std::string(name) + "\" in the window; there are: " + known);
+  throw Error(ExitCode::internal, fmt::format("no widget \"{}\" in the window; there are: {}", name, known));
 }
 
 void OffscreenGui::move(float x, float y) {

@@ -1,6 +1,6 @@
 #pragma once
-/// The whole window without a display: driven by a program, seen as a picture. For tests, and for pictures of
-/// the window in texts.
+/// The whole window without a display, driven by a program and drawn as a picture, for tests and for pictures
+/// of the window in documents.
 
 #include <memory>
 #include <optional>
@@ -15,7 +15,7 @@ namespace talus {
 class OffscreenGui {
  public:
   /// A window of that size, px, in a context without a display; text and widgets are `scale` times as large
-  /// as usual. Throws Error(unavailable) where there is no context.
+  /// as usual. Throws Error(unavailable) if there is no context.
   OffscreenGui(ViewModel& model, int width, int height, float scale = 1.0f,
                std::optional<ContextKind> kind = std::nullopt);
   ~OffscreenGui();
@@ -24,15 +24,15 @@ class OffscreenGui {
 
   /// Lets time pass for the model, draws, and returns what the window shows: three channels.
   Image frame(double seconds = 0.0);
-  /// Draws until nothing that was done waits any more, and the layout stands. No time passes for the model.
+  /// Draws until no input waits any more and the layout is final. No time passes for the model.
   void settle();
 
   const std::vector<WidgetPlace>& places() const { return screen_.places(); }
   bool has(std::string_view name) const;
-  /// Where a widget is. Throws Error(internal) where none has that name.
+  /// The place of a widget. Throws Error(internal) if none has that name.
   WidgetPlace place(std::string_view name) const;
 
-  // What a hand does; each settles. A place inside a widget is a share of its width and height.
+  // Actions of a user; each settles. A place inside a widget is given as shares of its width and height.
   void move(float x, float y);
   void click(std::string_view name, float share_x = 0.5f, float share_y = 0.5f);
   void drag(std::string_view name, float from_x, float from_y, float to_x, float to_y, int button = 0);
@@ -44,7 +44,7 @@ class OffscreenGui {
   void resize(int width, int height);
   /// A view as talus render draws it.
   Image draw_image(const FrameView& view, int width) { return screen_.draw_image(view, width); }
-  /// All that widgets have asked for since the window was made.
+  /// Everything that widgets have requested since the window was made.
   const GuiRequests& requests() const { return requests_; }
 
  private:

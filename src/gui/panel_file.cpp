@@ -69,7 +69,8 @@ void draw_file_panel(Gui& gui) {
       ImGui::SetNextItemWidth(-1.0f);
       named_text(gui, "run path", "", state.run_path, "run file to write; it is recorded there from then on");
     }
-    if (named_button(gui, "save state", "Save state", "all that the run has done, to go on with later: s"))
+    if (named_button(gui, "save state", "Save state",
+                     "everything the run has done, so that it can go on later: s"))
       save_state(gui);
   }
   std::string command = gui.model.render_command();

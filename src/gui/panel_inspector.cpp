@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <fmt/core.h>
 
 #include "core/trigonometry.h"
 #include "gui/panels.h"
@@ -88,26 +89,27 @@ void draw_curve(Gui& gui, const Inspection& grain) {
 }
 
 void draw_state(const Inspection& grain, double diameter, double l_min) {
-  fact("radius", formatted("%.3f D", grain.radius / diameter));
-  fact("place", formatted("%.2f, %.2f D", grain.x / diameter, grain.y / diameter));
-  fact("velocity", formatted("%.3g, %.3g m/s", grain.vx, grain.vy));
-  fact("spin", formatted("%.3g rad/s", grain.omega));
+  fact("radius", fmt::format("{:.3f} D", grain.radius / diameter));
+  fact("place", fmt::format("{:.2f}, {:.2f} D", grain.x / diameter, grain.y / diameter));
+  fact("velocity", fmt::format("{:.3g}, {:.3g} m/s", grain.vx, grain.vy));
+  fact("spin", fmt::format("{:.3g} rad/s", grain.omega));
   if (!grain.free) return;
-  fact("M_x_x, M_y_y", formatted("%.3g, %.3g J/m", grain.internal_moment.xx, grain.internal_moment.yy));
-  fact("M_x_y, M_y_x", formatted("%.3g, %.3g J/m", grain.internal_moment.xy, grain.internal_moment.yx));
+  fact("M_x_x, M_y_y", fmt::format("{:.3g}, {:.3g} J/m", grain.internal_moment.xx, grain.internal_moment.yy));
+  fact("M_x_y, M_y_x", fmt::format("{:.3g}, {:.3g} J/m", grain.internal_moment.xy, grain.internal_moment.yx));
   if (std::isnan(grain.gamma)) {
     fact("γ", "carries nothing");
     return;
   }
-  fact("p = s_1 + s_2", formatted("%.3g J/m", grain.state.mean));
-  fact("q = s_1 − s_2", formatted("%.3g J/m", grain.state.deviator));
+  fact("p = s_1 + s_2", fmt::format("{:.3g} J/m", grain.state.mean));
+  fact("q = s_1 − s_2", fmt::format("{:.3g} J/m", grain.state.deviator));
   const char* overloaded = grain.overloaded ? ", overloaded" : "";
-  fact("γ = q/p", formatted("%.3f%s", grain.state.ratio, l_min > 0.0 ? "" : overloaded));
-  if (l_min > 0.0) fact(formatted("γ, ℓ = %g D", l_min), formatted("%.3f%s", grain.gamma, overloaded));
-  fact("major axis", formatted("%.1f° to the bed", grain.state.axis * 180.0 / pi));
-  if (grain.cluster >= 0) fact("cluster", formatted("%d grains", grain.cluster_size));
+  fact("γ = q/p", fmt::format("{:.3f}{}", grain.state.ratio, l_min > 0.0 ? "" : overloaded));
+  if (l_min > 0.0)
+    fact(fmt::format("γ, ℓ = {:g} D", l_min), fmt::format("{:.3f}{}", grain.gamma, overloaded));
+  fact("major axis", fmt::format("{:.1f}° to the bed", grain.state.axis * 180.0 / pi));
+  if (grain.cluster >= 0) fact("cluster", fmt::format("{} grains", grain.cluster_size));
   if (grain.coarse_graining_length)
-    fact("ℓ_c", formatted("%.2f D", *grain.coarse_graining_length / diameter));
+    fact("ℓ_c", fmt::format("{:.2f} D", *grain.coarse_graining_length / diameter));
 }
 
 }  // namespace
@@ -127,7 +129,7 @@ void draw_inspector(Gui& gui) {
   ImGui::SetNextItemWidth(9.0f * gui.em);
   named_slider(gui, "neighbourhood", "D", gui.model.state.neighbourhood, 1.0, 40.0, "l = %.1f",
                "the neighbourhood drawn: ; and '");
-  fact("γ_ℓ there", formatted("%.3f", grain->neighbourhood_gamma));
+  fact("γ_ℓ there", fmt::format("{:.3f}", grain->neighbourhood_gamma));
   draw_curve(gui, *grain);
 }
 

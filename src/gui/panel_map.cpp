@@ -52,7 +52,7 @@ void choose_range(Gui& gui) {
   MapSettings& map = gui.model.state.map;
   if (!has_bar(map.layers)) return;
   bool own = map.range_low || map.range_high;
-  if (named_checkbox(gui, "range", "range", own, "from where to where the bar goes, instead of its own")) {
+  if (named_checkbox(gui, "range", "range", own, "the ends of the bar, instead of the map's own")) {
     map.range_low.reset();
     map.range_high.reset();
     if (own) {
@@ -89,17 +89,19 @@ void draw_map_panel(Gui& gui) {
   choose_colours(gui);
   choose_range(gui);
   ImGui::Separator();
-  named_slider(gui, "l_min", "γ within ℓ", state.map.l_min, 0.0, 10.0, "%.1f D",
-               "diameter of the neighbourhood whose γ a grain has: 3 with its first neighbours, 0 alone");
+  named_slider(
+      gui, "l_min", "γ within ℓ", state.map.l_min, 0.0, 10.0, "%.1f D",
+      "diameter of the neighbourhood whose γ a grain has: 3, its first neighbours; 0, the grain alone");
   named_slider(gui, "threshold", "threshold in Γ_c", state.map.threshold_factor, 0.1, 4.0, "%.2f",
-               "grains are overloaded from this times Γc on: [ and ]");
+               "grains are overloaded from this multiple of Γc on: [ and ]");
   named_slider(gui, "length", "ℓ of the map coarse", state.map.length, 1.0, 40.0, "%.1f D",
                "diameter of the neighbourhoods of the map coarse: , and .");
   choose_reference(gui);
   ImGui::Separator();
   named_checkbox(gui, "turned", "turned to the slope", state.map.turned, "t");
-  named_checkbox(gui, "neighbours", "clusters of neighbours", state.map.joined_by_neighbours,
-                 "grains closer than 1.1 times the sum of their radii join, instead of those that touch");
+  named_checkbox(
+      gui, "neighbours", "clusters of neighbours", state.map.joined_by_neighbours,
+      "clusters join grains closer than 1.1 times the sum of their radii, instead of those that touch");
   named_checkbox(gui, "cluster", "mark the grain's cluster", state.highlight_cluster);
   named_checkbox(gui, "neighbourhoods", "draw its neighbourhoods", state.show_neighbourhoods);
   ImGui::Separator();

@@ -9,13 +9,13 @@ namespace talus {
 namespace {
 
 /// Plots as wide as they can be read, and as high as there is room, in rows.
-struct Grid {
+struct PlotGrid {
   int columns = 1;
   ImVec2 cell;
 };
 
-Grid lay_out_plots(const ImVec2& room, int count, float em) {
-  Grid grid;
+PlotGrid lay_out_plots(const ImVec2& room, int count, float em) {
+  PlotGrid grid;
   grid.columns = std::clamp(static_cast<int>(room.x / (15.0f * em)), 1, count);
   const int rows = (count + grid.columns - 1) / grid.columns;
   grid.columns = (count + rows - 1) / rows;
@@ -29,7 +29,7 @@ Grid lay_out_plots(const ImVec2& room, int count, float em) {
 void draw_plots(Gui& gui) {
   const auto plots = gui.model.plots();
   const ImVec2 room = ImGui::GetContentRegionAvail();
-  const Grid grid = lay_out_plots(room, static_cast<int>(plots.size()), gui.em);
+  const PlotGrid grid = lay_out_plots(room, static_cast<int>(plots.size()), gui.em);
   PlotMarks marks;
   marks.shown = degrees(gui.model.frame().tilt);
   if (gui.model.theta_c_known()) marks.theta_c = degrees(gui.model.theta_c());

@@ -1,3 +1,5 @@
+#include <fmt/core.h>
+
 #include "core/errors.h"
 #include "core/trigonometry.h"
 #include "gui/panels.h"
@@ -6,7 +8,7 @@
 namespace talus {
 namespace {
 
-/// How a live run stands, in lines.
+/// The state of a live run, in lines.
 void draw_status(const LiveStatus& status, bool theta_c_known, double theta_c) {
   if (!status.error.empty()) {
     ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0.7f, 0.1f, 0.0f, 1.0f));
@@ -14,11 +16,12 @@ void draw_status(const LiveStatus& status, bool theta_c_known, double theta_c) {
     ImGui::PopStyleColor();
   }
   fact("phase", status.done ? "ended" : status.depositing ? "deposition" : "tilt");
-  fact("θ", formatted("%.3f°", degrees(status.tilt)));
-  fact("step", formatted("%lld", static_cast<long long>(status.step)));
-  fact("time", formatted("%.3f s", status.time));
-  fact("speed", status.running ? formatted("%.0f steps/s", status.steps_per_second) : std::string("paused"));
-  if (theta_c_known) fact("θ_c", formatted("%.2f°", degrees(theta_c)));
+  fact("θ", fmt::format("{:.3f}°", degrees(status.tilt)));
+  fact("step", std::to_string(status.step));
+  fact("time", fmt::format("{:.3f} s", status.time));
+  fact("speed",
+       status.running ? fmt::format("{:.0f} steps/s", status.steps_per_second) : std::string("paused"));
+  if (theta_c_known) fact("θ_c", fmt::format("{:.2f}°", degrees(theta_c)));
   if (!status.state_hash.empty()) fact("state", status.state_hash);
 }
 
@@ -56,7 +59,7 @@ void draw_live(Gui& gui, LiveRun& live) {
     ImGui::TextWrapped("recorded in %s", output.c_str());
 }
 
-/// Goes on in the line where so much fits there.
+/// Continues the line if that much fits.
 void same_line_if_fits(float width) {
   ImGui::SameLine();
   if (ImGui::GetContentRegionAvail().x < width) ImGui::NewLine();
@@ -64,13 +67,13 @@ void same_line_if_fits(float width) {
 
 void draw_landmarks(Gui& gui) {
   ViewModel& model = gui.model;
-  struct Place {
+  struct LandmarkButton {
     const char* name;
     const char* label;
     Landmark landmark;
     const char* tip;
   };
-  const Place places[] = {
+  const LandmarkButton places[] = {
       {"first", "first", Landmark::first, "home"},
       {"theta_d", "θ_d", Landmark::theta_d, "where contraction turns into dilation: d"},
       {"length jump", "ℓ_c jumps", Landmark::length_jump,
@@ -79,7 +82,7 @@ void draw_landmarks(Gui& gui) {
       {"theta_c", "θ_c", Landmark::theta_c, "the last frame before failure: c"},
       {"last", "last", Landmark::last, "end"}};
   bool first = true;
-  for (const Place& place : places) {
+  for (const LandmarkButton& place : places) {
     if (!first) same_line_if_fits(rich_width(*ImGui::GetFont(), ImGui::GetFontSize(), place.label) + gui.em);
     first = false;
     ImGui::BeginDisabled(!model.has(place.landmark));
@@ -94,11 +97,11 @@ void draw_replay(Gui& gui) {
   ImGui::SameLine();
   if (named_button(gui, "back", "<", "one frame back: left arrow; with shift 10")) advance(gui, -1);
   ImGui::SameLine();
-  if (named_button(gui, "forward", ">", "one frame on: right arrow; with shift 10")) advance(gui, 1);
+  if (named_button(gui, "forward", ">", "one frame forward: right arrow; with shift 10")) advance(gui, 1);
   int frame = static_cast<int>(model.frame_index());
   ImGui::SetNextItemWidth(-1.0f);
   if (ImGui::SliderInt("##frame", &frame, 0, static_cast<int>(model.frame_count()) - 1,
-                       formatted("frame %%d of %zu", model.frame_count()).c_str(),
+                       fmt::format("frame %d of {}", model.frame_count()).c_str(),
                        ImGuiSliderFlags_AlwaysClamp))
     model.go_to(static_cast<std::size_t>(frame));
   note_place(gui, "frame");
@@ -108,14 +111,14 @@ void draw_replay(Gui& gui) {
   if (named_slider(gui, "speed", "deg/s", speed, 0.1, 20.0, "%.1f", "how fast a replay goes", true))
     model.set_speed(speed);
   ImGui::Separator();
-  fact("θ", formatted("%.3f°", degrees(model.frame().tilt)));
+  fact("θ", fmt::format("{:.3f}°", degrees(model.frame().tilt)));
   if (model.theta_c_known()) {
-    fact("θ_c", formatted("%.2f°", degrees(model.theta_c())));
-    fact("θ_c − θ", formatted("%.2f°", degrees(model.theta_c() - model.frame().tilt)));
+    fact("θ_c", fmt::format("{:.2f}°", degrees(model.theta_c())));
+    fact("θ_c − θ", fmt::format("{:.2f}°", degrees(model.theta_c() - model.frame().tilt)));
   }
-  fact("step", formatted("%lld", static_cast<long long>(model.frame().step)));
-  fact("time", formatted("%.3f s", model.frame().time));
-  fact("contacts", formatted("%d", model.frame().contacts.count()));
+  fact("step", std::to_string(model.frame().step));
+  fact("time", fmt::format("{:.3f} s", model.frame().time));
+  fact("contacts", std::to_string(model.frame().contacts.count()));
 }
 
 }  // namespace

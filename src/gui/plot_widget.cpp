@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/core.h>
 #include <limits>
 
-#include "maps/texts.h"
+#include "pictures/texts.h"
 
 namespace talus {
 namespace {
@@ -20,7 +21,7 @@ ImU32 curve_colour(std::size_t k) {
   return colours[k % std::size(colours)];
 }
 
-struct Range {
+struct AxisRange {
   double low = std::numeric_limits<double>::infinity();
   double high = -std::numeric_limits<double>::infinity();
 
@@ -40,7 +41,7 @@ struct Range {
 
 /// From values to pixels.
 struct Axes {
-  Range x, y;
+  AxisRange x, y;
   ImVec2 low, high;  ///< upper left and lower right corner of the frame
   bool log_y = false;
 
@@ -76,7 +77,7 @@ void draw_ticks(ImDrawList& list, const Axes& axes, float em) {
     const float y = axes.high.y - share * (axes.high.y - axes.low.y);
     list.AddLine({axes.low.x, y}, {axes.low.x + 0.3f * em, y}, ink);
     if (axes.log_y && tick.value != std::round(tick.value)) continue;
-    const std::string label = axes.log_y ? formatted("1e%.0f", tick.value) : tick.label;
+    const std::string label = axes.log_y ? fmt::format("1e{:.0f}", tick.value) : tick.label;
     const float width = ImGui::CalcTextSize(label.c_str()).x;
     list.AddText({axes.low.x - width - 0.2f * em, y - 0.5f * ImGui::GetFontSize()}, ink, label.c_str());
   }
@@ -86,7 +87,7 @@ constexpr float column_width = 2.0f;  // px: without a GPU each line takes its t
 
 /// The lowest and the highest point of a curve in a narrow column, in their order: all that can be seen of
 /// those in it.
-struct Column {
+struct PixelColumn {
   ImVec2 low, high;
   bool low_first = true;
 };
@@ -95,7 +96,7 @@ struct Column {
 /// it turns back.
 void draw_curve(ImDrawList& list, const Axes& axes, const PlotSeries& series, ImU32 colour, float width) {
   std::optional<ImVec2> pen;
-  std::optional<Column> column;
+  std::optional<PixelColumn> column;
   const auto draw_to = [&](const ImVec2& place) {
     if (pen) list.AddLine(*pen, place, colour, width);
     pen = place;
@@ -114,7 +115,7 @@ void draw_curve(ImDrawList& list, const Axes& axes, const PlotSeries& series, Im
     }
     const ImVec2 now{axes.px(series.x[k]), axes.py(series.y[k])};
     if (column && std::floor(now.x / column_width) != std::floor(column->low.x / column_width)) end_column();
-    if (!column) column = Column{now, now, true};
+    if (!column) column = PixelColumn{now, now, true};
     if (now.y < column->low.y) {
       column->low = now;
       column->low_first = false;
@@ -141,9 +142,9 @@ void show_values(const Plot& plot, const Axes& axes) {
   if (share < 0.0f || share > 1.0f) return;
   const double x = axes.x.low + static_cast<double>(share) * (axes.x.high - axes.x.low);
   ImGui::BeginTooltip();
-  rich_text(std::string(plot.x_title).append(": ").append(formatted("%.4g", x)));
+  rich_text(fmt::format("{}: {:.4g}", plot.x_title, x));
   for (const PlotSeries& series : plot.series)
-    rich_text(std::string(series.name).append(": ").append(formatted("%.4g", value_near(series, x))));
+    rich_text(fmt::format("{}: {:.4g}", series.name, value_near(series, x)));
   ImGui::EndTooltip();
 }
 

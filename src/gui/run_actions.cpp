@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/core.h>
 
 #include "core/errors.h"
 #include "core/trigonometry.h"
@@ -33,7 +34,7 @@ void send(Gui& gui, const Command& command) {
   if (!live) return;
   try {
     live->apply(command);
-    gui.model.state.message = "Applied before step " + std::to_string(live->status().step + 1) + ".";
+    gui.model.state.message = fmt::format("Applied before step {}.", live->status().step + 1);
   } catch (const Error& error) {
     gui.model.state.message = error.what();
   }
@@ -44,7 +45,7 @@ void reset(Gui& gui) {
   if (!model.is_live() || !model.may_discard()) return;
   try {
     model.restart(static_cast<std::uint64_t>(std::max(model.state.seed, 0)));
-    model.state.message = "A new run, seed " + std::to_string(model.seed()) + ".";
+    model.state.message = fmt::format("A new run, seed {}.", model.seed());
   } catch (const Error& error) {
     model.state.message = error.what();
   }
@@ -53,7 +54,7 @@ void reset(Gui& gui) {
 void save_state(Gui& gui) {
   ViewModel& model = gui.model;
   if (!model.is_live()) {
-    model.state.message = "A replay has nothing to save: its run file holds all of it.";
+    model.state.message = "A replay has nothing to save: its run file holds everything.";
     return;
   }
   try {
@@ -61,11 +62,8 @@ void save_state(Gui& gui) {
       model.record(model.state.run_path);
     else
       model.live()->save();
-    model.state.message = std::string("Saved at step ")
-                              .append(std::to_string(model.live()->status().step))
-                              .append(" in ")
-                              .append(model.recording().output)
-                              .append(".");
+    model.state.message =
+        fmt::format("Saved at step {} in {}.", model.live()->status().step, model.recording().output);
   } catch (const Error& error) {
     model.state.message = error.what();
   }
@@ -74,7 +72,7 @@ void save_state(Gui& gui) {
 void push_selected(Gui& gui) {
   const ViewState& state = gui.model.state;
   if (!state.selected) {
-    gui.model.state.message = "Click a grain first: the push goes to it.";
+    gui.model.state.message = "Click the grain to push first.";
     return;
   }
   const double speed = state.push_speed * std::sqrt(gui.model.statics().gravity * gui.model.mean_diameter());

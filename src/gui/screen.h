@@ -1,6 +1,6 @@
 #pragma once
-/// What a window and a picture without a display share: an ImGui context with its font, what draws it, and
-/// the input on its way to it.
+/// What a window and a picture without a display share: an ImGui context with its font, its drawing, and its
+/// input.
 
 #include <memory>
 #include <vector>
@@ -19,7 +19,7 @@ class MapTexture;
 
 class GuiScreen {
  public:
-  /// For a context that is current. `scale` is that of the display: 2 sets everything twice as large.
+  /// For a current context. `scale` is that of the display: 2 draws everything twice as large.
   GuiScreen(std::unique_ptr<Context> context, float scale);
   ~GuiScreen();
   GuiScreen(const GuiScreen&) = delete;
@@ -31,7 +31,7 @@ class GuiScreen {
 
   InputQueue& input() { return input_; }
   ImGuiIO& io();
-  /// Where the widgets are in the picture drawn last.
+  /// The places of the widgets in the last picture.
   const std::vector<WidgetPlace>& places() const { return places_; }
   /// A view as talus render draws it.
   Image draw_image(const FrameView& view, int width);

@@ -3,8 +3,6 @@
 
 #include <imgui.h>
 
-#include <array>
-#include <cstdio>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -24,12 +22,12 @@ struct Gui {
   std::string panel_asked;  ///< a panel that a key has asked for
 };
 
-/// Remembers where the widget drawn last is.
+/// Remembers the place of the last widget.
 void note_place(Gui& gui, std::string name);
 void note_place(Gui& gui, std::string name, const ImVec2& low, const ImVec2& high);
 
-/// Widgets that are remembered under `name`; true where the user has used them. Labels of buttons are rich
-/// texts. `tip` is shown under the mouse.
+/// Widgets that are remembered under `name`; true if the user has used them. Labels of buttons are rich
+/// texts. `tip` is shown when the mouse is over the widget.
 bool named_button(Gui& gui, const char* name, const char* label, const char* tip = nullptr);
 bool named_checkbox(Gui& gui, const char* name, const char* label, bool& value, const char* tip = nullptr);
 bool named_slider(Gui& gui, const char* name, const char* label, double& value, double low, double high,
@@ -38,7 +36,7 @@ bool named_number(Gui& gui, const char* name, const char* label, double& value, 
                   const char* tip = nullptr);
 bool named_number(Gui& gui, const char* name, const char* label, int& value, const char* tip = nullptr);
 bool named_text(Gui& gui, const char* name, const char* label, std::string& value, const char* tip = nullptr);
-/// A slider that shows `current`, and has a value only when it is let go.
+/// A slider that shows `current`, and returns a value only when it is released.
 std::optional<double> named_slider_when_done(Gui& gui, const char* name, const char* label, double current,
                                              double low, double high, const char* format,
                                              const char* tip = nullptr);
@@ -53,13 +51,5 @@ void add_rich_text(ImDrawList& list, const ImVec2& place, ImU32 colour, std::str
 
 /// "label   value" in two columns.
 void fact(std::string_view label, const std::string& value);
-
-/// Numbers in a text, as the C library formats them.
-template <typename... Values>
-std::string formatted(const char* format, const Values&... values) {
-  std::array<char, 512> text{};
-  std::snprintf(text.data(), text.size(), format, values...);
-  return text.data();
-}
 
 }  // namespace talus

@@ -5,10 +5,9 @@
 #include <GLFW/glfw3.h>
 
 #include <algorithm>
-#include <array>
 #include <cfloat>
-#include <cstdio>
 #include <filesystem>
+#include <fmt/core.h>
 #include <utility>
 
 #include "core/errors.h"
@@ -41,11 +40,10 @@ class Glfw {
     if (glfwInit()) return;
     const char* reason = nullptr;
     glfwGetError(&reason);
-    throw Error(
-        ExitCode::unavailable,
-        std::string("no window: ") + (reason ? reason : "GLFW does not start") +
-            "; talus view needs a display (is DISPLAY set?); talus render and talus view --screenshot "
-            "draw without");
+    throw Error(ExitCode::unavailable,
+                fmt::format("no window: {}; talus view needs a display (is DISPLAY set?); talus render and "
+                            "talus view --screenshot draw without",
+                            reason ? reason : "GLFW does not start"));
   }
   ~Glfw() { glfwTerminate(); }
   Glfw(const Glfw&) = delete;
@@ -70,17 +68,17 @@ WindowHandle make_window(int width, int height) {
   if (!window) {
     const char* reason = nullptr;
     glfwGetError(&reason);
-    throw Error(ExitCode::unavailable, std::string("no window with OpenGL 3.3: ") +
-                                           (reason ? reason : "unknown") +
-                                           "; apt-get install libgl1 libgl1-mesa-dri");
+    throw Error(ExitCode::unavailable,
+                fmt::format("no window with OpenGL 3.3: {}; apt-get install libgl1 libgl1-mesa-dri",
+                            reason ? reason : "unknown"));
   }
   glfwMakeContextCurrent(window.get());
   glfwSwapInterval(1);
   return window;
 }
 
-/// Text and widgets are so many times larger than on a usual display. Where the window has more pixels than
-/// its size says, those are finer and not more.
+/// The factor by which text and widgets are larger than on a usual display. Where the window has more pixels
+/// than its size says, they are finer rather than more.
 float display_scale(GLFWwindow* window) {
   float scale = 1.0f;
   int width = 1, pixels = 1, height = 0;
@@ -109,7 +107,7 @@ struct WindowState {
 
 namespace {
 
-/// What GLFW's callbacks change.
+/// The state that GLFW's callbacks change.
 WindowState& state_of(GLFWwindow* window) {
   return *static_cast<WindowState*>(glfwGetWindowUserPointer(window));
 }
@@ -185,7 +183,7 @@ void wait(WindowState& state, const ViewModel& model) {
     glfwPollEvents();
 }
 
-/// Lets the model go on, and notes whether there is something to draw.
+/// Advances the model, and notes whether there is something to draw.
 void update(WindowState& state, ViewModel& model) {
   const double now = glfwGetTime();
   const double seconds = state.last_update < 0.0 ? 0.0 : now - state.last_update;
@@ -201,9 +199,8 @@ void update(WindowState& state, ViewModel& model) {
 
 /// "bed.h5, 12.25° – Talus".
 void set_title(WindowState& state, const ViewModel& model) {
-  std::array<char, 32> tilt{};
-  std::snprintf(tilt.data(), tilt.size(), ", %.2f° – Talus", degrees(model.frame().tilt));
-  const std::string title = std::filesystem::path(model.path()).filename().string() + tilt.data();
+  const std::string file = std::filesystem::path(model.path()).filename().string();
+  const std::string title = fmt::format("{}, {:.2f}° – Talus", file, degrees(model.frame().tilt));
   if (title == state.title) return;
   state.title = title;
   glfwSetWindowTitle(state.window.get(), title.c_str());

@@ -15,19 +15,19 @@ struct WindowState;
 class GuiWindow {
  public:
   /// A window that is not shown yet, `width` x `height` times the scale of the display. Throws
-  /// Error(unavailable) where there is no display, or no OpenGL 3.3.
+  /// Error(unavailable) if there is no display, or no OpenGL 3.3.
   GuiWindow(int width, int height);
   ~GuiWindow();
   GuiWindow(const GuiWindow&) = delete;
   GuiWindow& operator=(const GuiWindow&) = delete;
 
-  /// Waits until there is something new to show, at most a tenth of a second, and shows it: at most 60
-  /// pictures a second, and none where nothing has changed. A file dropped on the window is asked to be
-  /// opened.
+  /// Waits until there is something new to show, for at most a tenth of a second, and shows it: at most 60
+  /// pictures a second, and none if nothing has changed. Dropping a file on the window requests to open
+  /// it.
   GuiRequests next_picture(ViewModel& model);
 
-  bool closed() const;  ///< asked to by its user
-  void stay_open();     ///< though it was asked to close
+  bool closed() const;  ///< whether its user asked to close it
+  void stay_open();     ///< cancels that request
   const std::vector<WidgetPlace>& places() const;
   /// A view as talus render draws it.
   Image draw_image(const FrameView& view, int width);

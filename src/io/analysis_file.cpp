@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <fmt/core.h>
 
 #include "core/errors.h"
 #include "core/text_stream.h"
@@ -15,68 +16,64 @@ namespace {
 
 const std::string group = "/analysis";
 
-/// "lc_cut = 40; joining = contacts": the parameters that a data set depends on, with their values.
-std::string parameters_text(const AnalysisField& field, const Facts& parameters) {
+/// "lc_cut = 40; joining = contacts": the parameters that a quantity depends on, with their values.
+std::string parameters_text(const std::string& names_of_quantity, const Facts& parameters) {
   std::string text;
-  std::istringstream names = text_stream(field.parameters);
+  std::istringstream names = text_stream(names_of_quantity);
   for (std::string name; names >> name;)
     for (const auto& [key, value] : parameters)
-      if (key == name) text += (text.empty() ? "" : "; ") + name + " = " + value;
+      if (key == name) text += fmt::format("{}{} = {}", text.empty() ? "" : "; ", name, value);
   return text.empty() ? "none" : text;
 }
 
-void write_array(hdf5::Writer& writer, const std::string& path, const AnalysisValues& values) {
-  std::visit([&](const auto& array) { writer.write(path, array); }, values);
+void describe(hdf5::Writer& writer, const std::string& path, const std::string& definition,
+              const std::string& parameters) {
+  writer.set_attribute(path, "definition", definition);
+  writer.set_attribute(path, "parameters", parameters);
 }
 
-void write_analysis(hdf5::Writer& writer, const Analysis& analysis) {
+void write_analysis(hdf5::Writer& writer, const Analysis& analysis, std::span<const Quantity> table) {
   writer.write_scalar(group + "/version", analysis_version);
   writer.write_text(group + "/key", analysis.key);
   for (const auto& [name, value] : analysis.parameters)
-    writer.write_text(group + "/parameters/" + name, value);
-  for (const AnalysisField& field : analysis_schema()) {
-    const std::string& path = field.data_set.path;
-    if (is_array(field)) {
-      if (!is_present(field, analysis.sizes)) continue;
-      write_array(writer, path, find_data_set(analysis, analysis_name(field)));
-    }
-    if (path.ends_with("/*")) continue;
-    writer.set_attribute(path, "definition", field.data_set.help);
-    writer.set_attribute(path, "parameters", parameters_text(field, analysis.parameters));
+    writer.write_text(fmt::format("{}/parameters/{}", group, name), value);
+  for (const char* name : {"/version", "/key"})
+    describe(writer, group + name, field_of(group + name).help, "none");
+  for (const Quantity& quantity : table) {
+    if (!is_present(quantity, analysis)) continue;
+    const DataSetField field = data_set_of(quantity);
+    std::visit([&](const auto& values) { writer.write(field, values); }, values_of(quantity, analysis));
+    describe(writer, field.path, quantity.definition,
+             parameters_text(quantity.parameters, analysis.parameters));
   }
 }
 
-AnalysisValues read_array(hdf5::Reader& reader, const DataSetField& field) {
-  if (field.type == ElementType::int32) return reader.read<Index>(field.path);
-  if (field.type == ElementType::float32) return reader.read<float>(field.path);
-  return reader.read<double>(field.path);
+Values read_values(hdf5::Reader& reader, const DataSetField& field) {
+  if (field.type == ElementType::int32) return reader.read<Index>(field);
+  if (field.type == ElementType::float32) return reader.read<float>(field);
+  return reader.read<double>(field);
 }
 
-/// The sizes of the letters of a stored analysis, each from a data set whose shape begins with it.
-Sizes stored_sizes(hdf5::Reader& reader) {
-  Sizes sizes = {{'N', reader.row_count("/particles/grains/id")}};
-  if (!reader.has(group + "/threshold")) sizes['F'] = 0;
-  for (const AnalysisField& field : analysis_schema()) {
-    if (!is_array(field) || field.data_set.shape.empty()) continue;
-    const Extent first = extents(field.data_set).front();
-    if (first.symbol != '\0' && !sizes.contains(first.symbol))
-      sizes[first.symbol] = reader.row_count(field.data_set.path) - first.plus;
+/// The tilts of the frames that an analysis has rows for: those up to the highest.
+std::vector<double> analysed_tilts(const std::string& path) {
+  auto tilts = hdf5::Reader::from_file(path).read_finite("/frames/tilt");
+  if (!tilts.empty()) tilts.erase(std::next(std::ranges::max_element(tilts)), tilts.end());
+  return tilts;
+}
+
+/// The frames and thresholds of a stored analysis, with nothing in them yet.
+void make_records(hdf5::Reader& reader, const std::vector<double>& tilts, Analysis& analysis) {
+  if (reader.has(group + "/threshold")) analysis.thresholds.resize(reader.row_count(group + "/threshold"));
+  for (const double tilt : tilts) {
+    analysis.frames.push_back({.tilt = tilt});
+    analysis.frames.back().thresholds.resize(analysis.thresholds.size());
   }
-  return sizes;
-}
-
-/// The frames of the tilt, those that an analysis has rows for.
-std::size_t tilted_frames(const std::string& path) {
-  const auto tilts = hdf5::Reader::from_file(path).read_finite("/frames/tilt");
-  const auto highest = std::ranges::max_element(tilts);
-  return static_cast<std::size_t>(highest - tilts.begin()) + (tilts.empty() ? 0 : 1);
 }
 
 /// Others take the rows of all these frames without looking.
 void check_frame_count(const hdf5::Reader& reader, std::size_t rows, std::size_t frames) {
   if (rows != frames)
-    reader.refuse(group, "(a group) has rows for " + std::to_string(rows) + " frames, the tilt has " +
-                             std::to_string(frames));
+    reader.refuse(group, fmt::format("(a group) has rows for {} frames, the tilt has {}", rows, frames));
 }
 
 /// The packed file at `path` without an analysis.
@@ -88,14 +85,16 @@ std::vector<std::byte> bare_bytes(const std::string& path, const std::string& st
                                                             : hash_text(talus::state_hash(World{}));
   if (stored_hash != state_hash)
     throw Error(ExitCode::cannot_create,
-                path + ": has become the file of another run while it was analysed; analyse it again");
+                path + ": was replaced by another run while it was being analysed; analyse it again");
   // HDF5 leaves holes where something is removed from a file, so a file that has an analysis is packed again.
-  return reader.has(group) ? packed_bytes(RunFile::open(path)) : std::move(bytes);
+  if (!reader.has(group)) return bytes;
+  const RunFile run = RunFile::open(path);
+  return packed_bytes(content_of(run));
 }
 
 }  // namespace
 
-std::optional<Analysis> read_analysis(const std::string& path) {
+std::optional<Analysis> read_analysis(const std::string& path, std::span<const Quantity> table) {
   verify_seal(path);
   hdf5::Reader reader = hdf5::Reader::from_file(path);
   if (!reader.has(group) || reader.read_scalar<std::int32_t>(group + "/version") != analysis_version)
@@ -103,21 +102,24 @@ std::optional<Analysis> read_analysis(const std::string& path) {
   Analysis analysis;
   analysis.key = reader.read_text(group + "/key");
   for (const std::string& name : reader.names(group + "/parameters"))
-    analysis.parameters.emplace_back(name, reader.read_text(group + "/parameters/" + name));
-  analysis.sizes = stored_sizes(reader);
-  check_frame_count(reader, analysis.sizes.at('T'), tilted_frames(path));
-  for (const AnalysisField& field : analysis_schema())
-    if (is_array(field) && is_present(field, analysis.sizes))
-      analysis.data_sets.emplace(analysis_name(field), read_array(reader, field.data_set));
+    analysis.parameters.emplace_back(name, reader.read_text(fmt::format("{}/parameters/{}", group, name)));
+  const std::vector<double> tilts = analysed_tilts(path);
+  check_frame_count(reader, reader.row_count(group + "/packing/volume"), tilts.size());
+  reader.row_count("/particles/grains/id");  // how many grains there are
+  make_records(reader, tilts, analysis);
+  for (const Quantity& quantity : table)
+    if (is_present(quantity, analysis))
+      set_values(quantity, read_values(reader, data_set_of(quantity)), analysis);
   return analysis;
 }
 
-void store_analysis(const std::string& path, const Analysis& analysis, const std::string& state_hash) {
-  hdf5::Writer writer(analysis.sizes, seal_size, bare_bytes(path, state_hash));
-  write_analysis(writer, analysis);
+void store_analysis(const std::string& path, const Analysis& analysis, const std::string& state_hash,
+                    std::span<const Quantity> table) {
+  hdf5::Writer writer(sizes_of(analysis), seal_size, bare_bytes(path, state_hash));
+  write_analysis(writer, analysis, table);
   std::vector<std::byte> file = writer.image();
   seal(file);
-  write_durably(path, file, path + ".tmp");
+  write_durably(path, file);
 }
 
 }  // namespace talus

@@ -1,11 +1,13 @@
 #pragma once
-/// Every data set of the analysis of a run, /analysis in its file, in one table: as run_schema.h for the run
-/// itself. docs/analysis.md is compared with it by a test.
+/// The data sets of the analysis of a run, /analysis in its file: a version, a key, parameters as texts, and
+/// the table of quantities.
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "analysis/quantities.h"
 #include "io/run_schema.h"
 
 namespace talus {
@@ -14,22 +16,19 @@ namespace talus {
 /// computed again.
 inline constexpr std::int32_t analysis_version = 3;
 
-struct AnalysisField {
-  DataSetField data_set;
-  std::string parameters;  ///< names of those that it depends on, with blanks between; may be empty
-};
+/// The data set of a quantity.
+DataSetField data_set_of(const Quantity& quantity);
 
-const std::vector<AnalysisField>& analysis_schema();
+/// All data sets, in the order in which they are written.
+std::vector<DataSetField> analysis_schema(std::span<const Quantity> table = quantities());
 
-/// "theta_d/dilation" for "/analysis/theta_d/dilation", and back.
-std::string analysis_name(const AnalysisField& field);
+/// "/analysis/lc/mean" for "lc/mean".
 std::string analysis_path(std::string_view name);
 
-/// Whether it is a number or an array of numbers that make_analysis makes; the few texts and the version
-/// have places of their own.
-bool is_array(const AnalysisField& field);
+/// The letters of the shapes for an analysis of one frame at least.
+Sizes sizes_of(const Analysis& analysis);
 
-/// Whether an analysis of these sizes has it: what needs a threshold is not there for F = 0.
-bool is_present(const AnalysisField& field, const Sizes& sizes);
+/// Whether an analysis has it: what needs a threshold is not there without any.
+bool is_present(const Quantity& quantity, const Analysis& analysis);
 
 }  // namespace talus

@@ -1,7 +1,8 @@
 #include <algorithm>
-#include <array>
+#include <fmt/core.h>
 
 #include "core/hash.h"
+#include "io/record_fields.h"
 #include "io/run_records.h"
 
 namespace talus {
@@ -9,100 +10,46 @@ namespace {
 
 const std::string here = "/checkpoint/";
 
-constexpr double any = -hdf5::Reader::infinity;
-
-struct GrainField {
-  const char* name;
-  std::vector<double> Grains::*values;
-  double low;  ///< least value that can be
-};
-constexpr std::array<GrainField, 11> grain_fields = {{{"x", &Grains::x, any},
-                                                      {"y", &Grains::y, any},
-                                                      {"vx", &Grains::vx, any},
-                                                      {"vy", &Grains::vy, any},
-                                                      {"omega", &Grains::omega, any},
-                                                      {"radius", &Grains::radius, 0.0},
-                                                      {"inverse_mass", &Grains::inverse_mass, 0.0},
-                                                      {"inverse_inertia", &Grains::inverse_inertia, 0.0},
-                                                      {"mass", &Grains::mass, 0.0},
-                                                      {"inertia", &Grains::inertia, 0.0},
-                                                      {"angle", &Grains::angle, any}}};
-
-void write_boundary(hdf5::Writer& writer, const Boundary& boundary) {
-  std::vector<double> normal, offset;
-  std::vector<std::int8_t> wall;
-  for (const Plane& plane : boundary.planes) {
-    normal.insert(normal.end(), {plane.normal.x, plane.normal.y});
-    offset.push_back(plane.offset);
-    wall.push_back(plane.wall ? 1 : 0);
-  }
-  writer.write_scalar<std::int8_t>(here + "periodic", boundary.periodic ? 1 : 0);
-  writer.write_scalar(here + "length", boundary.length);
-  writer.write(here + "plane_normal", normal);
-  writer.write(here + "plane_offset", offset);
-  writer.write(here + "plane_wall", wall);
+template <typename World, typename Fields>
+void for_each_field(World& world, Fields fields) {
+  fields.scalar(here + "step", world.step);
+  fields.scalar(here + "time", world.time);
+  fields.scalar(here + "tilt", world.tilt);
+  fields.scalar(here + "gravity", world.gravity, not_negative);
+  auto& grains = world.grains;
+  fields.scalar(here + "free_count", grains.free_count);
+  fields.array(here + "x", grains.x);
+  fields.array(here + "y", grains.y);
+  fields.array(here + "vx", grains.vx);
+  fields.array(here + "vy", grains.vy);
+  fields.array(here + "omega", grains.omega);
+  fields.array(here + "radius", grains.radius, not_negative);
+  fields.array(here + "inverse_mass", grains.inverse_mass, not_negative);
+  fields.array(here + "inverse_inertia", grains.inverse_inertia, not_negative);
+  fields.array(here + "mass", grains.mass, not_negative);
+  fields.array(here + "inertia", grains.inertia, not_negative);
+  fields.array(here + "angle", grains.angle);
+  fields.array(here + "image", grains.image);
+  auto& boundary = world.boundary;
+  fields.scalar(here + "periodic", boundary.periodic);
+  fields.scalar(here + "length", boundary.length, Range{1e-9, 1e15});
+  fields.column(here + "plane_normal", boundary.planes, &Plane::normal, Range{-2.0, 2.0});
+  fields.column(here + "plane_offset", boundary.planes, &Plane::offset);
+  fields.column(here + "plane_wall", boundary.planes, &Plane::wall);
+  auto& contacts = world.contacts;
+  fields.pairs(here + "contact_pair", contacts.a, contacts.b);
+  fields.array(here + "contact_shift", contacts.shift);
+  fields.pairs(here + "contact_normal", contacts.nx, contacts.ny, Range{-2.0, 2.0});
+  fields.array(here + "contact_gap", contacts.gap);
+  fields.pairs(here + "contact_force", contacts.fn, contacts.ft);
 }
 
-Boundary read_boundary(hdf5::Reader& reader) {
-  Boundary boundary;
-  boundary.periodic = reader.read_scalar<std::int8_t>(here + "periodic") != 0;
-  boundary.length = reader.read_finite_scalar(here + "length", 1e-9, 1e15);
-  const auto normal = reader.read_finite(here + "plane_normal", -2.0, 2.0);
-  const auto offset = reader.read_finite(here + "plane_offset");
-  const auto wall = reader.read<std::int8_t>(here + "plane_wall");
-  for (std::size_t k = 0; k < offset.size(); ++k)
-    boundary.planes.push_back({{normal[2 * k], normal[2 * k + 1]}, offset[k], wall[k] != 0});
-  return boundary;
-}
-
-void write_memory(hdf5::Writer& writer, const Contacts& c) {
-  writer.write(here + "contact_pair", interleaved(c.a, c.b));
-  writer.write(here + "contact_shift", c.shift);
-  writer.write(here + "contact_normal", interleaved(c.nx, c.ny));
-  writer.write(here + "contact_gap", c.gap);
-  writer.write(here + "contact_force", interleaved(c.fn, c.ft));
-}
-
-Contacts read_memory(hdf5::Reader& reader) {
-  Contacts c;
-  const auto pair = reader.read<Index>(here + "contact_pair");
-  const auto normal = reader.read_finite(here + "contact_normal", -2.0, 2.0);
-  const auto force = reader.read_finite(here + "contact_force");
-  c.a = component(pair, 2, 0);
-  c.b = component(pair, 2, 1);
-  c.shift = reader.read<std::int8_t>(here + "contact_shift");
-  c.nx = component(normal, 2, 0);
-  c.ny = component(normal, 2, 1);
-  c.gap = reader.read_finite(here + "contact_gap");
-  c.fn = component(force, 2, 0);
-  c.ft = component(force, 2, 1);
-  return c;
-}
-
-void write_world(hdf5::Writer& writer, const World& world) {
-  writer.write_text(here + "state_hash", hash_text(state_hash(world)));
-  writer.write_scalar(here + "step", world.step);
-  writer.write_scalar(here + "time", world.time);
-  writer.write_scalar(here + "tilt", world.tilt);
-  writer.write_scalar(here + "gravity", world.gravity);
-  writer.write_scalar(here + "free_count", world.grains.free_count);
-  for (const GrainField& field : grain_fields) writer.write(here + field.name, world.grains.*field.values);
-  writer.write(here + "image", world.grains.image);
-  write_boundary(writer, world.boundary);
-  write_memory(writer, world.contacts);
-}
-
-Grains read_grains(hdf5::Reader& reader) {
-  Grains grains;
-  for (const GrainField& field : grain_fields)
-    grains.*field.values = reader.read_finite(here + field.name, field.low);
-  grains.image = reader.read<Index>(here + "image");
-  grains.free_count = reader.read_scalar<Index>(here + "free_count");
+void check_grains(const hdf5::Reader& reader, const Grains& grains) {
   if (grains.free_count < 0 || grains.free_count > grains.count())
     reader.refuse(here + "free_count", "is not between 0 and the number of grains");
   const double farthest = grains.radius.empty() ? 0.0 : 1e8 * *std::ranges::max_element(grains.radius);
-  for (const char* name : {"x", "y"}) reader.read_finite(here + name, -farthest, farthest);
-  return grains;
+  reader.check(here + "x", grains.x, -farthest, farthest);
+  reader.check(here + "y", grains.y, -farthest, farthest);
 }
 
 void check_contacts(const hdf5::Reader& reader, const World& world) {
@@ -116,18 +63,13 @@ void check_contacts(const hdf5::Reader& reader, const World& world) {
 
 World read_world(hdf5::Reader& reader) {
   World world;
-  world.step = reader.read_scalar<std::int64_t>(here + "step");
+  for_each_field(world, FieldReader(reader));
   if (world.step < 0) reader.refuse(here + "step", "is negative");
-  world.time = reader.read_finite_scalar(here + "time");
-  world.tilt = reader.read_finite_scalar(here + "tilt");
-  world.gravity = reader.read_finite_scalar(here + "gravity", 0.0, hdf5::Reader::infinity);
-  world.grains = read_grains(reader);
-  world.boundary = read_boundary(reader);
-  world.contacts = read_memory(reader);
+  check_grains(reader, world.grains);
   check_contacts(reader, world);
   const std::string stored = reader.read_text(here + "state_hash"), found = hash_text(state_hash(world));
   if (stored != found)
-    reader.refuse(here + "state_hash", "is " + stored.substr(0, 16) + ", the state has " + found);
+    reader.refuse(here + "state_hash", fmt::format("is {}, the state has {}", stored.substr(0, 16), found));
   return world;
 }
 
@@ -154,12 +96,17 @@ std::vector<std::pair<std::string, T>> read_named(hdf5::Reader& reader, const st
 
 }  // namespace
 
-void write_checkpoint(hdf5::Writer& writer, const Checkpoint& checkpoint) {
-  write_world(writer, checkpoint.world);
-  write_named(writer, "/checkpoint/integers", checkpoint.integers);
-  write_named(writer, "/checkpoint/reals", checkpoint.reals);
+void write_results(hdf5::Writer& writer, const Checkpoint& checkpoint) {
   write_named(writer, "/results", checkpoint.results);
   write_named(writer, "/provenance/timing", checkpoint.timing);
+}
+
+void write_checkpoint(hdf5::Writer& writer, const Checkpoint& checkpoint) {
+  writer.write_text(here + "state_hash", hash_text(state_hash(checkpoint.world)));
+  for_each_field(checkpoint.world, FieldWriter(writer));
+  write_named(writer, "/checkpoint/integers", checkpoint.integers);
+  write_named(writer, "/checkpoint/reals", checkpoint.reals);
+  write_results(writer, checkpoint);
 }
 
 Checkpoint read_results(hdf5::Reader& reader) {

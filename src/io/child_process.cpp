@@ -8,6 +8,7 @@
 
 #include <cerrno>
 #include <csignal>
+#include <fmt/core.h>
 #include <fstream>
 #include <new>
 #include <span>
@@ -50,7 +51,7 @@ int keep_only(int pipe) {
 void restrain(pid_t parent, std::size_t input) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) _exit(1);  // it has ended already
-  for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, SIG_DFL);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGALRM}) std::signal(signal, SIG_DFL);
   const int nowhere = ::open("/dev/null", O_RDWR | O_CLOEXEC);
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) ::dup2(nowhere, stream);
   limit(RLIMIT_CORE, 0);
@@ -136,19 +137,10 @@ int wait_for(pid_t child) {
 [[noreturn]] void refuse(const std::string& path, int status) {
   const bool too_long = WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGALRM ||
                                                 WTERMSIG(status) == SIGKILL);
-  throw Error(ExitCode::bad_data, path + ": cannot be read: " +
-                                      (too_long ? "it takes HDF5 longer than a file of its size can need"
-                                                : "HDF5 fails on it (in a process of its own)") +
-                                      "; the file is malformed, write it again");
-}
-
-/// The next piece of a child; false where there is none.
-bool receive(const Descriptor& pipe, const std::string& path, std::size_t input, Bytes& message) {
-  std::uint64_t size = 0;
-  if (read_at_most(pipe, std::as_writable_bytes(std::span(&size, 1)), path) != sizeof size) return false;
-  if (size > memory_limit(input)) return false;
-  message.resize(size);
-  return read_at_most(pipe, message, path) == size;
+  throw Error(ExitCode::bad_data,
+              fmt::format("{}: cannot be read: {}; the file is malformed, write it again", path,
+                          too_long ? "HDF5 takes longer to read it than a file of its size can need"
+                                   : "HDF5 fails on it (in a process of its own)"));
 }
 
 }  // namespace
@@ -162,28 +154,6 @@ Bytes in_child_process(const std::string& path, std::size_t input, const std::fu
   message.pop_back();
   if (code == ExitCode::done) return message;
   throw Error(code, std::string(reinterpret_cast<const char*>(message.data()), message.size()));
-}
-
-void in_child_processes(const std::string& path, std::size_t input, const ChildWork& work) {
-  std::size_t next = 0;
-  for (int children = 0; next < work.count && children < most_children; ++children) {
-    Child child = start(path, input, [&](int pipe) {
-      for (std::size_t k = next; k < work.count; ++k) {
-        const Bytes message = outcome_of(path, [&] { return work.work(k); });
-        const std::uint64_t size = message.size();
-        send(pipe, std::as_bytes(std::span(&size, 1)));
-        send(pipe, message);
-      }
-    });
-    for (Bytes message; next < work.count && receive(child.pipe, path, input, message); ++next) {
-      if (message.empty() || message.back() != std::byte{0}) continue;
-      message.pop_back();
-      work.take(next, std::move(message));
-    }
-    child.pipe.close();  // one that goes on speaking ends
-    wait_for(child.process);
-    ++next;  // it ended with this one
-  }
 }
 
 }  // namespace talus

@@ -17,17 +17,4 @@ namespace talus {
 std::vector<std::byte> in_child_process(const std::string& path, std::size_t input,
                                         const std::function<std::vector<std::byte>()>& work);
 
-/// Work in pieces, of which some may end the process that does them.
-struct ChildWork {
-  std::size_t count = 0;
-  std::function<std::vector<std::byte>(std::size_t)> work;        ///< done in the child
-  std::function<void(std::size_t, std::vector<std::byte>)> take;  ///< of what a piece returned, here
-};
-
-/// Does the pieces 0 ... count - 1 one after another in a child that is restrained as above. A piece that
-/// throws an Error returns nothing to take; nor does one that ends its child, and the next one then has a new
-/// child. There are at most `most_children` of them: what is left then is not done.
-void in_child_processes(const std::string& path, std::size_t input, const ChildWork& work);
-inline constexpr int most_children = 8;
-
 }  // namespace talus

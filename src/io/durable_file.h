@@ -6,28 +6,26 @@
 #include <string>
 #include <vector>
 
+#include "core/output_file.h"
+
 namespace talus {
 
 /// The whole file. Throws Error(missing_input) where it cannot be opened, Error(io_error) where reading
 /// fails.
 std::vector<std::byte> read_file(const std::string& path);
+std::string read_text(const std::string& path);
 
-/// Writes `bytes` to the name `temporary`, makes them durable, renames to `path` and makes the name durable:
-/// a file called `path` is always whole. Both names must be on one file system. A temporary file that a kill
-/// left is replaced. Throws Error(io_error), creation_error, and Error(cannot_create) where another process
-/// writes to the same name.
-void write_durably(const std::string& path, std::span<const std::byte> bytes, const std::string& temporary);
+/// Writes `bytes` as an OutputFile, commits it, and makes its name durable: a file called `path` is always
+/// whole. Throws as OutputFile does, and what `check` throws.
+void write_durably(const std::string& path, std::span<const std::byte> bytes, const CheckFile& check = {});
+
+/// The same of a text.
+void write_text(const std::string& path, const std::string& text);
 
 /// Creates a folder durably; one that exists already is taken. Throws creation_error.
 void make_folder(const std::string& path);
 
-/// Makes durable that a file or folder has this name, or has it no longer. Throws Error(io_error).
-void sync_name(const std::string& path);
-
 /// Removes a file if there is one. Throws Error(io_error).
 void remove_file(const std::string& path);
-
-/// The folder that holds `path`, "." for a bare name.
-std::string parent_folder(const std::string& path);
 
 }  // namespace talus

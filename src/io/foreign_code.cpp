@@ -11,9 +11,9 @@ namespace {
 
 using Bytes = std::vector<std::byte>;
 
-enum class Kind : std::uint64_t { group, reals, integers };
+enum class MemberKind : std::uint64_t { group, reals, integers };
 
-void append_name(Bytes& bytes, Kind kind, const std::string& path) {
+void append_name(Bytes& bytes, MemberKind kind, const std::string& path) {
   append_number(bytes, static_cast<std::uint64_t>(kind));
   append_counted(bytes, path);
 }
@@ -22,13 +22,13 @@ void append_name(Bytes& bytes, Kind kind, const std::string& path) {
 
 Bytes encode(const ForeignFile& file) {
   Bytes bytes;
-  for (const std::string& group : file.groups) append_name(bytes, Kind::group, group);
+  for (const std::string& group : file.groups) append_name(bytes, MemberKind::group, group);
   for (const auto& [path, values] : file.reals) {
-    append_name(bytes, Kind::reals, path);
+    append_name(bytes, MemberKind::reals, path);
     append_counted(bytes, values);
   }
   for (const auto& [path, values] : file.integers) {
-    append_name(bytes, Kind::integers, path);
+    append_name(bytes, MemberKind::integers, path);
     append_counted(bytes, values);
   }
   return bytes;
@@ -39,19 +39,19 @@ ForeignFile decode(std::span<const std::byte> bytes, const std::string& path) {
   ForeignFile file;
   bool makes_sense = true;
   while (makes_sense && !source.at_end()) {
-    const auto kind = static_cast<Kind>(source.number());
+    const auto kind = static_cast<MemberKind>(source.number());
     const auto name = source.counted<std::string>();
-    if (kind == Kind::group)
+    if (kind == MemberKind::group)
       file.groups.insert(name);
-    else if (kind == Kind::reals)
+    else if (kind == MemberKind::reals)
       file.reals[name] = source.counted<std::vector<double>>();
-    else if (kind == Kind::integers)
+    else if (kind == MemberKind::integers)
       file.integers[name] = source.counted<std::vector<Index>>();
     else
       makes_sense = false;
   }
   if (!makes_sense || !source.succeeded())
-    throw Error(ExitCode::bad_data, path + ": cannot be read: HDF5 makes nonsense of it");
+    throw Error(ExitCode::bad_data, path + ": cannot be read: HDF5 reads nonsense from it");
   return file;
 }
 

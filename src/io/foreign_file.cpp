@@ -1,6 +1,7 @@
 #include "io/foreign_file.h"
 
 #include <filesystem>
+#include <fmt/core.h>
 #include <system_error>
 
 #include "core/errors.h"
@@ -42,12 +43,12 @@ class OpenFile {
 
  private:
   [[noreturn]] void refuse(const std::string& path, const std::string& problem) const {
-    throw Error(ExitCode::bad_data, path_ + ": data set " + path + " " + problem);
+    throw Error(ExitCode::bad_data, fmt::format("{}: data set {} {}", path_, path, problem));
   }
 
   Handle open(const std::string& path, bool of_reals) const {
     Handle set(H5Dopen2(file_.get(), path.c_str(), H5P_DEFAULT), H5Dclose);
-    if (set.get() < 0) refuse(path, "cannot be opened: it is no data set");
+    if (set.get() < 0) refuse(path, "cannot be opened: it is not a data set");
     const Handle type(H5Dget_type(set.get()), H5Tclose);
     const H5T_class_t kind = H5Tget_class(type.get());
     if (kind != H5T_INTEGER && !(of_reals && kind == H5T_FLOAT))
@@ -60,7 +61,7 @@ class OpenFile {
     const Handle space(H5Dget_space(set.get()), H5Sclose);
     const hssize_t count = H5Sget_simple_extent_npoints(space.get());
     if (count < 0 || !hdf5::can_hold(size_, static_cast<hsize_t>(count)))
-      refuse(path, "has a size that cannot be true");
+      refuse(path, "has an impossible size");
     return static_cast<std::size_t>(count);
   }
 

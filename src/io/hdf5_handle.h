@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <fmt/core.h>
 #include <iterator>
 #include <new>
 #include <span>
@@ -41,6 +42,12 @@ class Handle {
  private:
   hid_t id_ = -1;
   Close close_ = nullptr;
+};
+
+/// A data set that is open.
+struct DataSet {
+  Handle id;
+  std::vector<hsize_t> dims;
 };
 
 /// Keeps HDF5 from printing errors, which we report ourselves, from loading plugins into this process, and
@@ -80,7 +87,7 @@ inline Handle open_image(std::vector<std::byte>& image, const std::string& name,
   if (H5Pset_fapl_core(access.get(), 1 << 20, false) < 0 ||
       H5Pset_file_image(access.get(), image.data(), image.size()) < 0)
     throw Error(ExitCode::out_of_memory, name + ": no memory to open it");
-  const std::string unique = memory_name(name + " " + hash_text(hash_bytes(image)));
+  const std::string unique = memory_name(fmt::format("{} {}", name, hash_text(hash_bytes(image))));
   return {H5Fopen(unique.c_str(), access_flags, access.get()), H5Fclose};
 }
 

@@ -3,18 +3,20 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fmt/core.h>
+#include <optional>
 #include <span>
 
 #include "core/errors.h"
+#include "core/text.h"
+#include "io/file_in_use.h"
 
 namespace talus::hdf5 {
 namespace {
 
 Handle open_or_refuse(Handle file, const std::string& name) {
   if (file.get() < 0) throw_cause(name);
-  if (file.get() < 0)
-    throw Error(ExitCode::bad_data,
-                name + ": HDF5 cannot open it, although its hash is right: it was made otherwise");
+  if (file.get() < 0) throw Error(ExitCode::bad_data, name + ": HDF5 cannot open it: it is malformed");
   return file;
 }
 
@@ -23,20 +25,7 @@ hsize_t size_of(const Handle& file) {
   return H5Fget_filesize(file.get(), &size) < 0 ? 0 : size;
 }
 
-std::string shape_text(const std::vector<hsize_t>& dims) {
-  std::string text = "[";
-  for (std::size_t d = 0; d < dims.size(); ++d) {
-    if (d > 0) text += ' ';
-    text += std::to_string(dims[d]);
-  }
-  return text + "]";
-}
-
-std::string short_number(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.6g", value);
-  return text.data();
-}
+std::string shape_text(const std::vector<hsize_t>& dims) { return fmt::format("[{}]", joined(dims, " ")); }
 
 bool is_fixed_text(hid_t type) { return H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) == 0; }
 
@@ -46,23 +35,25 @@ Reader::Reader(Handle file, std::string name, Sizes sizes)
     : file_(std::move(file)), file_size_(size_of(file_)), name_(std::move(name)), sizes_(std::move(sizes)) {}
 
 Reader Reader::from_memory(std::vector<std::byte> image, const std::string& name, const Sizes& known) {
+  const FileInUse in_use(name);
   return Reader(open_or_refuse(open_image(image, name, H5F_ACC_RDONLY), name), name, known);
 }
 
 Reader Reader::from_file(const std::string& path) {
+  const FileInUse in_use(path);
   set_library_policy();
   Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
   return Reader(open_or_refuse(std::move(file), path), path, {});
 }
 
 void Reader::refuse(const std::string& path, const std::string& problem) const {
-  const std::string data_set = name_ + ": data set " + path;
+  const std::string data_set = fmt::format("{}: data set {}", name_, path);
   throw_cause(data_set);
-  throw Error(ExitCode::bad_data, data_set + " " + problem);
+  throw Error(ExitCode::bad_data, fmt::format("{} {}", data_set, problem));
 }
 
-void Reader::check_shape(const std::string& path, const std::vector<hsize_t>& dims) {
-  const DataSetField& field = field_of(path);
+void Reader::check_shape(const DataSetField& field, const std::string& path,
+                         const std::vector<hsize_t>& dims) {
   const std::vector<Extent> shape = extents(field);
   bool fits = dims.size() == shape.size();
   for (std::size_t d = 0; fits && d < dims.size(); ++d) {
@@ -78,31 +69,31 @@ void Reader::check_shape(const std::string& path, const std::vector<hsize_t>& di
   std::string expected;
   for (const auto& [symbol, size] : sizes_)
     if (field.shape.find(symbol) != std::string::npos)
-      expected +=
-          (expected.empty() ? " with " : ", ") + std::string(1, symbol) + " = " + std::to_string(size);
-  refuse(path, "has shape " + shape_text(dims) + ", expected [" + field.shape + "]" + expected);
+      expected += fmt::format("{}{} = {}", expected.empty() ? " with " : ", ", symbol, size);
+  refuse(path, fmt::format("has shape {}, expected [{}]{}", shape_text(dims), field.shape, expected));
 }
 
-Reader::DataSet Reader::open(const std::string& path) {
+DataSet Reader::open(const DataSetField& field, const std::string& path) {
+  const FileInUse in_use(name_);
   const Found found = find(file_.get(), path);
   if (found == Found::nothing) refuse(path, "is missing");
   if (found == Found::a_link_elsewhere) refuse(path, "is a link to another place, which is not followed");
   DataSet set;
   set.id = Handle(H5Dopen2(file_.get(), path.c_str(), H5P_DEFAULT), H5Dclose);
-  if (set.id.get() < 0) refuse(path, "cannot be opened: it is no data set");
+  if (set.id.get() < 0) refuse(path, "cannot be opened: it is not a data set");
   const Handle type(H5Dget_type(set.id.get()), H5Tclose), space(H5Dget_space(set.id.get()), H5Sclose);
-  const ElementType expected = field_of(path).type;
+  const ElementType expected = field.type;
   const bool same = expected == ElementType::text ? is_fixed_text(type.get())
                                                   : H5Tequal(type.get(), file_type(expected)) > 0;
-  if (!same) refuse(path, "has another type than " + std::string(type_name(expected)));
+  if (!same) refuse(path, fmt::format("is not of the type {}", type_name(expected)));
   if (expected == ElementType::text && !can_hold(file_size_, H5Tget_size(type.get())))
-    refuse(path, "is too long to be true");
+    refuse(path, "is longer than the file can hold");
   if (!is_stored_within(set.id.get())) refuse(path, "has its values in another file");
   const int rank = H5Sget_simple_extent_ndims(space.get());
   if (rank < 0) refuse(path, "has no shape");
   set.dims.resize(static_cast<std::size_t>(rank));
   if (H5Sget_simple_extent_dims(space.get(), set.dims.data(), nullptr) != rank) refuse(path, "has no shape");
-  check_shape(path, set.dims);
+  check_shape(field, path, set.dims);
   return set;
 }
 
@@ -110,19 +101,19 @@ std::size_t Reader::block_size(const DataSet& set, const std::string& path, std:
                                std::uint64_t count) const {
   if (set.dims.empty()) return 1;
   if (count > set.dims[0] || first > set.dims[0] - count)
-    refuse(path, "has " + std::to_string(set.dims[0]) + " rows; row " + std::to_string(first + count) +
-                     " was asked for");
+    refuse(path, fmt::format("has {} rows; row {} was asked for", set.dims[0], first + count));
   constexpr hsize_t most = hsize_t{1} << 40;  // more than any file can hold
   hsize_t size = std::min<hsize_t>(count, most);
   for (std::size_t d = 1; d < set.dims.size(); ++d)
     size = set.dims[d] > most / std::max<hsize_t>(size, 1) ? most : size * set.dims[d];
   if (!can_hold(file_size_, size))
-    refuse(path, "of shape " + shape_text(set.dims) + " is too large to be true");
+    refuse(path, fmt::format("of shape {} is larger than the file can hold", shape_text(set.dims)));
   return size;
 }
 
 void Reader::read_block(const DataSet& set, const std::string& path, std::uint64_t first, std::uint64_t count,
                         hid_t type, void* values) const {
+  const FileInUse in_use(name_);
   if (!set.dims.empty() && count == 0) return;
   const Handle space(H5Dget_space(set.id.get()), H5Sclose);
   std::vector<hsize_t> start(set.dims.size(), 0), block = set.dims;
@@ -142,10 +133,10 @@ void Reader::check(const std::string& path, const std::vector<double>& values, d
                    double high) const {
   for (std::size_t k = 0; k < values.size(); ++k)
     if (!(values[k] >= low && values[k] <= high && std::isfinite(values[k])))
-      refuse(path, "holds " + short_number(values[k]) + " at index " + std::to_string(k) + ", expected " +
-                       (std::isinf(high) && std::isinf(low) ? "a finite number"
-                        : std::isinf(high)                  ? "a finite number >= " + short_number(low)
-                                           : short_number(low) + " to " + short_number(high)));
+      refuse(path, fmt::format("holds {:.6g} at index {}, expected {}", values[k], k,
+                               std::isinf(high) && std::isinf(low) ? "a finite number"
+                               : std::isinf(high) ? fmt::format("a finite number >= {:.6g}", low)
+                                                  : fmt::format("{:.6g} to {:.6g}", low, high)));
 }
 
 std::string Reader::read_text(const std::string& path) {
@@ -171,33 +162,30 @@ std::optional<std::uint64_t> stored_hash(hid_t set) {
 
 }  // namespace
 
-Reader::Stored Reader::read_stored(const std::string& path) {
+bool Reader::is_as_written(const std::string& path) {
   const DataSet set = open(path);
-  Stored stored{{set.dims.begin(), set.dims.end()}, {}, stored_hash(set.id.get())};
-  if (field_of(path).type == ElementType::text) {
+  const std::optional<std::uint64_t> hash = stored_hash(set.id.get());
+  if (!hash) return false;
+  const ElementType element = field_of(path).type;
+  if (element == ElementType::text) {
     const std::string text = read_text(path);
-    const auto bytes = std::as_bytes(std::span(text));
-    stored.values.assign(bytes.begin(), bytes.end());
-  } else {
-    stored.values = read_row_bytes(path, 0, rows_of(set));
+    return *hash == piece_hash(path, std::as_bytes(std::span(text)));
   }
-  return stored;
+  const hid_t type = file_type(element);
+  std::vector<std::byte> values(block_size(set, path, 0, rows_of(set)) * H5Tget_size(type));
+  read_block(set, path, 0, rows_of(set), type, values.data());
+  return *hash == piece_hash(path, values);
 }
 
-std::vector<std::byte> Reader::read_row_bytes(const std::string& path, std::uint64_t first,
-                                              std::uint64_t count) {
-  const DataSet set = open(path);
-  const hid_t type = file_type(field_of(path).type);
-  std::vector<std::byte> values(block_size(set, path, first, count) * H5Tget_size(type));
-  read_block(set, path, first, count, type, values.data());
-  return values;
+bool Reader::has(const std::string& path) const {
+  const FileInUse in_use(name_);
+  return find(file_.get(), path) != Found::nothing;
 }
-
-bool Reader::has(const std::string& path) const { return find(file_.get(), path) != Found::nothing; }
 
 std::uint64_t Reader::row_count(const std::string& path) { return rows_of(open(path)); }
 
 std::vector<std::string> Reader::names(const std::string& group) {
+  const FileInUse in_use(name_);
   if (find(file_.get(), group) != Found::an_object) refuse(group, "(a group) is missing");
   const Handle id(H5Gopen2(file_.get(), group.c_str(), H5P_DEFAULT), H5Gclose);
   H5G_info_t info{};

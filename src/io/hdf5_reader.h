@@ -1,10 +1,9 @@
 #pragma once
-/// Reading an HDF5 file whose bytes have been verified, data set by data set of the schema. Private to this
-/// room.
+/// Reading an HDF5 file, data set by data set of the schema: in this process one whose bytes have been
+/// verified, in a child process any. Private to this room.
 
 #include <cstddef>
 #include <limits>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,12 +22,20 @@ class Reader {
   /// `name` is what messages call the file; `known` are sizes it must agree with.
   static Reader from_memory(std::vector<std::byte> image, const std::string& name, const Sizes& known);
   static Reader from_file(const std::string& path);
+  /// The same file, of whose letters nothing is known yet.
+  Reader again() const { return {Handle(H5Freopen(file_.get()), H5Fclose), name_, {}}; }
 
   /// Values of a whole data set, in doubles where it holds floats.
   template <typename T>
   std::vector<T> read(const std::string& path) {
     const DataSet set = open(path);
     return read_from<T>(set, path, 0, rows_of(set));
+  }
+  /// The same of a data set that no schema need have.
+  template <typename T>
+  std::vector<T> read(const DataSetField& field) {
+    const DataSet set = open(field);
+    return read_from<T>(set, field.path, 0, rows_of(set));
   }
   template <typename T>
   T read_scalar(const std::string& path) {
@@ -56,15 +63,8 @@ class Reader {
   }
   std::string read_text(const std::string& path);
 
-  /// A data set as it is stored: its shape, its values, and its hash where it has one. Texts are without the
-  /// zeros at their end.
-  struct Stored {
-    std::vector<std::uint64_t> dims;
-    std::vector<std::byte> values;
-    std::optional<std::uint64_t> hash;
-  };
-  Stored read_stored(const std::string& path);
-  std::vector<std::byte> read_row_bytes(const std::string& path, std::uint64_t first, std::uint64_t count);
+  /// Whether a data set agrees with the hash of its values; one that has none does not.
+  bool is_as_written(const std::string& path);
 
   /// Whether there is a data set or a group of that path.
   bool has(const std::string& path) const;
@@ -75,12 +75,10 @@ class Reader {
 
   /// Throws Error(bad_data) about a data set of this file.
   [[noreturn]] void refuse(const std::string& path, const std::string& problem) const;
+  /// Throws it where a value is not finite, or not from `low` to `high`.
+  void check(const std::string& path, const std::vector<double>& values, double low, double high) const;
 
  private:
-  struct DataSet {
-    Handle id;
-    std::vector<hsize_t> dims;
-  };
   Reader(Handle file, std::string name, Sizes sizes);
   template <typename T>
   std::vector<T> read_from(const DataSet& set, const std::string& path, std::uint64_t first,
@@ -90,14 +88,14 @@ class Reader {
     return values;
   }
   static std::uint64_t rows_of(const DataSet& set) { return set.dims.empty() ? 1 : set.dims[0]; }
-  DataSet open(const std::string& path);
-  void check_shape(const std::string& path, const std::vector<hsize_t>& dims);
+  DataSet open(const DataSetField& field, const std::string& path);
+  DataSet open(const DataSetField& field) { return open(field, field.path); }
+  DataSet open(const std::string& path) { return open(field_of(path), path); }
+  void check_shape(const DataSetField& field, const std::string& path, const std::vector<hsize_t>& dims);
   std::size_t block_size(const DataSet& set, const std::string& path, std::uint64_t first,
                          std::uint64_t count) const;
   void read_block(const DataSet& set, const std::string& path, std::uint64_t first, std::uint64_t count,
                   hid_t type, void* values) const;
-
-  void check(const std::string& path, const std::vector<double>& values, double low, double high) const;
 
   Handle file_;
   hsize_t file_size_;  ///< bytes

@@ -1,6 +1,7 @@
 #include "io/hdf5_writer.h"
 
 #include <algorithm>
+#include <fmt/core.h>
 #include <limits>
 #include <utility>
 
@@ -17,8 +18,10 @@ constexpr unsigned deflate_level = 4;
 template <typename Result>
 Result checked(Result result, const std::string& action) {
   if (result >= 0) return result;
-  throw Error(ExitCode::out_of_memory, "out of memory: HDF5 cannot " + action +
-                                           " in memory; use a smaller bed (bed.length, bed.depth)");
+  throw Error(
+      ExitCode::out_of_memory,
+      fmt::format("out of memory: HDF5 cannot {} in memory; use a smaller bed (bed.length, bed.depth)",
+                  action));
 }
 
 std::string parent_of(const std::string& path) { return path.substr(0, path.rfind('/')); }
@@ -139,8 +142,9 @@ Writer::Writer(Sizes sizes, std::size_t user_block, const std::vector<std::byte>
                  H5Fclose);
 }
 
-void Writer::create(const std::string& path) {
-  const DataSetField& field = field_of(path);
+void Writer::create(const std::string& path) { create(field_of(path), path); }
+
+void Writer::create(const DataSetField& field, const std::string& path) {
   create_group(parent_of(path));
   DataSet set;
   const std::vector<std::uint64_t> shape = dimensions(field, sizes_);
@@ -170,9 +174,8 @@ void Writer::write_block(const std::string& path, std::uint64_t first_row, std::
   }
   const std::size_t expected = block.empty() ? 1 : block[0] * row;
   if (count != expected || (!block.empty() && start[0] + block[0] > set.dims[0]))
-    throw Error(ExitCode::internal, std::to_string(count) + " values from row " + std::to_string(first_row) +
-                                        " do not fit into " + path + " of shape [" + field_of(path).shape +
-                                        "]");
+    throw Error(ExitCode::internal,
+                fmt::format("{} values from row {} do not fit into {}", count, first_row, path));
   if (count == 0) return;
   const Handle space = space_of(set.dims), memory = space_of(block);
   if (!block.empty())
@@ -181,16 +184,13 @@ void Writer::write_block(const std::string& path, std::uint64_t first_row, std::
   checked(H5Dwrite(set.id.get(), type, memory.get(), space.get(), H5P_DEFAULT, data), "write " + path);
 }
 
-void Writer::write_bytes(const std::string& path, std::span<const std::byte> values, hid_t type) {
-  create(path);
-  if (H5Tequal(type, file_type(field_of(path).type)) <= 0)
+void Writer::write_bytes(const DataSetField& field, const std::string& path,
+                         std::span<const std::byte> values, hid_t type) {
+  create(field, path);
+  if (H5Tequal(type, file_type(field.type)) <= 0)
     throw Error(ExitCode::internal, "values of another type than that of " + path);
   write_block(path, 0, values.size() / H5Tget_size(type), type, values.data());
   attach_hash(open_.at(path).id.get(), piece_hash(path, values));
-}
-
-void Writer::write_bytes(const std::string& path, std::span<const std::byte> values) {
-  write_bytes(path, values, file_type(field_of(path).type));
 }
 
 void Writer::write_row_bytes(const std::string& path, std::uint64_t first_row,

@@ -29,18 +29,21 @@ class Writer {
   /// their number or their type is wrong.
   template <typename T>
   void write(const std::string& path, std::span<const T> values) {
-    write_bytes(path, std::as_bytes(values), memory_type<T>());
+    write_bytes(field_of(path), path, std::as_bytes(values), memory_type<T>());
   }
   template <typename T>
   void write(const std::string& path, const std::vector<T>& values) {
     write(path, std::span<const T>(values));
   }
+  /// The same of a data set that no schema need have.
+  template <typename T>
+  void write(const DataSetField& field, const std::vector<T>& values) {
+    write_bytes(field, field.path, std::as_bytes(std::span(values)), memory_type<T>());
+  }
   template <typename T>
   void write_scalar(const std::string& path, T value) {
     write(path, std::span<const T>(&value, 1));
   }
-  /// The same of values as they are stored.
-  void write_bytes(const std::string& path, std::span<const std::byte> values);
   /// A scalar string of fixed length.
   void write_text(const std::string& path, const std::string& text);
 
@@ -49,6 +52,7 @@ class Writer {
   void write_rows(const std::string& path, std::uint64_t first_row, const std::vector<T>& values) {
     write_block(path, first_row, values.size(), memory_type<T>(), values.data());
   }
+  /// The same of values as they are stored.
   void write_row_bytes(const std::string& path, std::uint64_t first_row, std::span<const std::byte> values);
 
   void create_group(const std::string& path);
@@ -71,12 +75,10 @@ class Writer {
   std::vector<std::byte> image();
 
  private:
-  struct DataSet {
-    Handle id;
-    std::vector<hsize_t> dims;
-  };
   Handle put_text(const std::string& path, const std::string& text, const std::string& unit);
-  void write_bytes(const std::string& path, std::span<const std::byte> values, hid_t type);
+  void create(const DataSetField& field, const std::string& path);
+  void write_bytes(const DataSetField& field, const std::string& path, std::span<const std::byte> values,
+                   hid_t type);
   void write_block(const std::string& path, std::uint64_t first_row, std::size_t count, hid_t type,
                    const void* data);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fmt/core.h>
 
 #include "core/errors.h"
 #include "core/hash.h"
@@ -11,11 +12,11 @@
 namespace talus {
 namespace {
 
-constexpr const char* hint = "; keep what is whole of the run: talus repair RUN.h5 -o NEW.h5";
+constexpr const char* hint = "; save what is undamaged with: talus repair RUN.h5 -o NEW.h5";
 constexpr const char* first_line = "talus run folder 1";
 
 std::string text_of(const StoredFile& file) {
-  return file.name + ' ' + std::to_string(file.size) + ' ' + hash_text(file.hash);
+  return fmt::format("{} {} {}", file.name, file.size, hash_text(file.hash));
 }
 
 std::istream& operator>>(std::istream& words, StoredFile& file) {
@@ -27,15 +28,12 @@ std::istream& operator>>(std::istream& words, StoredSegment& segment) {
 }
 
 std::string body_text(const Manifest& manifest) {
-  std::string lines = first_line;
-  lines.append("\nheader ").append(text_of(manifest.header));
-  lines.append("\ncheckpoint ").append(text_of(manifest.checkpoint)).append("\n");
-  for (const StoredSegment& segment : manifest.segments) {
-    lines.append("segment ").append(text_of(segment.file));
-    for (const std::uint64_t count : {segment.frames, segment.contacts, segment.observables, segment.steps})
-      lines.append(" ").append(std::to_string(count));
-    lines.append("\n");
-  }
+  std::string lines = fmt::format("{}\n{}header {}\ncheckpoint {}\n", first_line,
+                                  manifest.replaces ? "replaces the packed file\n" : "",
+                                  text_of(manifest.header), text_of(manifest.checkpoint));
+  for (const StoredSegment& segment : manifest.segments)
+    lines += fmt::format("segment {} {} {} {} {}\n", text_of(segment.file), segment.frames, segment.contacts,
+                         segment.observables, segment.steps);
   return lines;
 }
 
@@ -46,6 +44,7 @@ Manifest parse(const std::string& text) {
     std::istringstream words = text_stream(line);
     std::string kind;
     words >> kind;
+    if (kind == "replaces") manifest.replaces = true;
     if (kind == "header") words >> manifest.header;
     if (kind == "checkpoint") words >> manifest.checkpoint;
     if (kind == "segment") words >> manifest.segments.emplace_back();
@@ -60,11 +59,10 @@ bool is_name_of_store(const std::string& name) {
 }
 
 void check_names(const Manifest& manifest, const std::string& path) {
-  std::vector<StoredFile> files = {manifest.header, manifest.checkpoint};
-  for (const StoredSegment& segment : manifest.segments) files.push_back(segment.file);
-  for (const StoredFile& file : files)
+  for (const StoredFile& file : files_of(manifest))
     if (!is_name_of_store(file.name))
-      throw Error(ExitCode::bad_data, path + ": names '" + file.name + "', which is no file of a run folder");
+      throw Error(ExitCode::bad_data,
+                  fmt::format("{}: names '{}', which is not a file of a run folder", path, file.name));
 }
 
 }  // namespace
@@ -73,9 +71,16 @@ StoredFile describe(const std::string& name, std::span<const std::byte> bytes) {
   return {name, bytes.size(), hash_bytes(bytes)};
 }
 
+std::vector<StoredFile> files_of(const Manifest& manifest) {
+  std::vector<StoredFile> files = {manifest.header};
+  for (const StoredSegment& segment : manifest.segments) files.push_back(segment.file);
+  files.push_back(manifest.checkpoint);
+  return files;
+}
+
 std::string manifest_text(const Manifest& manifest) {
   const std::string body = body_text(manifest);
-  return body + "hash " + hash_text(hash_bytes(std::as_bytes(std::span(body)))) + "\n";
+  return fmt::format("{}hash {}\n", body, hash_text(hash_bytes(std::as_bytes(std::span(body)))));
 }
 
 Manifest parse_manifest(const std::string& text, const std::string& path) {
@@ -86,11 +91,14 @@ Manifest parse_manifest(const std::string& text, const std::string& path) {
     return manifest;
   }
   if (found != first_line && found.starts_with("talus run folder "))
-    throw Error(ExitCode::bad_data, path + ": begins with '" + found + "', expected '" + first_line +
-                                        "': it is damaged, or was written by another version of Talus");
+    throw Error(
+        ExitCode::bad_data,
+        fmt::format(
+            "{}: begins with '{}', expected '{}': it is damaged, or was written by another version of Talus",
+            path, found, first_line));
   throw Error(ExitCode::bad_data,
               path +
-                  ": is damaged (its hash is not that of its lines); the run cannot be "
+                  ": is damaged (its hash does not match its lines); the run cannot be "
                   "continued: restore the folder from a copy, or keep what is whole of it: "
                   "talus repair RUN.h5 -o NEW.h5");
 }
@@ -101,17 +109,24 @@ Manifest read_manifest(const std::string& folder) {
   return parse_manifest({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path);
 }
 
+bool replaces_packed(const std::string& folder) try {
+  return read_manifest(folder).replaces;
+} catch (const Error&) {
+  return false;
+}
+
 std::vector<std::byte> read_stored(const std::string& folder, const StoredFile& file) {
   const std::string path = (std::filesystem::path(folder) / file.name).string();
   if (!std::filesystem::exists(path))
-    throw Error(ExitCode::bad_data, path + ": is missing, although the manifest names it" + hint);
+    throw Error(ExitCode::bad_data,
+                fmt::format("{}: is missing, although the manifest names it{}", path, hint));
   std::vector<std::byte> bytes = read_file(path);
   if (bytes.size() != file.size)
-    throw Error(ExitCode::bad_data, path + ": is damaged: it has " + std::to_string(bytes.size()) +
-                                        " bytes, the manifest says " + std::to_string(file.size) + hint);
+    throw Error(ExitCode::bad_data, fmt::format("{}: is damaged: it has {} bytes, the manifest says {}{}",
+                                                path, bytes.size(), file.size, hint));
   if (const std::uint64_t hash = hash_bytes(bytes); hash != file.hash)
-    throw Error(ExitCode::bad_data, path + ": is damaged: its hash is " + hash_text(hash) +
-                                        ", the manifest says " + hash_text(file.hash) + hint);
+    throw Error(ExitCode::bad_data, fmt::format("{}: is damaged: its hash is {}, the manifest says {}{}",
+                                                path, hash_text(hash), hash_text(file.hash), hint));
   return bytes;
 }
 

@@ -28,10 +28,15 @@ struct Manifest {
   static constexpr const char* file_name = "manifest";
   static constexpr const char* header_name = "header.h5";
 
+  /// The packed file beside the folder is of an earlier run, and is kept until this one is packed.
+  bool replaces = false;
   StoredFile header;
   StoredFile checkpoint;
   std::vector<StoredSegment> segments;
 };
+
+/// All files that count: header, segments in the order of their commits, checkpoint.
+std::vector<StoredFile> files_of(const Manifest& manifest);
 
 /// Lines of words, the last with the hash of all before it.
 std::string manifest_text(const Manifest& manifest);
@@ -42,6 +47,9 @@ Manifest parse_manifest(const std::string& text, const std::string& path);
 /// Reads `folder`/manifest. Throws Error(missing_input) where there is none, and Error(bad_data) where it is
 /// damaged.
 Manifest read_manifest(const std::string& folder);
+
+/// Whether a folder holds a run that replaces the packed file beside it. One that cannot be read does not.
+bool replaces_packed(const std::string& folder);
 
 /// The bytes of a file of the folder. Throws Error(bad_data) where they are not those the manifest describes.
 std::vector<std::byte> read_stored(const std::string& folder, const StoredFile& file);

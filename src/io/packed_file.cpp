@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <fmt/core.h>
 #include <fstream>
 #include <string_view>
 
@@ -25,8 +26,7 @@ constexpr std::size_t read_size = std::size_t{1} << 20;
 
 std::vector<std::byte> seal_of(std::uint64_t size, std::uint64_t hash) {
   const std::string text =
-      seal_begin + ("size " + std::to_string(size) + "\nxxh3 of all after byte 512 " + hash_text(hash)) +
-      "\n";
+      fmt::format("{}size {}\nxxh3 of all after byte 512 {}\n", seal_begin, size, hash_text(hash));
   std::vector<std::byte> block(seal_size);
   std::memcpy(block.data(), text.data(), text.size());
   return block;
@@ -62,6 +62,7 @@ bool is_run(const std::string& path) {
   std::error_code unknown;
   if (name.extension() == ".h5" || name.extension() == ".run" || std::filesystem::is_directory(name, unknown))
     return true;
+  if (!std::filesystem::is_regular_file(name, unknown)) return false;  // a pipe gives its bytes once
   const std::string_view signatures[] = {seal_begin, "\x89HDF\r\n"};
   std::string begin(std::string_view(seal_begin).size(), '\0');
   std::ifstream file(path, std::ios::binary);
@@ -72,7 +73,7 @@ bool is_run(const std::string& path) {
 
 std::uint64_t sealed_size(std::span<const std::byte> file) {
   const std::string begin(reinterpret_cast<const char*>(file.data()), std::min(file.size(), seal_size));
-  const std::string words = std::string(seal_begin) + "size ";
+  const std::string words = fmt::format("{}size ", seal_begin);
   return begin.starts_with(words) ? std::strtoull(begin.c_str() + words.size(), nullptr, 10) : 0;
 }
 
@@ -92,38 +93,49 @@ void verify_seal(const std::string& path) {
     size += count;
   }
   if (block != seal_of(size, hasher.value()))
-    throw Error(ExitCode::bad_data, path + ": is damaged: its " + std::to_string(size) +
-                                        " bytes have the hash " + hash_text(hasher.value()) +
-                                        ", its first lines say otherwise; restore it from a copy, or keep "
-                                        "what is whole of it: talus repair " +
-                                        path + " -o NEW.h5");
+    throw Error(
+        ExitCode::bad_data,
+        fmt::format("{}: is damaged: its {} bytes have the hash {}, but its first lines say otherwise; "
+                    "restore it from a copy, or save what is undamaged with: talus repair {} -o NEW.h5",
+                    path, size, hash_text(hasher.value()), path));
 }
 
-std::vector<std::byte> packed_bytes(const RunFile& run, const std::function<bool()>& goes_on) try {
-  const std::vector<ObservableRow> observables = run.all_observables();
-  const std::vector<StepRow> steps = run.steps();
-  const std::vector<Command> commands = run.commands();
-  const Checkpoint& checkpoint = run.checkpoint();
-  hdf5::Writer writer({{'T', run.all_frame_tilts().size()},
-                       {'N', run.header().statics.radius.size()},
-                       {'M', run.contact_count()},
-                       {'R', observables.size()},
-                       {'S', steps.size()},
-                       {'K', commands.size()},
-                       {'G', checkpoint.world.grains.radius.size()},
-                       {'C', checkpoint.world.contacts.a.size()},
-                       {'P', checkpoint.world.boundary.planes.size()}},
+RunContent content_of(const RunFile& run) {
+  return {run.header(),          run.checkpoint(),
+          run.all_observables(), run.steps(),
+          run.commands(),        run.all_frame_tilts().size(),
+          run.contact_count(),   [&run](std::size_t k) { return run.frame(k); }};
+}
+
+bool lacks_state(const RunHeader& header, const Checkpoint& checkpoint) {
+  return find_value(header.provenance, lost_fact) && checkpoint.world.grains.count() == 0;
+}
+
+std::vector<std::byte> packed_bytes(const RunContent& run, const std::function<bool()>& goes_on) try {
+  const World& world = run.checkpoint.world;
+  hdf5::Writer writer({{'T', run.frames},
+                       {'N', run.header.statics.radius.size()},
+                       {'M', run.contacts},
+                       {'R', run.observables.size()},
+                       {'S', run.steps.size()},
+                       {'K', run.commands.size()},
+                       {'G', world.grains.radius.size()},
+                       {'C', world.contacts.a.size()},
+                       {'P', world.boundary.planes.size()}},
                       seal_size);
-  write_header(writer, run.header());
-  write_h5md(writer, run.header().statics.periodic);
+  write_header(writer, run.header);
+  write_h5md(writer, run.header.statics.periodic);
   write_frames(writer, [&](std::size_t k) {
     if (goes_on && !goes_on()) throw Interrupted{};
-    return run.frame(k);
+    return run.frame_at(k);
   });
-  write_observables(writer, observables);
-  write_steps(writer, steps);
-  write_commands(writer, commands);
-  write_checkpoint(writer, checkpoint);
+  write_observables(writer, run.observables);
+  write_steps(writer, run.steps);
+  write_commands(writer, run.commands);
+  if (lacks_state(run.header, run.checkpoint))
+    write_results(writer, run.checkpoint);
+  else
+    write_checkpoint(writer, run.checkpoint);
   writer.write_contents();
   write_help(writer);
   std::vector<std::byte> file = writer.image();

@@ -26,8 +26,25 @@ std::uint64_t sealed_size(std::span<const std::byte> file);
 /// Error(bad_data) where its seal is missing or wrong.
 void verify_seal(const std::string& path);
 
-/// The packed file, sealed, of all that `run` holds. Equal runs give equal bytes, however they were
-/// committed. Asks before each frame whether it `goes_on`, if asked to; returns nothing where it does not.
-std::vector<std::byte> packed_bytes(const RunFile& run, const std::function<bool()>& goes_on = {});
+/// All that a packed file holds of a run; frames are asked for one after another.
+struct RunContent {
+  RunHeader header;
+  Checkpoint checkpoint;
+  std::vector<ObservableRow> observables;
+  std::vector<StepRow> steps;
+  std::vector<Command> commands;
+  std::size_t frames = 0;
+  std::uint64_t contacts = 0;  ///< of all frames
+  std::function<Frame(std::size_t)> frame_at;
+};
+/// Of a run, which must outlive it.
+RunContent content_of(const RunFile& run);
+
+/// Whether a run was repaired and lacks its last state: it has no /checkpoint.
+bool lacks_state(const RunHeader& header, const Checkpoint& checkpoint);
+
+/// The packed file, sealed. Equal runs give equal bytes, however they were committed. Asks before each frame
+/// whether it `goes_on`, if asked to; returns nothing where it does not.
+std::vector<std::byte> packed_bytes(const RunContent& run, const std::function<bool()>& goes_on = {});
 
 }  // namespace talus

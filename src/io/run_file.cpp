@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fmt/core.h>
 #include <optional>
 
 #include "core/errors.h"
@@ -9,7 +10,6 @@
 #include "io/manifest.h"
 #include "io/packed_file.h"
 #include "io/run_records.h"
-#include "io/structure_probe.h"
 
 namespace talus {
 namespace {
@@ -22,10 +22,9 @@ void check_grains(const hdf5::Reader& reader, const RunStatics& statics, const G
   if (grains.free_count <= statics.free_count &&
       grains.count() - grains.free_count == all - statics.free_count)
     return;
-  reader.refuse("/checkpoint/free_count", "is " + std::to_string(grains.free_count) + " of " +
-                                              std::to_string(grains.count()) + " grains, the run has " +
-                                              std::to_string(statics.free_count) + " of " +
-                                              std::to_string(all));
+  reader.refuse("/checkpoint/free_count",
+                fmt::format("is {} of {} grains, the run has {} of {}", grains.free_count, grains.count(),
+                            statics.free_count, all));
 }
 
 /// Sizes of the letters of the shapes that a file must agree with.
@@ -37,15 +36,40 @@ Sizes sizes_of(const StoredSegment& segment, std::size_t grains) {
           {'N', grains}};
 }
 
-hdf5::Reader open_image_of(const std::string& folder, const StoredFile& file, std::vector<std::byte> bytes,
-                           const Sizes& known) {
-  return hdf5::Reader::from_memory(std::move(bytes), (fs::path(folder) / file.name).string(), known);
+hdf5::Reader open_file_of(const std::string& folder, const StoredFile& file, const Sizes& known) {
+  return hdf5::Reader::from_memory(read_stored(folder, file), (fs::path(folder) / file.name).string(), known);
 }
 
 template <typename Row>
 void append(std::vector<Row>& rows, const std::vector<Row>& more) {
   rows.insert(rows.end(), more.begin(), more.end());
 }
+
+/// What a packed file says of itself, in the words of a manifest.
+StoredSegment whole_file(hdf5::Reader& reader) {
+  StoredSegment segment;
+  segment.frames = reader.row_count("/frames/tilt");
+  segment.contacts = reader.row_count("/contacts/pair");
+  return segment;
+}
+
+/// RUN.h5 of the folder RUN.h5.run.
+std::string packed_name(std::string folder) {
+  while (folder.ends_with('/')) folder.pop_back();
+  const std::string ending = run_folder("");
+  if (folder.ends_with(ending)) folder.resize(folder.size() - ending.size());
+  return folder;
+}
+
+bool is_known_step(const StepRow& row, std::int64_t last) {
+  return at(row, StepField::step) <= static_cast<double>(last);
+}
+
+bool is_known_row(const ObservableRow& row, std::int64_t last) {
+  return at(row, Observable::step) <= static_cast<double>(last);
+}
+
+bool is_known_command(const Command& command, std::int64_t last) { return command.step <= last; }
 
 }  // namespace
 
@@ -59,26 +83,76 @@ struct RunFile::State {
   std::vector<double> tilts;  ///< of the frames up to the highest tilt
   std::size_t open_segment = 0;
   std::optional<hdf5::Reader> reader;
+  bool packed_since = false;  ///< the reader is that of the file into which the folder was packed meanwhile
 
   hdf5::Reader& segment(std::size_t s) {
-    if (!reader || open_segment != s) {
-      const StoredFile& file = segments[s].file;
+    if (packed_since || (reader && open_segment == s)) return *reader;
+    try {
       const Sizes sizes = sizes_of(segments[s], header.statics.radius.size());
-      reader = open_image_of(folder, file, read_stored(folder, file), sizes);
+      reader = open_file_of(folder, segments[s].file, sizes);
       open_segment = s;
+    } catch (const Error&) {
+      if (!follow_packing()) throw;
     }
     return *reader;
   }
 
+  /// Goes on with the file into which the writer of this folder has packed the run since it was opened; false
+  /// where there is none. What was known of the run stays: the file begins with it.
+  bool follow_packing() {
+    std::error_code unknown;
+    if (folder.empty() || fs::exists(fs::path(folder) / Manifest::file_name, unknown)) return false;
+    const std::string path = packed_name(folder);
+    if (!fs::is_regular_file(path, unknown)) return false;
+    verify_seal(path);
+    reader = hdf5::Reader::from_file(path);
+    const RunHeader now = read_header(*reader);
+    if (now.scenario_resolved != header.scenario_resolved || now.seed != header.seed)
+      throw Error(ExitCode::missing_input,
+                  path + ": another run has taken the place of the one that was read");
+    whole_file(*reader);  // the sizes that its data sets must agree with
+    packed_since = true;
+    return true;
+  }
+
+  /// Where frame k is stored.
+  struct FramePlace {
+    hdf5::Reader& reader;
+    std::size_t row;
+  };
+  FramePlace place_of(const std::size_t k) {
+    std::size_t s = 0, in_segment = k;
+    for (; s < segments.size() && in_segment >= segments[s].frames; ++s) in_segment -= segments[s].frames;
+    if (s == segments.size())
+      throw Error(ExitCode::internal, fmt::format("the run has {} frames only", all_tilts.size()));
+    hdf5::Reader& from = segment(s);
+    return {from, packed_since ? k : in_segment};
+  }
+
   /// What `record` reads of frame k, from the segment that holds it.
   Frame read(Frame (*record)(hdf5::Reader&, std::size_t), std::size_t k) {
-    std::size_t s = 0;
-    for (; s < segments.size() && k >= segments[s].frames; ++s) k -= segments[s].frames;
-    if (s == segments.size())
-      throw Error(ExitCode::internal, "the run has " + std::to_string(all_tilts.size()) + " frames only");
-    Frame frame = record(segment(s), k);
-    check_frame(segment(s), frame, header.statics, plane_count());
+    const FramePlace place = place_of(k);
+    Frame frame = record(place.reader, place.row);
+    check_frame(place.reader, {frame, header.statics}, plane_count());
     return frame;
+  }
+
+  /// The rows that `record` reads of all segments; of those of a file that was packed since, the ones that
+  /// `is_known`.
+  template <typename Row>
+  std::vector<Row> rows(std::vector<Row> (*record)(hdf5::Reader&),
+                        bool (*is_known)(const Row&, std::int64_t)) {
+    std::vector<Row> all;
+    for (std::size_t s = 0; s < segments.size(); ++s) {
+      hdf5::Reader& from = segment(s);
+      if (packed_since) {
+        all = record(from);
+        std::erase_if(all, [&](const Row& row) { return !is_known(row, checkpoint.world.step); });
+        return all;
+      }
+      append(all, record(from));
+    }
+    return all;
   }
 
   /// Without its last state a run does not tell; two walls and a floor are the most that there can be.
@@ -87,8 +161,11 @@ struct RunFile::State {
   }
 
   void read_tilts() {
-    for (std::size_t s = 0; s < segments.size(); ++s)
-      append(all_tilts, segment(s).read_finite("/frames/tilt"));
+    for (std::size_t s = 0; s < segments.size(); ++s) {
+      hdf5::Reader& from = segment(s);
+      if (packed_since) throw Error(ExitCode::missing_input, folder + ": was packed at this moment");
+      append(all_tilts, from.read_finite("/frames/tilt"));
+    }
     const auto highest = std::ranges::max_element(all_tilts);
     tilts.assign(all_tilts.begin(), highest == all_tilts.end() ? highest : std::next(highest));
   }
@@ -96,32 +173,36 @@ struct RunFile::State {
 
 namespace {
 
-/// What a packed file says of itself, in the words of a manifest.
-StoredSegment whole_file(hdf5::Reader& reader) {
-  StoredSegment segment;
-  segment.frames = reader.row_count("/frames/tilt");
-  segment.contacts = reader.row_count("/contacts/pair");
-  return segment;
-}
-
 [[noreturn]] void refuse_absent(const std::string& path) {
   std::error_code unknown;
   if (fs::is_directory(run_folder(path), unknown))
-    throw Error(ExitCode::missing_input,
-                run_folder(path) +
-                    ": nothing is committed there yet; wait for the first "
-                    "checkpoint, or start again: talus run ... --resume; where it was damaged, "
-                    "keep what is whole: talus repair");
+    throw Error(ExitCode::missing_input, run_folder(path) +
+                                             ": nothing is committed there yet; wait for the first "
+                                             "checkpoint, or start its command again; if it was damaged, "
+                                             "save what is undamaged with: talus repair");
   throw Error(ExitCode::missing_input,
-              path + ": no such run; expected a run file, or a folder " + run_folder(path));
+              fmt::format("{}: no such run; expected a run file, or a folder {}", path, run_folder(path)));
+}
+
+/// The manifest of a folder; empty where there is none any more.
+std::string manifest_if_there(const std::string& folder) {
+  const fs::path manifest = fs::path(folder) / Manifest::file_name;
+  try {
+    return read_text(manifest.string());
+  } catch (const Error&) {
+    std::error_code unknown;
+    if (fs::exists(manifest, unknown)) throw;
+    return {};
+  }
 }
 
 /// The folder of a run, or nothing where `path` is a packed file.
 std::optional<std::string> folder_to_read(const std::string& path) {
   std::error_code unknown;
-  if (fs::is_regular_file(path, unknown)) return std::nullopt;
+  if (run_presence(path) == RunPresence::packed) return std::nullopt;
   for (const std::string& folder : {path, run_folder(path)})
     if (fs::exists(fs::path(folder) / Manifest::file_name, unknown)) return folder;
+  if (fs::is_regular_file(path, unknown)) return std::nullopt;  // packed at this very moment
   refuse_absent(path);
 }
 
@@ -134,7 +215,6 @@ RunFile::~RunFile() = default;
 
 RunFile RunFile::open_packed(const std::string& path) {
   verify_seal(path);
-  probe_packed(path);
   return read_packed(hdf5::Reader::from_file(path));
 }
 
@@ -146,8 +226,8 @@ RunFile RunFile::read_packed(hdf5::Reader&& reader) {
   auto state = std::make_unique<State>();
   state->reader = std::move(reader);
   state->header = read_header(*state->reader);
-  const bool may_lack = find_value(state->header.provenance, lost_fact).has_value();
-  if (may_lack && !state->reader->has("/checkpoint")) {
+  const bool was_repaired = find_value(state->header.provenance, lost_fact).has_value();
+  if (was_repaired && !state->reader->has("/checkpoint")) {
     state->checkpoint = read_results(*state->reader);
   } else {
     state->checkpoint = read_checkpoint(*state->reader);
@@ -160,14 +240,12 @@ RunFile RunFile::read_packed(hdf5::Reader&& reader) {
 
 RunFile RunFile::open_folder(const std::string& folder) {
   const Manifest manifest = read_manifest(folder);
-  std::vector<std::vector<std::byte>> files = {read_stored(folder, manifest.header),
-                                               read_stored(folder, manifest.checkpoint)};
-  probe_folder(folder, files, manifest.segments);
   auto state = std::make_unique<State>();
   state->folder = folder;
-  hdf5::Reader header = open_image_of(folder, manifest.header, std::move(files[0]), {});
+  // The next commit replaces it: it is read first.
+  hdf5::Reader checkpoint = open_file_of(folder, manifest.checkpoint, {});
+  hdf5::Reader header = open_file_of(folder, manifest.header, {});
   state->header = read_header(header);
-  hdf5::Reader checkpoint = open_image_of(folder, manifest.checkpoint, std::move(files[1]), {});
   state->checkpoint = read_checkpoint(checkpoint);
   check_grains(checkpoint, state->header.statics, state->checkpoint.world.grains);
   state->segments = manifest.segments;
@@ -176,16 +254,15 @@ RunFile RunFile::open_folder(const std::string& folder) {
 }
 
 RunFile RunFile::open(const std::string& path) {
-  for (int attempts_left = 5;; --attempts_left) {
+  for (int attempts_left = 20;; --attempts_left) {
     const std::optional<std::string> folder = folder_to_read(path);
     if (!folder) return open_packed(path);
-    const auto before = read_file((fs::path(*folder) / Manifest::file_name).string());
+    const std::string before = manifest_if_there(*folder);
     try {
       return open_folder(*folder);
     } catch (const Error&) {
       // A writer at work replaces the checkpoint, and at the end packs the folder away: then look again.
-      const auto manifest = fs::path(*folder) / Manifest::file_name;
-      const bool changed = !fs::exists(manifest) || read_file(manifest.string()) != before;
+      const bool changed = before.empty() || manifest_if_there(*folder) != before;
       if (!changed || attempts_left == 0) throw;
     }
   }
@@ -206,6 +283,17 @@ std::uint64_t RunFile::contact_count() const {
 }
 
 Frame RunFile::frame(std::size_t k) const { return state_->read(read_frame, k); }
+
+bool RunFile::is_as_written(const Frame& frame, std::size_t k) const {
+  const State::FramePlace place = state_->place_of(k);
+  return place.reader.read_rows<std::uint64_t>("/frames/hash", place.row, 1).front() == frame_hash(frame);
+}
+
+std::vector<std::string> RunFile::changed_data_sets() const {
+  return state_->rows<std::string>(talus::changed_data_sets,
+                                   [](const std::string&, std::int64_t) { return true; });
+}
+
 Frame RunFile::positions(std::size_t k) const { return state_->read(read_positions, k); }
 
 std::vector<ObservableRow> RunFile::observables() const {
@@ -217,23 +305,11 @@ std::vector<ObservableRow> RunFile::observables() const {
 }
 
 std::vector<ObservableRow> RunFile::all_observables() const {
-  std::vector<ObservableRow> rows;
-  for (std::size_t s = 0; s < state_->segments.size(); ++s)
-    append(rows, read_observables(state_->segment(s)));
-  return rows;
+  return state_->rows(read_observables, is_known_row);
 }
 
-std::vector<StepRow> RunFile::steps() const {
-  std::vector<StepRow> rows;
-  for (std::size_t s = 0; s < state_->segments.size(); ++s) append(rows, read_steps(state_->segment(s)));
-  return rows;
-}
+std::vector<StepRow> RunFile::steps() const { return state_->rows(read_steps, is_known_step); }
 
-std::vector<Command> RunFile::commands() const {
-  std::vector<Command> commands;
-  for (std::size_t s = 0; s < state_->segments.size(); ++s)
-    append(commands, read_commands(state_->segment(s)));
-  return commands;
-}
+std::vector<Command> RunFile::commands() const { return state_->rows(read_commands, is_known_command); }
 
 }  // namespace talus

@@ -43,6 +43,11 @@ class RunFile {
   /// Frame k with everything stored, k < all_frame_tilts().size(). Values are those of the file (single
   /// precision where it stores floats). Not for several threads at once.
   Frame frame(std::size_t k) const;
+  /// Whether a frame that was read as frame k is the one whose hash was stored with it.
+  bool is_as_written(const Frame& frame, std::size_t k) const;
+  /// Paths of the data sets that do not agree with their own hashes: of a packed file, its analysis included,
+  /// or of the segments of a folder.
+  std::vector<std::string> changed_data_sets() const;
   /// Of frame k only step, time, tilt, x and y: read several times faster than all of it.
   Frame positions(std::size_t k) const;
   std::vector<StepRow> steps() const;

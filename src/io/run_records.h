@@ -4,6 +4,7 @@
 
 #include <functional>
 
+#include "core/bed_frame.h"
 #include "io/hdf5_reader.h"
 #include "io/hdf5_writer.h"
 #include "io/run_store.h"
@@ -12,7 +13,10 @@ namespace talus {
 
 /// /parameters, /provenance and the static data sets of /particles. Sizes: N.
 void write_header(hdf5::Writer& writer, const RunHeader& header);
-RunHeader read_header(hdf5::Reader& reader);
+/// Refuses a file of another version of the schema.
+void check_version(hdf5::Reader& reader);
+/// Facts of the provenance that `keeps` does not keep, of all that it is asked for by path, are left out.
+RunHeader read_header(hdf5::Reader& reader, const std::function<bool(const std::string&)>& keeps = {});
 
 /// /frames, the time-dependent data sets of /particles, and /contacts. Sizes: T, N, M.
 /// `frame_at(k)` is called once for each frame, in order.
@@ -20,10 +24,11 @@ void write_frames(hdf5::Writer& writer, const std::function<Frame(std::size_t)>&
 /// Frame `row` of the file; or only its step, time, tilt, x and y.
 Frame read_frame(hdf5::Reader& reader, std::size_t row);
 Frame read_positions(hdf5::Reader& reader, std::size_t row);
+/// The value of /frames/hash: of the number of bytes and the bytes of each data set, as they are stored.
+std::uint64_t frame_hash(const Frame& frame);
 /// Refuses a frame whose grains or contacts cannot be those of a bed with so many planes: what others use as
 /// an index, or make a grid from, without looking.
-void check_frame(const hdf5::Reader& reader, const Frame& frame, const RunStatics& statics,
-                 std::size_t planes);
+void check_frame(const hdf5::Reader& reader, const BedFrame& bed, std::size_t planes);
 
 /// The metadata that H5MD 1.1 asks for, and the meaning of each data set.
 void write_h5md(hdf5::Writer& writer, bool periodic);
@@ -39,30 +44,22 @@ std::vector<StepRow> read_steps(hdf5::Reader& reader);
 void write_commands(hdf5::Writer& writer, const std::vector<Command>& commands);
 std::vector<Command> read_commands(hdf5::Reader& reader);
 
-/// /checkpoint, /results and /provenance/timing. Sizes: N, C, P.
+/// /checkpoint, /results and /provenance/timing. Sizes: G, C, P.
 void write_checkpoint(hdf5::Writer& writer, const Checkpoint& checkpoint);
 Checkpoint read_checkpoint(hdf5::Reader& reader);
 /// Of a repaired run whose last state is lost: only /results and /provenance/timing.
+void write_results(hdf5::Writer& writer, const Checkpoint& checkpoint);
 Checkpoint read_results(hdf5::Reader& reader);
+
+/// The data sets of the run, without its analysis, that a file says it holds.
+std::vector<std::string> listed_data_sets(hdf5::Reader& reader);
+/// Whether a data set agrees with its own hash. One that is covered by the hashes of the frames does; one
+/// that cannot be read does not.
+bool is_as_written(hdf5::Reader& reader, const std::string& path);
+/// Paths of the data sets that do not, those of a stored analysis included.
+std::vector<std::string> changed_data_sets(hdf5::Reader& reader);
+
 /// The provenance that says what was lost of a run before it was repaired.
 inline constexpr const char* lost_fact = "repaired_lost";
-
-/// Records of several numbers per item: { {x0, y0}, {x1, y1}, ... } in one array, and one component of it
-/// back.
-template <typename T>
-std::vector<T> interleaved(const std::vector<T>& x, const std::vector<T>& y) {
-  std::vector<T> pairs(2 * x.size());
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    pairs[2 * i] = x[i];
-    pairs[2 * i + 1] = y[i];
-  }
-  return pairs;
-}
-template <typename T>
-std::vector<T> component(const std::vector<T>& records, std::size_t width, std::size_t which) {
-  std::vector<T> values(records.size() / width);
-  for (std::size_t i = 0; i < values.size(); ++i) values[i] = records[i * width + which];
-  return values;
-}
 
 }  // namespace talus

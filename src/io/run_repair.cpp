@@ -1,190 +1,333 @@
 #include "io/run_repair.h"
 
 #include <algorithm>
+#include <cstdio>
+#include <deque>
 #include <filesystem>
+#include <fmt/core.h>
 #include <optional>
+#include <set>
 #include <span>
+#include <utility>
 
 #include "core/errors.h"
+#include "core/trigonometry.h"
+#include "io/byte_code.h"
+#include "io/child_process.h"
 #include "io/durable_file.h"
 #include "io/manifest.h"
-#include "io/repaired_file.h"
+#include "io/packed_file.h"
 #include "io/run_records.h"
-#include "io/run_salvage.h"
+#include "io/writer_lock.h"
 
 namespace talus {
 namespace {
 
 namespace fs = std::filesystem;
+using Bytes = std::vector<std::byte>;
+using Lines = std::vector<std::string>;
 
-/// The folder in which the files of a run lie; nothing where `path` is a file.
-std::optional<std::string> folder_of(const std::string& path) {
+/// A file of a run: a packed file is all of it, a folder has one for each commit and two more.
+struct Part {
+  std::string name;  ///< in a folder; empty for a packed file
+  Bytes bytes;
+};
+
+/// The new run, packed; empty where nothing can be kept. And what is to be said of it.
+struct Salvage {
+  Bytes file;
+  Lines kept, lost;
+};
+
+constexpr const char* origin_fact = "repaired_from";
+constexpr const char* lost_analysis = "/analysis: is no part of the run; make it again with talus analyze";
+
+std::optional<std::string> folder_of(const std::string& run) {
   std::error_code unknown;
-  if (fs::is_regular_file(path, unknown)) return std::nullopt;
-  for (const std::string& folder : {path, run_folder(path)})
-    if (fs::exists(fs::path(folder) / Manifest::header_name, unknown) ||
-        fs::exists(fs::path(folder) / Manifest::file_name, unknown))
-      return folder;
+  if (fs::is_regular_file(run, unknown)) return std::nullopt;
+  for (const std::string& folder : {run, run_folder(run)})
+    for (const char* name : {Manifest::header_name, Manifest::file_name})
+      if (fs::exists(fs::path(folder) / name, unknown)) return folder;
   throw Error(ExitCode::missing_input,
-              path + ": no such run; expected a run file, or a folder " + run_folder(path));
+              fmt::format("{}: no such run; expected a run file, or a folder {}", run, run_folder(run)));
 }
 
-/// A run that opens is whole: all of its bytes have been compared with their hashes.
-bool is_whole(const std::string& path) {
+/// HDF5 opens no file that is shorter than it was; what lies before the cut can be read then.
+Bytes padded(Bytes bytes) {
+  constexpr std::uint64_t most = 8;  // times what there is
+  const std::uint64_t size = sealed_size(bytes);
+  if (size > bytes.size() && size / most <= bytes.size()) bytes.resize(size);
+  return bytes;
+}
+
+/// The files of a folder in the order of their commits; without a manifest, those that are there.
+Lines names_in(const std::string& folder, Lines& lost) {
+  Lines names;
   try {
-    RunFile::open(path);
+    for (const StoredFile& file : files_of(read_manifest(folder))) names.push_back(file.name);
+  } catch (const Error&) {
+    lost.emplace_back("manifest: is not as it was written");
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+      if (const std::string name = entry.path().filename().string(); name.ends_with(".h5"))
+        names.push_back(name);
+    // By their lengths: the header, segments, checkpoints.
+    std::ranges::sort(names, {}, [](const std::string& name) { return std::pair(name.size(), name); });
+  }
+  return names;
+}
+
+std::vector<Part> parts_of(const std::string& run, Lines& lost) {
+  const std::optional<std::string> folder = folder_of(run);
+  if (!folder) return {{"", padded(read_file(run))}};
+  std::vector<Part> parts;
+  for (const std::string& name : names_in(*folder, lost))
+    if (const fs::path path = fs::path(*folder) / name; fs::exists(path))
+      parts.push_back({name, read_file(path.string())});
+    else
+      lost.push_back(name + ": is missing");
+  return parts;
+}
+
+/// Reads the parts in a child process, where HDF5 can do no harm. All but frames and facts is kept group by
+/// group.
+class Salvager {
+ public:
+  Salvager(std::string run, Lines lost) : name_(std::move(run)) { salvage_.lost = std::move(lost); }
+
+  Salvage salvage(std::vector<Part> parts) {
+    for (Part& part : parts) try {
+        prefix_ = part.name.empty() ? "" : part.name + ": ";
+        const std::string name = part.name.empty() ? "the file" : part.name;
+        readers_.push_back(hdf5::Reader::from_memory(std::move(part.bytes), name, {}));
+        add_part(readers_.back());
+      } catch (const Error& error) {
+        salvage_.lost.emplace_back(error.what());
+      }
+    const std::size_t state = run_.checkpoint.world.grains.x.size();
+    if (places_.size() + run_.observables.size() + run_.steps.size() + state == 0)
+      salvage_.lost.emplace_back("no frame, series or state is undamaged");
+    else if (has_header_)
+      pack();
+    else
+      salvage_.lost.emplace_back(
+          "/parameters and /particles are damaged, and without them no frame can be read");
+    if (has_analysis_) salvage_.lost.emplace_back(lost_analysis);
+    return std::move(salvage_);
+  }
+
+ private:
+  void lose(const std::string& path, const std::string& with) {
+    salvage_.lost.push_back(fmt::format("{}{}: is not as it was written{}", prefix_, path, with));
+  }
+
+  /// The data sets that a part should have. Where its list of them is lost, those that every run has.
+  Lines contents_of(hdf5::Reader& reader) {
+    if (is_as_written(reader, "/contents")) return listed_data_sets(reader);
+    lose("/contents", ", so the last state, results and commands are left out");
+    Lines paths;
+    for (const DataSetField& field : run_schema())
+      for (const char* group : {"/parameters/", "/particles/", "/frames/", "/observables/", "/steps/"})
+        if (field.path.starts_with(group) && reader.has(field.path)) paths.push_back(field.path);
+    return paths;
+  }
+
+  /// What is kept as one. The state needs the results, which are kept without it.
+  static std::string group_of(const std::string& path) {
+    if (path.starts_with("/provenance/timing/")) return "/results";
+    return path == "/provenance/seed" ? "/parameters" : path.substr(0, path.find('/', 1));
+  }
+
+  /// The groups of a part of which all is as it was written.
+  std::set<std::string> whole_groups(hdf5::Reader& reader) {
+    std::set<std::string> whole, broken;
+    for (const std::string& path : contents_of(reader)) {
+      const std::string group = group_of(path);
+      whole.insert(group);
+      if (is_as_written(reader, path)) continue;
+      if (group == "/provenance") {  // a fact alone
+        lose(path, "");
+        continue;
+      }
+      lose(path,
+           fmt::format(", so all of {}{} is left out", group, group == "/results" ? " and /checkpoint" : ""));
+      broken.insert(group);
+    }
+    for (const std::string& group : broken) whole.erase(group);
+    return whole;
+  }
+
+  void add_part(hdf5::Reader& reader) {
+    if (reader.has("/parameters")) check_version(reader);
+    has_analysis_ = has_analysis_ || reader.has("/analysis");
+    const std::set<std::string> whole = whole_groups(reader);
+    if (whole.contains("/parameters") && whole.contains("/particles")) {
+      run_.header = read_header(reader, [&](const std::string& path) { return is_as_written(reader, path); });
+      has_header_ = true;
+    }
+    if (whole.contains("/frames")) add_frames(reader);
+    if (whole.contains("/observables")) append(run_.observables, read_observables(reader));
+    if (whole.contains("/steps")) append(run_.steps, read_steps(reader));
+    if (whole.contains("/commands")) append(run_.commands, read_commands(reader));
+    if (!whole.contains("/results")) return;
+    run_.checkpoint = whole.contains("/checkpoint") ? read_checkpoint(reader) : read_results(reader);
+  }
+
+  template <typename Row>
+  static void append(std::vector<Row>& rows, const std::vector<Row>& more) {
+    rows.insert(rows.end(), more.begin(), more.end());
+  }
+
+  /// A frame that agrees with its hash is whole, whatever else is damaged.
+  void add_frames(hdf5::Reader& reader) {
+    const auto hashes = reader.read<std::uint64_t>("/frames/hash");
+    frames_before_ += hashes.size();
+    std::size_t lost = 0;  // those that follow each other up to here
+    for (std::size_t row = 0; row < hashes.size(); ++row) {
+      const bool kept = add_frame(reader, row, hashes[row]);
+      if (kept) lose_frames(reader, row - lost, lost);
+      lost = kept ? 0 : lost + 1;
+    }
+    lose_frames(reader, hashes.size() - lost, lost);
+  }
+
+  void lose_frames(hdf5::Reader& reader, std::size_t first, std::size_t count) {
+    if (count == 0) return;
+    std::string line = count == 1 ? fmt::format("{}frame {}", prefix_, first)
+                                  : fmt::format("{}frames {} to {}", prefix_, first, first + count - 1);
+    try {
+      const double tilt = reader.read_finite_rows("/frames/tilt", first, 1)[0];
+      line += fmt::format(", {} {:.3f} deg", count == 1 ? "at" : "from", degrees(tilt));
+    } catch (const Error&) {  // that is lost too
+    }
+    salvage_.lost.push_back(line);
+  }
+
+  bool add_frame(hdf5::Reader& reader, std::size_t row, std::uint64_t hash) try {
+    const Frame frame = read_frame(reader, row);
+    if (frame_hash(frame) != hash) return false;
+    run_.contacts += frame.contacts.a.size();
+    places_.emplace_back(readers_.size() - 1, row);
     return true;
-  } catch (const Error& error) {
-    if (error.code() != ExitCode::bad_data && error.code() != ExitCode::missing_input) throw;
+  } catch (const Error&) {
     return false;
   }
+
+  /// What was lost before an earlier repair is so still.
+  void note_origin() {
+    Facts& facts = run_.header.provenance;
+    std::string lost = find_value(facts, lost_fact).value_or("");
+    for (const std::string& line : salvage_.lost) lost += (lost.empty() ? "" : "; ") + line;
+    std::erase_if(facts,
+                  [](const auto& fact) { return fact.first == lost_fact || fact.first == origin_fact; });
+    facts.emplace_back(origin_fact, name_);
+    facts.emplace_back(lost_fact, lost);
+  }
+
+  void pack() {
+    note_origin();
+    run_.frames = places_.size();
+    run_.frame_at = [this](std::size_t k) {
+      return read_frame(readers_[places_[k].first], places_[k].second);
+    };
+    salvage_.file = packed_bytes(run_);
+    const auto keep = [this](std::size_t count, const std::string& what) {
+      salvage_.kept.push_back(fmt::format("{}{}", count, what));
+    };
+    keep(run_.frames, fmt::format(" of {} frames", frames_before_));
+    keep(run_.observables.size(), " rows of observables");
+    keep(run_.steps.size(), " steps");
+    keep(run_.commands.size(), " commands");
+    if (!lacks_state(run_.header, run_.checkpoint)) salvage_.kept.emplace_back("the last state");
+  }
+
+  std::string name_;
+  Salvage salvage_;
+  std::string prefix_;  ///< of the lines about the part at hand
+  std::deque<hdf5::Reader> readers_;
+  RunContent run_;
+  bool has_header_ = false, has_analysis_ = false;
+  std::size_t frames_before_ = 0;
+  std::vector<std::pair<std::size_t, std::size_t>> places_;  ///< part and row of each frame that is kept
+};
+
+Bytes encode(const Salvage& salvage) {
+  Bytes bytes;
+  append_counted(bytes, salvage.file);
+  append_number(bytes, salvage.kept.size());
+  for (const Lines* lines : {&salvage.kept, &salvage.lost})
+    for (const std::string& line : *lines) append_counted(bytes, line);
+  return bytes;
+}
+
+Salvage decode(std::span<const std::byte> bytes) {
+  ByteSource source(bytes);
+  Salvage salvage;
+  salvage.file = source.counted<Bytes>();
+  const std::uint64_t kept = source.number();
+  while (!source.at_end())
+    (salvage.kept.size() < kept ? salvage.kept : salvage.lost).push_back(source.counted<std::string>());
+  return salvage;
+}
+
+Salvage salvage_run(const std::string& run) {
+  Lines lost;
+  std::vector<Part> parts = parts_of(run, lost);
+  std::size_t size = 0;
+  for (const Part& part : parts) size += part.bytes.size();
+  return decode(in_child_process(
+      run, size, [&] { return encode(Salvager(run, std::move(lost)).salvage(std::move(parts))); }));
+}
+
+/// Whether a run opens, so that all of its bytes agree with the hash of the file, and what it holds with its
+/// own.
+bool is_whole(const std::string& run) try {
+  const RunFile file = RunFile::open(run);
+  for (std::size_t k = 0; k < file.all_frame_tilts().size(); ++k)
+    if (!file.is_as_written(file.frame(k), k)) return false;
+  return file.changed_data_sets().empty();
+} catch (const Error& error) {
+  if (error.code() != ExitCode::bad_data && error.code() != ExitCode::missing_input) throw;
+  return false;
 }
 
 void refuse_output(const RepairRequest& request) {
-  const auto whole = [](const std::string& path) {
-    return fs::weakly_canonical(fs::absolute(path)).string();
-  };
-  const std::string output = whole(request.output), run = whole(request.run);
-  if (output == run || run_folder(output) == run)
-    throw Error(ExitCode::usage, request.output + " is the damaged run; choose another output with -o");
-  std::error_code unknown;
-  if (fs::is_directory(request.output, unknown))
-    throw Error(ExitCode::cannot_create, request.output + " is a folder; choose another output with -o");
-  if (request.overwrite) return;
-  for (const std::string& path : {request.output, run_folder(request.output)})
-    if (fs::exists(path, unknown))
+  output_target(request.output, {true, {request.run, run_folder(request.run)}});
+  const auto whole = [](const std::string& path) { return fs::weakly_canonical(fs::absolute(path)); };
+  for (const std::string& path : {request.output, run_folder(request.output)}) {
+    if (whole(path) == whole(request.run))
+      throw Error(ExitCode::usage, request.output + " is the damaged run; choose another output with -o");
+    if (!request.overwrite && fs::exists(path))
       throw Error(ExitCode::cannot_create,
                   path + " exists already; replace it with --overwrite, or choose another output with -o");
-}
-
-std::uint64_t rows_of(const RunPieces& pieces, const std::string& path) {
-  const auto found = pieces.arrays.find(path);
-  return found == pieces.arrays.end() || found->second.dims.empty() ? 0 : found->second.dims[0];
-}
-
-void set_fact(RunPieces& pieces, const std::string& name, const std::string& fact) {
-  const auto bytes = std::as_bytes(std::span(fact));
-  set_array(pieces, "/provenance/" + name, {{}, {bytes.begin(), bytes.end()}});
-}
-
-/// What was lost in an earlier repair is so still.
-void note_origin(RunPieces& pieces, const std::string& run, bool goes_on) {
-  set_fact(pieces, "repaired_from", run);
-  const std::string before = text_of(pieces, std::string("/provenance/").append(lost_fact));
-  std::string lost = lost_text(pieces);
-  if (!before.empty()) lost = before + (lost.empty() ? "" : "; ") + lost;
-  if (!goes_on || !lost.empty()) set_fact(pieces, lost_fact, lost);
-}
-
-void refuse_nothing(const RunPieces& pieces, const std::string& run) {
-  if (!pieces.frames.empty() || rows_of(pieces, "/observables/step") > 0 ||
-      rows_of(pieces, "/steps/step") > 0 || pieces.arrays.contains("/checkpoint/state_hash"))
-    return;
-  throw Error(ExitCode::bad_data, run +
-                                      ": nothing can be kept: no frame, no series and no state is whole; "
-                                      "restore the run from a copy, or compute it again");
-}
-
-/// The numbers that the frames which are kept had before.
-std::vector<std::size_t> numbers_of(const RunPieces& pieces) {
-  std::vector<std::size_t> numbers;
-  for (std::size_t k = 0; numbers.size() < pieces.frames.size(); ++k)
-    if (std::ranges::find(pieces.lost_frames, k, &LostFrame::number) == pieces.lost_frames.end())
-      numbers.push_back(k);
-  return numbers;
-}
-
-/// Frames that can be read and yet cannot be are those of damage that no hash tells.
-void leave_out_faulty(RunPieces& pieces, const RepairRequest& request) {
-  if (pieces.verified || !request.faulty_frames) return;
-  const std::vector<std::size_t> numbers = numbers_of(pieces);
-  RunPieces marked = pieces;
-  set_fact(marked, lost_fact, "not known yet");
-  const auto faulty = request.faulty_frames(RunFile::of_bytes(file_of(marked), request.run));
-  std::vector<StoredFrame> kept;
-  for (std::size_t k = 0; k < pieces.frames.size(); ++k)
-    if (std::ranges::find(faulty, k) == faulty.end())
-      kept.push_back(std::move(pieces.frames[k]));
-    else
-      pieces.lost_frames.push_back({numbers[k], tilt_of(pieces.frames[k])});
-  pieces.frames = std::move(kept);
-  std::ranges::sort(pieces.lost_frames, {}, &LostFrame::number);
-}
-
-/// The packed file and a folder beside it would be two runs of one name.
-void write_packed(const RunPieces& pieces, const RepairRequest& request) {
-  const std::vector<std::byte> bytes = file_of(pieces);
-  RunFile::of_bytes(bytes, request.output);  // nothing is written that cannot be read
-  write_durably(request.output, bytes, request.output + ".tmp");
-  discard_folder(request.output);
-}
-
-void write_folder(const RunPieces& pieces, const RepairRequest& request) {
-  const RunFile run = RunFile::of_bytes(file_of(pieces), request.output);
-  Segment segment;
-  for (std::size_t k = 0; k < run.all_frame_tilts().size(); ++k) segment.frames.push_back(run.frame(k));
-  segment.observables = run.all_observables();
-  segment.steps = run.steps();
-  segment.commands = run.commands();
-  RunStore::create(request.output, run.header(), request.overwrite).commit(segment, run.checkpoint());
-}
-
-std::string count_text(std::size_t count, const std::string& what) {
-  return std::to_string(count) + " " + what;
-}
-
-std::vector<std::string> kept_lines(const RunPieces& pieces, std::size_t frames) {
-  std::vector<std::string> lines = {count_text(pieces.frames.size(), "of ") + count_text(frames, "frames"),
-                                    count_text(rows_of(pieces, "/observables/step"), "rows of observables"),
-                                    count_text(rows_of(pieces, "/steps/step"), "steps"),
-                                    count_text(rows_of(pieces, "/commands/step"), "commands")};
-  if (pieces.arrays.contains("/checkpoint/state_hash")) lines.emplace_back("the last state");
-  return lines;
-}
-
-void append_lines(std::vector<std::string>& lines, const std::vector<LostPiece>& pieces) {
-  for (const LostPiece& lost : pieces) lines.push_back(std::string(lost.name).append(": ").append(lost.how));
-}
-
-std::vector<std::string> lost_lines(const RunPieces& pieces) {
-  std::vector<std::string> lines;
-  append_lines(lines, pieces.lost);
-  for (const std::string& frames : lost_frame_lines(pieces)) lines.push_back(frames);
-  return lines;
+  }
 }
 
 }  // namespace
 
 RepairReport repair_run(const RepairRequest& request) {
   const std::optional<std::string> folder = folder_of(request.run);
-  RepairReport report;
-  report.of_folder = folder.has_value();
-  report.was_whole = is_whole(request.run);
-  if (report.was_whole) return report;
+  if (is_whole(request.run)) return {true, folder.has_value(), {}, {}};
   refuse_output(request);
-  Salvage salvage = folder ? salvage_folder(*folder) : salvage_file(request.run);
-  RunPieces& pieces = salvage.pieces;
-  if (!salvage.goes_on) leave_out_faulty(pieces, request);
-  refuse_nothing(pieces, request.run);
-  report.lost = lost_lines(pieces);
-  note_origin(pieces, request.run, salvage.goes_on);
-  if (salvage.goes_on)
-    write_folder(pieces, request);
-  else
-    write_packed(pieces, request);
-  report.goes_on = salvage.goes_on;
-  report.verified = pieces.verified;
-  report.kept = kept_lines(pieces, salvage.frames);
-  append_lines(report.lost, salvage.not_needed);
-  if (salvage.goes_on && salvage.frames > pieces.frames.size())
-    report.lost.push_back(count_text(salvage.frames - pieces.frames.size(),
-                                     "frames after the state that is kept; they are computed again"));
-  return report;
+  if (folder) require_no_writer(*folder);
+  Salvage salvage = salvage_run(request.run);
+  if (salvage.file.empty())
+    throw Error(ExitCode::bad_data,
+                fmt::format("{}: nothing can be saved: {}; restore the run from a copy, or compute it again",
+                            request.run, salvage.lost.at(0)));
+  RunFile::of_bytes(salvage.file, request.output);  // nothing is written that cannot be read
+  create_folder_of(request.output);
+  write_durably(request.output, salvage.file);
+  discard_folder(request.output);  // beside the file it would be another run of that name
+  return {false, folder.has_value(), std::move(salvage.kept), std::move(salvage.lost)};
 }
 
-std::vector<std::string> damaged_pieces(const std::string& run) {
-  const std::optional<std::string> folder = folder_of(run);
-  return lost_lines(folder ? inspect_folder(*folder) : inspect_file(run));
+std::vector<std::string> damaged_pieces(const std::string& run) try {
+  Lines lost = salvage_run(run).lost;
+  std::erase(lost, lost_analysis);
+  return lost;
+} catch (const Error& error) {
+  if (error.code() != ExitCode::bad_data) throw;
+  return {error.what()};  // HDF5 does not survive it
 }
 
 }  // namespace talus

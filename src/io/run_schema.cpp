@@ -29,7 +29,7 @@ std::vector<DataSetField> header_fields() {
        "stable id of a grain, its index in every array; free grains come first"},
       {"/particles/grains/species", int8, "N", "1", "0 free grain, 1 grain glued to the floor"},
       {"/particles/grains/radius", float64, "N", "m", "radius"},
-      {"/particles/grains/mass", float64, "N", "kg", "mass, per metre of thickness"},
+      {"/particles/grains/mass", float64, "N", "kg/m", "mass, per metre of thickness"},
   };
 }
 
@@ -57,7 +57,7 @@ std::vector<DataSetField> frame_fields() {
       {"/particles/grains/velocity/value", float32, "T N 2", "m/s", "velocity (vx, vy)"},
       {"/particles/grains/angular_velocity/value", float32, "T N", "rad/s",
        "rotation velocity, counter-clockwise positive"},
-      {"/particles/grains/internal_moment/value", float32, "T N 2 2", "J",
+      {"/particles/grains/internal_moment/value", float32, "T N 2 2", "J/m",
        "internal moment tensor M_ij of a grain, per metre of thickness (paper, Eq. 4); compression positive; "
        "the stress is M divided by an area"},
       {"/particles/grains/gamma/value", float32, "T N", "1",
@@ -69,7 +69,7 @@ std::vector<DataSetField> frame_fields() {
       {"/contacts/shift", int8, "M", "1", "periodic image: b touches a from x_b + shift * L"},
       {"/contacts/normal", float32, "M 2", "1", "unit normal n, from a to b"},
       {"/contacts/point", float32, "M 2", "m", "contact point"},
-      {"/contacts/force", float32, "M 2", "N",
+      {"/contacts/force", float32, "M 2", "N/m",
        "force (f_n, f_t) on b along n and t = (-n_y, n_x), per metre of thickness; f_n > 0 is compression"},
       {"/contacts/status", int8, "M", "1", "0 open, 1 sticking, 2 sliding (friction fully mobilised)"},
   };
@@ -117,12 +117,12 @@ std::vector<DataSetField> checkpoint_fields() {
       {"/checkpoint/vy", float64, "G", "m/s", "velocity away from the floor"},
       {"/checkpoint/omega", float64, "G", "rad/s", "rotation velocity"},
       {"/checkpoint/radius", float64, "G", "m", "radius"},
-      {"/checkpoint/inverse_mass", float64, "G", "1/kg",
+      {"/checkpoint/inverse_mass", float64, "G", "m/kg",
        "inverse of the mass; 0 for a grain that does not move"},
-      {"/checkpoint/inverse_inertia", float64, "G", "1/(kg m^2)",
+      {"/checkpoint/inverse_inertia", float64, "G", "1/(kg m)",
        "inverse of the inertia; 0 for a grain that does not rotate"},
-      {"/checkpoint/mass", float64, "G", "kg", "mass, per metre of thickness"},
-      {"/checkpoint/inertia", float64, "G", "kg m^2",
+      {"/checkpoint/mass", float64, "G", "kg/m", "mass, per metre of thickness"},
+      {"/checkpoint/inertia", float64, "G", "kg m",
        "moment of inertia about the centre, per metre of thickness"},
       {"/checkpoint/angle", float64, "G", "rad", "angle turned since the beginning"},
       {"/checkpoint/image", int32, "G", "1",
@@ -137,7 +137,7 @@ std::vector<DataSetField> checkpoint_fields() {
       {"/checkpoint/contact_shift", int8, "C", "1", "periodic image of b"},
       {"/checkpoint/contact_normal", float64, "C 2", "1", "unit normal, from a to b"},
       {"/checkpoint/contact_gap", float64, "C", "m", "gap; negative where bodies overlap"},
-      {"/checkpoint/contact_force", float64, "C 2", "N",
+      {"/checkpoint/contact_force", float64, "C 2", "N/m",
        "force (f_n, f_t) on b, per metre of thickness: the contact memory"},
       {"/checkpoint/integers/*", int64, "", "1", "a value of the schedule of the run"},
       {"/checkpoint/reals/*", float64, "", "SI",
@@ -218,7 +218,8 @@ const DataSetField& field_of(const std::string& path) {
     if (field.path == path || (field.path == family && found == nullptr)) found = &field;
   };
   for (const DataSetField& field : run_schema()) look_at(field);
-  for (const AnalysisField& field : analysis_schema()) look_at(field.data_set);
+  static const std::vector<DataSetField> of_analyses = analysis_schema();
+  for (const DataSetField& field : of_analyses) look_at(field);
   if (found == nullptr) throw Error(ExitCode::internal, "the schema of run files has no data set " + path);
   return *found;
 }

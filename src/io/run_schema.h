@@ -10,10 +10,9 @@
 
 namespace talus {
 
-/// Counts up with each change of the table. A reader accepts versions from the oldest on: version 1 has no
-/// /commands, and before version 3 there is no hash of each piece.
-inline constexpr std::int32_t run_schema_version = 3;
-inline constexpr std::int32_t oldest_run_schema_version = 1;
+/// Counts up with each change of the table, or of what a stored scenario means. A file of another version is
+/// refused.
+inline constexpr std::int32_t run_schema_version = 4;
 
 enum class ElementType { float32, float64, int8, int32, int64, uint64, text };
 std::string_view type_name(ElementType type);

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <fmt/core.h>
+#include <string_view>
 #include <system_error>
 
 #include "core/errors.h"
@@ -19,15 +21,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* temporary_suffix = ".tmp";
-
 std::string in(const std::string& folder, const std::string& name) {
   return (fs::path(folder) / name).string();
 }
 
 std::string serial_name(const char* kind, std::uint64_t serial) {
-  const std::string digits = std::to_string(serial);
-  return kind + std::string(digits.size() < 6 ? 6 - digits.size() : 0, '0') + digits + ".h5";
+  return fmt::format("{}{:06}.h5", kind, serial);
 }
 
 std::uint64_t serial_of(const StoredFile& checkpoint) {
@@ -35,35 +34,31 @@ std::uint64_t serial_of(const StoredFile& checkpoint) {
   return digit == std::string::npos ? 0 : std::stoull(checkpoint.name.substr(digit));
 }
 
+bool is_serial_name(std::string_view name, std::string_view kind) {
+  constexpr std::string_view ending = ".h5";
+  if (!name.starts_with(kind) || !name.ends_with(ending) || name.size() < kind.size() + ending.size() + 6)
+    return false;
+  const auto digits = name.substr(kind.size(), name.size() - kind.size() - ending.size());
+  return std::ranges::all_of(digits, [](char c) { return c >= '0' && c <= '9'; });
+}
+
 /// Whether a file of this name is the store's own: no other is ever removed.
-bool is_own(const std::string& name) {
-  return name == Manifest::header_name || name == Manifest::file_name || name.ends_with(temporary_suffix) ||
-         (name.ends_with(".h5") && (name.starts_with("segment_") || name.starts_with("checkpoint_")));
+bool is_own(std::string_view name) {
+  if (name.ends_with(temporary_ending)) name.remove_suffix(std::string_view(temporary_ending).size());
+  return name == Manifest::header_name || name == Manifest::file_name || is_serial_name(name, "segment_") ||
+         is_serial_name(name, "checkpoint_");
 }
 
 bool is_named(const Manifest& manifest, const std::string& name) {
-  return name == Manifest::file_name || name == manifest.header.name || name == manifest.checkpoint.name ||
-         std::ranges::any_of(manifest.segments,
-                             [&](const auto& segment) { return segment.file.name == name; });
+  return name == Manifest::file_name ||
+         std::ranges::any_of(files_of(manifest), [&](const StoredFile& file) { return file.name == name; });
 }
 
-/// The checkpoint of the commit before the last; empty where there is none.
-std::string spare_checkpoint(const std::string& folder, const Manifest& manifest) {
-  std::string spare;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder))
-    if (const std::string name = entry.path().filename().string();
-        name.starts_with("checkpoint_") && name.ends_with(".h5") &&
-        name.size() == manifest.checkpoint.name.size() && name < manifest.checkpoint.name)
-      spare = std::max(spare, name);
-  return spare;
-}
-
-/// Removes what a kill left behind: own files that the manifest does not name, but for the spare checkpoint.
-void remove_leftovers(const std::string& folder, const Manifest& manifest, const std::string& spare) {
+/// Removes what a kill left behind: own files that the manifest does not name.
+void remove_leftovers(const std::string& folder, const Manifest& manifest) {
   std::vector<std::string> leftovers;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder))
-    if (const std::string name = entry.path().filename().string();
-        is_own(name) && !is_named(manifest, name) && name != spare)
+    if (const std::string name = entry.path().filename().string(); is_own(name) && !is_named(manifest, name))
       leftovers.push_back(name);
   for (const std::string& name : leftovers) remove_file(in(folder, name));
 }
@@ -82,8 +77,7 @@ void remove_folder(const std::string& folder) {
 }
 
 StoredFile store(const std::string& folder, const std::string& name, std::span<const std::byte> bytes) {
-  const std::string path = in(folder, name);
-  write_durably(path, bytes, path + temporary_suffix);
+  write_durably(in(folder, name), bytes);
   return describe(name, bytes);
 }
 
@@ -123,27 +117,44 @@ StoredSegment store_segment(const std::string& folder, const std::string& name, 
   return stored;
 }
 
+/// The first commit of a run: header and manifest, together. What stood in the folder before is kept until
+/// both are written, so that a full disk takes nothing away.
+void begin(const std::string& folder, std::span<const std::byte> header,
+           std::span<const std::byte> manifest) {
+  OutputFile header_file(in(folder, Manifest::header_name)), manifest_file(in(folder, Manifest::file_name));
+  header_file.write(header);
+  manifest_file.write(manifest);
+  header_file.flush();
+  manifest_file.flush();
+  remove_file(in(folder, Manifest::file_name));  // else a kill here would leave it with a header not its own
+  sync_name(in(folder, Manifest::file_name));
+  header_file.commit();
+  sync_name(in(folder, Manifest::header_name));
+  manifest_file.commit();
+  sync_name(in(folder, Manifest::file_name));
+}
+
 bool is_empty(const Segment& segment) {
   return segment.frames.empty() && segment.observables.empty() && segment.steps.empty() &&
          segment.commands.empty();
 }
 
 void refuse_existing(const std::string& path, bool overwrite) {
-  std::error_code unknown;
-  if (fs::is_directory(path, unknown))
-    throw Error(ExitCode::cannot_create, path + " is a folder; choose another output with -o");
+  output_target(path);
   if (overwrite || run_presence(path) == RunPresence::none) return;
   throw Error(ExitCode::cannot_create, path +
                                            " exists already; continue it with --resume, replace it with "
                                            "--overwrite, or choose another output with -o");
 }
 
-/// Removes a run that is to be overwritten. The manifest goes first, so that no kill leaves half a run.
-void remove_run(const std::string& path, const std::string& folder) {
-  remove_file(in(folder, Manifest::file_name));
-  sync_name(in(folder, Manifest::file_name));
-  remove_file(path);
-  sync_name(path);
+/// The first serial number that no file of the folder has.
+std::uint64_t next_serial(const std::string& folder) {
+  std::uint64_t serial = 0;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+    if (const std::string name = entry.path().filename().string();
+        is_serial_name(name, "segment_") || is_serial_name(name, "checkpoint_"))
+      serial = std::max(serial, serial_of({name, 0, 0}));
+  return serial + 1;
 }
 
 }  // namespace
@@ -156,9 +167,8 @@ struct RunStore::State {
   std::string folder;
   WriterLock lock;
   Manifest manifest;
-  /// The checkpoint of the commit before, for `talus repair`; the manifest does not name it.
-  std::string spare;
   std::size_t grains = 0;
+  std::vector<std::byte> header;  ///< of a run that has not begun: written with its first commit
   /// Of the next commit. A commit that failed may have left its files, or even its manifest: no name is used
   /// twice.
   std::uint64_t serial = 1;
@@ -176,10 +186,13 @@ RunStore RunStore::create(const std::string& path, const RunHeader& header, bool
   make_folder(folder);
   auto state = std::make_unique<State>(path);
   refuse_existing(path, overwrite);  // again, now that nobody else can change it
-  if (overwrite) remove_run(path, folder);
-  remove_leftovers(folder, {}, {});
-  state->manifest.header = store(folder, Manifest::header_name, header_bytes(header));
+  std::error_code unknown;
+  if (!fs::exists(in(folder, Manifest::file_name), unknown)) remove_leftovers(folder, {});
+  state->manifest.replaces = fs::is_regular_file(path, unknown);
+  state->header = header_bytes(header);
+  state->manifest.header = describe(Manifest::header_name, state->header);
   state->grains = header.statics.radius.size();
+  state->serial = next_serial(folder);
   return RunStore(std::move(state));
 }
 
@@ -197,8 +210,7 @@ RunStore RunStore::resume(const std::string& path, RunHeader& header, Checkpoint
   header = run.header();
   checkpoint = run.checkpoint();
   state->grains = header.statics.radius.size();
-  state->spare = spare_checkpoint(folder, state->manifest);
-  remove_leftovers(folder, state->manifest, state->spare);
+  remove_leftovers(folder, state->manifest);
   return RunStore(std::move(state));
 }
 
@@ -212,26 +224,32 @@ void RunStore::commit(const Segment& segment, const Checkpoint& checkpoint) {
         store_segment(state_->folder, serial_name("segment_", serial), segment, state_->grains));
   next.checkpoint = store(state_->folder, serial_name("checkpoint_", serial), checkpoint_bytes(checkpoint));
   const std::string text = manifest_text(next);
-  store(state_->folder, Manifest::file_name, std::as_bytes(std::span(text)));  // here the commit happens
+  const auto manifest = std::as_bytes(std::span(text));
+  if (state_->header.empty())
+    store(state_->folder, Manifest::file_name, manifest);  // here the commit happens
+  else
+    begin(state_->folder, state_->header, manifest);
+  state_->header = {};
   std::swap(state_->manifest, next);
-  std::swap(state_->spare, next.checkpoint.name);
   if (!next.checkpoint.name.empty())
     ::unlink(in(state_->folder, next.checkpoint.name).c_str());  // or a leftover
+  else
+    remove_leftovers(state_->folder, state_->manifest);  // of a run that this one replaces
   state_->seconds_writing += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 bool RunStore::pack(const std::function<bool()>& goes_on) {
   const std::string& folder = state_->folder;
   state_->lock.require();
-  const std::vector<std::byte> bytes = packed_bytes(RunFile::open(folder), goes_on);
+  const RunFile run = RunFile::open(folder);
+  std::vector<std::byte> bytes = packed_bytes(content_of(run), goes_on);
   if (bytes.empty()) return false;
-  write_durably(state_->path, bytes, in(folder, "packed.h5") + temporary_suffix);
-  try {
-    RunFile::open(state_->path);  // until it can be read, the folder is all there is of the run
-  } catch (const Error&) {
-    remove_file(state_->path);
-    throw;
-  }
+  // Until the file can be read, the folder is all there is of the run. Its bytes on the disk are those in
+  // memory, which HDF5 reads: it would not open a file that is locked.
+  write_durably(state_->path, bytes, [&](const std::string& packed) {
+    verify_seal(packed);
+    RunFile::of_bytes(std::move(bytes), state_->path);
+  });
   remove_folder(folder);
   state_.reset();
   return true;
@@ -242,7 +260,7 @@ double RunStore::seconds_writing() const { return state_->seconds_writing; }
 void discard_folder(const std::string& path) {
   std::error_code unknown;
   const std::string folder = run_folder(path);
-  if (run_presence(path) != RunPresence::packed || !fs::is_directory(folder, unknown)) return;
+  if (!fs::is_regular_file(path, unknown) || !fs::is_directory(folder, unknown)) return;
   const WriterLock lock(folder);
   remove_folder(folder);
 }
@@ -251,9 +269,10 @@ std::string run_folder(const std::string& path) { return path + ".run"; }
 
 RunPresence run_presence(const std::string& path) {
   std::error_code unknown;
-  if (fs::is_regular_file(path, unknown)) return RunPresence::packed;
-  if (fs::exists(in(run_folder(path), Manifest::file_name), unknown)) return RunPresence::folder;
-  return RunPresence::none;
+  const bool has_folder = fs::exists(in(run_folder(path), Manifest::file_name), unknown);
+  if (fs::is_regular_file(path, unknown) && !(has_folder && replaces_packed(run_folder(path))))
+    return RunPresence::packed;
+  return has_folder ? RunPresence::folder : RunPresence::none;
 }
 
 }  // namespace talus

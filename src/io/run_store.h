@@ -45,9 +45,11 @@ struct Checkpoint {
 /// The open folder of a running run, locked against other writers.
 class RunStore {
  public:
-  /// A new run. Throws Error(cannot_create) where `path` or its folder exists, unless `overwrite`, or where
-  /// another process holds the lock. The run exists from its first commit on: what a kill leaves before that
-  /// is cleared away here.
+  /// A new run. Throws Error(cannot_create) where `path` or its folder exists, unless `overwrite`, where
+  /// another process holds the lock, or where `path` is anything but a file that may be replaced
+  /// (output_target). The run exists from its first commit on: what a kill leaves before that is cleared away
+  /// here. A packed file that is overwritten stays until pack has the new one whole, a folder until the first
+  /// commit.
   static RunStore create(const std::string& path, const RunHeader& header, bool overwrite);
 
   /// The folder of an interrupted run, and its last checkpoint. Throws as create does, Error(missing_input)
@@ -63,7 +65,7 @@ class RunStore {
   /// folder has been removed or replaced.
   void commit(const Segment& segment, const Checkpoint& checkpoint);
 
-  /// Packs everything committed into the file at `path` (written in the folder, then renamed), and removes
+  /// Packs everything committed into the file at `path`, which gets its name once it can be read, and removes
   /// the folder. Ends the store. Asks before each frame whether it `goes_on`; returns false where it does
   /// not. Then, and where it throws, the folder is kept, and pack can be called again.
   bool pack(const std::function<bool()>& goes_on = {});
@@ -77,8 +79,8 @@ class RunStore {
   std::unique_ptr<State> state_;
 };
 
-/// Whether `path` is a packed run file, a run folder with something committed (and no packed file yet), or
-/// neither.
+/// Whether `path` is a packed run file, a run folder with something committed (and no packed file yet, or
+/// that of an earlier run which it replaces), or neither.
 enum class RunPresence { none, folder, packed };
 RunPresence run_presence(const std::string& path);
 

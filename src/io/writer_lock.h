@@ -26,4 +26,7 @@ class WriterLock {
   Descriptor file_;
 };
 
+/// Throws Error(cannot_create) where a process holds the lock of a folder, in which nothing is changed.
+void require_no_writer(const std::string& folder);
+
 }  // namespace talus

@@ -1,11 +1,11 @@
 #include "session/analysis_input.h"
 
 #include <cmath>
-#include <limits>
 #include <utility>
 
-#include "analysis/coarse_graining.h"
+#include "analysis/frame_analysis.h"
 #include "analysis/free_grains.h"
+#include "core/tensor.h"
 #include "core/trigonometry.h"
 #include "stress/stress_state.h"
 
@@ -32,27 +32,12 @@ void average_moments(const RunFile& run, double half_window, std::size_t k, Fram
   }
   const double share = 1.0 / static_cast<double>(last - first + 1);
   for (std::size_t i = 0; i < sums.size(); ++i) {
-    const Tensor2& sum = sums[i];
-    frame.internal_moment[i] = {share * sum.xx, share * sum.xy, share * sum.yx, share * sum.yy};
+    frame.internal_moment[i] = tensor(share * matrix(sums[i]));
     frame.gamma[i] = stress_state(frame.internal_moment[i]).ratio;
   }
 }
 
-void leave_out_poorly_held(int min_contacts, Index free_count, Frame& frame) {
-  std::vector<int> contacts(frame.x.size(), 0);
-  for (Index c = 0; c < frame.contacts.count(); ++c)
-    for (const Index body : {frame.contacts.a[c], frame.contacts.b[c]})
-      if (body >= 0 && body < free_count) ++contacts[static_cast<std::size_t>(body)];
-  for (std::size_t i = 0; i < static_cast<std::size_t>(free_count); ++i)
-    if (contacts[i] < min_contacts) frame.gamma[i] = std::numeric_limits<double>::quiet_NaN();
-}
-
 }  // namespace
-
-Frame with_analysed_gamma(Frame frame, const RunStatics& statics, const AnalysisParameters& parameters) {
-  if (parameters.min_contacts > 1) leave_out_poorly_held(parameters.min_contacts, statics.free_count, frame);
-  return with_gamma_of_neighbourhoods(std::move(frame), statics, parameters.l_min * statics.mean_diameter);
-}
 
 Frame analysed_frame(const RunFile& run, const AnalysisParameters& parameters, std::size_t k) {
   Frame frame = run.frame(k);

@@ -4,9 +4,9 @@
 #include <functional>
 #include <string>
 
-#include "io/analysis_record.h"
+#include "analysis/parameters.h"
+#include "analysis/record.h"
 #include "io/run_file.h"
-#include "session/analysis_parameters.h"
 
 namespace talus {
 
@@ -14,18 +14,12 @@ namespace talus {
 /// parameters and analysis_version, 16 hexadecimal digits.
 std::string analysis_key(const RunFile& run, const AnalysisParameters& parameters);
 
-/// An analysis of `frames` frames with its parameters, thresholds and axes set, and no frame yet. `theta_c`
-/// in rad, NaN where the slope has not failed; without it and without gamma_c there are no thresholds (F =
-/// 0).
-Analysis begin_analysis(const RunStatics& statics, const AnalysisParameters& parameters, double theta_c,
-                        std::size_t frames);
-
 /// Called after each frame with the number of frames that are done; may be empty.
 using AnalysisProgress = std::function<void(std::size_t done)>;
 
-/// Reads the frames one by one, on each thread, and returns all data sets of analysis_schema(). Those that
-/// need a threshold are left out where the slope has not failed and no gamma_c is given. The same for any
-/// number of threads. Throws Error(bad_data) where the run has no frames, and as RunFile::frame does.
+/// Reads the frames one by one, on each thread, and finds all quantities. Where the slope has not failed and
+/// no gamma_c is given there are no thresholds. The same for any number of threads. Throws Error(bad_data)
+/// where the run has no frames, and as RunFile::frame does.
 Analysis analyse_run(const RunFile& run, const AnalysisParameters& parameters, int threads,
                      const AnalysisProgress& progress);
 

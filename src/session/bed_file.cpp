@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <fmt/core.h>
 #include <numeric>
 
 #include "contact/detection.h"
@@ -22,13 +23,6 @@ constexpr std::uintmax_t largest_table = std::uintmax_t{1} << 30;  // bytes
 /// Two lengths of a run that are the same, but for the single precision in which a file may store them.
 constexpr double same_length = 1e-6;
 
-/// Six digits, as many as a message needs.
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", value);
-  return text;
-}
-
 /// Grains as they were read, and where each of them stands.
 struct FileGrains {
   std::string path;
@@ -40,23 +34,21 @@ struct FileGrains {
   bool is_table() const { return !lines.empty(); }
 
   std::string name_of(Index grain) const {
-    return is_table() ? "the grain in line " + std::to_string(lines[static_cast<std::size_t>(grain)])
-                      : "grain " + std::to_string(grain);
+    return is_table() ? fmt::format("the grain in line {}", lines[static_cast<std::size_t>(grain)])
+                      : fmt::format("grain {}", grain);
   }
 
   /// `message` goes on after "the grain": "overlaps ...".
   [[noreturn]] void refuse(Index grain, const std::string& message) const {
     if (is_table())
-      throw LocatedError(ExitCode::bad_data, path + ":" +
-                                                 std::to_string(lines[static_cast<std::size_t>(grain)]) +
-                                                 ":1: error: the grain " + message);
-    throw Error(ExitCode::bad_data,
-                path + ": frame " + std::to_string(frame) + ": " + name_of(grain) + " " + message);
+      throw LocatedError(ExitCode::bad_data, fmt::format("{}:{}:1: error: the grain {}", path,
+                                                         lines[static_cast<std::size_t>(grain)], message));
+    throw Error(ExitCode::bad_data, fmt::format("{}: frame {}: {} {}", path, frame, name_of(grain), message));
   }
 };
 
 [[noreturn]] void refuse(const std::string& path, const std::string& message) {
-  throw Error(ExitCode::bad_data, path + ": " + message);
+  throw Error(ExitCode::bad_data, fmt::format("{}: {}", path, message));
 }
 
 /// Where there is no such file: a run is replayed from its scenario, so the message says what it is needed
@@ -72,8 +64,10 @@ struct FileGrains {
 void compare(const std::string& path, const std::string& what, double found, const std::string& key,
              double expected) {
   if (std::fabs(found - expected) > same_length * expected)
-    refuse(path, what + " of the run is " + number(found) + " m, but " + key + " makes it " +
-                     number(expected) + " m; give the scenario the values of the run (talus info)");
+    refuse(path,
+           fmt::format("{} of the run is {:.6g} m, but {} makes it {:.6g} m; give the scenario the values of "
+                       "the run (talus info)",
+                       what, found, key, expected));
 }
 
 RunFile open_run(const std::string& path) {
@@ -89,18 +83,20 @@ FileGrains read_run(const std::string& path, std::size_t frame, const BedPlan& p
   const RunFile run = open_run(path);
   const RunStatics& statics = run.header().statics;
   if (statics.periodic != plan.periodic)
-    refuse(path, std::string("the run has ") + (statics.periodic ? "a periodic bed" : "side walls") +
-                     ": expected bed.boundary = " + (statics.periodic ? "\"periodic\"" : "\"walls\""));
+    refuse(path, fmt::format("the run has {}: expected bed.boundary = {}",
+                             statics.periodic ? "a periodic bed" : "side walls",
+                             statics.periodic ? "\"periodic\"" : "\"walls\""));
   compare(path, "the mean diameter", statics.mean_diameter, "grains.mean_diameter", plan.mean_diameter);
   compare(path, plan.periodic ? "the period" : "the distance between the walls", statics.length, "bed.length",
           plan.length);
   const std::size_t frames = run.all_frame_tilts().size();
   if (frame >= frames)
-    refuse(path, "there is no frame " + std::to_string(frame) + ": expected deposition.frame below " +
-                     std::to_string(frames) + ", the number of its frames");
+    refuse(path,
+           fmt::format("there is no frame {}: expected deposition.frame below {}, the number of its frames",
+                       frame, frames));
   const Frame bed = run.positions(frame);
   if (bed.x.size() != statics.radius.size())
-    refuse(path, "not all grains have arrived in frame " + std::to_string(frame) + ": choose a later one");
+    refuse(path, fmt::format("not all grains have arrived in frame {}: choose a later one", frame));
   FileGrains grains{.path = path, .frame = frame, .lines = {}, .centres = {}, .radii = {}};
   for (std::size_t i = 0; i < static_cast<std::size_t>(statics.free_count); ++i) {
     // In single precision the period itself can be reached.
@@ -117,7 +113,7 @@ std::string table_text(const std::string& path) {
   if (error || !std::filesystem::exists(status)) refuse_missing(path + ": there is no such file");
   if (!std::filesystem::is_regular_file(status)) refuse_missing(path + ": this is not a file");
   if (std::filesystem::file_size(path) > largest_table)
-    refuse(path, "the table is too large: expected at most " + std::to_string(largest_table) + " bytes");
+    refuse(path, fmt::format("the table is too large: expected at most {} bytes", largest_table));
   const std::vector<std::byte> bytes = read_file(path);
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
@@ -138,14 +134,16 @@ void check_sizes(const FileGrains& grains, const BedPlan& plan) {
   const std::size_t count = grains.radii.size();
   if (count == 0) refuse(grains.path, "there is no grain: expected lines with x, y and radius");
   if (count > most_grains)
-    refuse(grains.path, std::to_string(count) + " grains: expected at most " + std::to_string(most_grains));
+    refuse(grains.path, fmt::format("{} grains: expected at most {}", count, most_grains));
   const double mean = 2.0 * std::accumulate(grains.radii.begin(), grains.radii.end(), 0.0) /
                       (static_cast<double>(count) * plan.mean_diameter);
   if (!(std::fabs(mean - 1.0) <= mean_diameter_tolerance))
-    refuse(grains.path, "the mean diameter of its grains is " + number(mean) + " D: expected 1 D within " +
-                            number(100.0 * mean_diameter_tolerance) +
-                            " %, with D = " + number(plan.mean_diameter) + " m (grains.mean_diameter)" +
-                            (grains.is_table() ? "; all lengths of a table are in D" : ""));
+    refuse(grains.path,
+           fmt::format(
+               "the mean diameter of its grains is {:.6g} D: expected 1 D within {:.6g} %, with D = {:.6g} m "
+               "(grains.mean_diameter){}",
+               mean, 100.0 * mean_diameter_tolerance, plan.mean_diameter,
+               grains.is_table() ? "; all lengths of a table are in D" : ""));
 }
 
 void check_places(const FileGrains& grains, const BedPlan& plan) {
@@ -154,11 +152,13 @@ void check_places(const FileGrains& grains, const BedPlan& plan) {
     const double length = plan.length / plan.mean_diameter;
     const auto grain = static_cast<Index>(i);
     if (plan.periodic && !(grains.centres[i].x >= 0.0 && grains.centres[i].x < plan.length))
-      grains.refuse(grain, "is outside the period: x = " + number(x) + " D, expected a number in [0, " +
-                               number(length) + ")");
+      grains.refuse(
+          grain,
+          fmt::format("is outside the period: x = {:.6g} D, expected a number in [0, {:.6g})", x, length));
     if (plan.rough_floor && !(y >= -0.5))
-      grains.refuse(grain, "is below the floor: y = " + number(y) +
-                               " D, expected a place above that of the floor grains, whose tops are at 0");
+      grains.refuse(grain, fmt::format("is below the floor: y = {:.6g} D, expected a place above that of the "
+                                       "floor grains, whose tops are at 0",
+                                       y));
   }
 }
 
@@ -181,10 +181,9 @@ void check_overlaps(const FileGrains& grains, const BedPlan& plan, const World& 
   const bool of_two = contacts.b[c] < world.grains.free_count;
   grains.refuse(
       of_two ? std::max(contacts.a[c], contacts.b[c]) : contacts.a[c],
-      "overlaps with " +
-          body_name(grains, world, of_two ? std::min(contacts.a[c], contacts.b[c]) : contacts.b[c]) + " by " +
-          number(-*deepest / plan.mean_diameter) + " D: expected at most " + number(largest_file_overlap) +
-          " D");
+      fmt::format("overlaps with {} by {:.6g} D: expected at most {:.6g} D",
+                  body_name(grains, world, of_two ? std::min(contacts.a[c], contacts.b[c]) : contacts.b[c]),
+                  -*deepest / plan.mean_diameter, largest_file_overlap));
 }
 
 }  // namespace

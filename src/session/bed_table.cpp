@@ -5,35 +5,36 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <fmt/core.h>
 #include <optional>
 #include <string_view>
 
 #include "core/errors.h"
-#include "session/scenario_text.h"
+#include "scenario/text.h"
 
 namespace talus {
 namespace {
 
 constexpr std::array<std::string_view, 3> column_names = {"x", "y", "radius"};
 
-struct Field {
+struct TableCell {
   std::string_view text;
   std::size_t column = 0;  ///< of its first character, from 1
 };
 
-struct Line {
+struct TableLine {
   const std::string& table;
   std::size_t number = 0;  ///< from 1
 
   [[noreturn]] void refuse(std::size_t column, const std::string& message) const {
-    throw LocatedError(ExitCode::bad_data, table + ":" + std::to_string(number) + ":" +
-                                               std::to_string(column) + ": error: " + message);
+    throw LocatedError(ExitCode::bad_data,
+                       fmt::format("{}:{}:{}: error: {}", table, number, column, message));
   }
 };
 
 bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
-Field trimmed(Field field) {
+TableCell trimmed(TableCell field) {
   while (!field.text.empty() && is_space(field.text.front())) {
     field.text.remove_prefix(1);
     ++field.column;
@@ -43,10 +44,10 @@ Field trimmed(Field field) {
 }
 
 /// The fields of a line without its comment; none of an empty one.
-std::vector<Field> fields_of(std::string_view line) {
-  Field rest = trimmed({line.substr(0, line.find('#')), 1});
+std::vector<TableCell> fields_of(std::string_view line) {
+  TableCell rest = trimmed({line.substr(0, line.find('#')), 1});
   const bool has_commas = rest.text.find(',') != std::string_view::npos;
-  std::vector<Field> fields;
+  std::vector<TableCell> fields;
   while (!rest.text.empty()) {
     const auto end = has_commas ? rest.text.find(',') : rest.text.find_first_of(" \t");
     fields.push_back(trimmed({rest.text.substr(0, end), rest.column}));
@@ -66,28 +67,29 @@ std::optional<double> number_in(std::string_view text) {
   return whole && std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
-bool are_column_names(const std::vector<Field>& fields) {
-  const auto is_same = [](const Field& field, std::string_view name) {
+bool are_column_names(const std::vector<TableCell>& fields) {
+  const auto is_same = [](const TableCell& field, std::string_view name) {
     return std::ranges::equal(field.text, name, {}, [](unsigned char c) { return std::tolower(c); });
   };
   return std::ranges::equal(fields, column_names, is_same);
 }
 
-TableGrain grain_of(const Line& line, const std::vector<Field>& fields) {
+TableGrain grain_of(const TableLine& line, const std::vector<TableCell>& fields) {
   if (fields.size() != column_names.size())
     line.refuse(fields.front().column,
-                "the line has " + std::to_string(fields.size()) + " values: expected three, x, y and radius");
+                fmt::format("the line has {} values: expected three, x, y and radius", fields.size()));
   std::array<double, 3> values{};
   for (std::size_t k = 0; k < values.size(); ++k) {
     const std::optional<double> value = number_in(fields[k].text);
     if (!value)
-      line.refuse(fields[k].column, std::string(column_names[k]) + " = \"" + printable(fields[k].text) +
-                                        "\": expected a finite number, in mean diameters D");
+      line.refuse(fields[k].column, fmt::format("{} = \"{}\": expected a finite number, in mean diameters D",
+                                                column_names[k], printable(fields[k].text)));
     values[k] = *value;
   }
   if (values[2] <= 0.0)
-    line.refuse(fields[2].column,
-                "radius = " + short_text(values[2]) + ": expected a finite number > 0, in mean diameters D");
+    line.refuse(
+        fields[2].column,
+        fmt::format("radius = {}: expected a finite number > 0, in mean diameters D", short_text(values[2])));
   return {values[0], values[1], values[2], line.number};
 }
 
@@ -96,11 +98,11 @@ TableGrain grain_of(const Line& line, const std::vector<Field>& fields) {
 std::vector<TableGrain> parse_bed_table(const std::string& text, const std::string& name) {
   std::vector<TableGrain> grains;
   bool has_begun = false;
-  Line line{name};
+  TableLine line{name};
   for (std::string_view rest = text; !rest.empty();) {
     ++line.number;
     const auto end = rest.find('\n');
-    const std::vector<Field> fields = fields_of(rest.substr(0, end));
+    const std::vector<TableCell> fields = fields_of(rest.substr(0, end));
     rest = end == std::string_view::npos ? std::string_view() : rest.substr(end + 1);
     if (fields.empty()) continue;
     if (has_begun || !are_column_names(fields)) grains.push_back(grain_of(line, fields));

@@ -7,7 +7,7 @@
 
 #include "core/command.h"
 #include "core/world.h"
-#include "session/scenario.h"
+#include "scenario/scenario.h"
 
 namespace talus {
 

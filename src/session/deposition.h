@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "dynamics/pour.h"
-#include "session/scenario.h"
+#include "scenario/scenario.h"
 
 namespace talus {
 

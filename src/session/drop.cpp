@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/core.h>
 
 #include "core/errors.h"
 #include "session/command.h"
@@ -24,8 +25,8 @@ double offset_along(const Boundary& boundary, double from, double to) {
 std::vector<Index> farthest_grains(const World& world, Index count, double x, double mean_diameter) {
   std::vector<Index> grains = surface_grains(world, mean_diameter);
   if (grains.size() < static_cast<std::size_t>(count))
-    throw Error(ExitCode::usage, "drop: " + std::to_string(count) + " grains, expected at most the " +
-                                     std::to_string(grains.size()) + " at the free surface");
+    throw Error(ExitCode::usage, fmt::format("drop: {} grains, expected at most the {} at the free surface",
+                                             count, grains.size()));
   std::ranges::stable_sort(grains, std::ranges::greater(), [&](Index i) {
     return std::fabs(offset_along(world.boundary, x, world.grains.x[i]));
   });

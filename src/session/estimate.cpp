@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/core.h>
 
+#include "core/errors.h"
+#include "core/machine_memory.h"
 #include "session/deposition.h"
 
 namespace talus {
@@ -10,14 +13,17 @@ namespace {
 
 // Measured on one core (x86-64, AVX2) with beds of L = 50 D, H = 20 D and L = 200 D, H = 40 D, tilted to
 // failure; see docs/scenario.md.
-constexpr double seconds_per_contact_and_pass = 3.4e-9;
+constexpr double seconds_per_contact_and_iteration = 3.4e-9;
 constexpr double seconds_per_contact_and_sweep = 15e-9;  // Gauss-Seidel
 constexpr double contacts_per_grain = 1.9;               // near contacts included
-constexpr double passes_of_deposition = 150.0;
-constexpr double passes_of_tilt = 60.0;
-constexpr double passes_of_tilt_of_collapsed = 105.0;
-constexpr double falls_until_rest = 5.0;     // times sqrt(H / g)
-constexpr double gauss_seidel_passes = 5.0;  // times those of the accelerated solver
+constexpr double iterations_of_deposition = 150.0;
+constexpr double iterations_of_tilt = 60.0;
+constexpr double iterations_of_tilt_of_collapsed = 105.0;
+constexpr double falls_until_rest = 5.0;         // times sqrt(H / g)
+constexpr double gauss_seidel_iterations = 5.0;  // times those of the accelerated solver
+
+constexpr double seconds_per_commit = 0.004;  // of a small bed
+constexpr double seconds_per_commit_and_grain = 2.2e-6;
 
 constexpr double bytes_of_process = 2e7;
 constexpr double memory_per_grain = 2500.0;
@@ -31,23 +37,46 @@ constexpr double bytes_per_step = 12.0;
 
 constexpr double gravity = 9.81;  // m/s^2
 
-/// How many more passes than at the default tolerance a smaller residual or the slower solver takes.
+/// How many more iterations than at the default tolerance a smaller residual or the slower solver takes.
 double difficulty(const Scenario& scenario) {
   const double digits = std::log10(scenario.solver.tolerance) / std::log10(Scenario{}.solver.tolerance);
-  return digits * (scenario.solver.method == SolverMethod::accelerated ? 1.0 : gauss_seidel_passes);
+  return digits * (scenario.solver.method == SolverMethod::accelerated ? 1.0 : gauss_seidel_iterations);
+}
+
+/// A run commits at each frame, and every output.checkpoint_every, though not more often than it steps.
+double seconds_of_commits(const Scenario& scenario, const Estimate& sizes, double computing) {
+  const auto steps = static_cast<double>(sizes.deposition_steps + sizes.tilt_steps + sizes.flow_steps);
+  const double commits = std::min(steps, computing / std::max(scenario.output.checkpoint_every, 1e-6)) +
+                         static_cast<double>(sizes.frames);
+  return commits * (seconds_per_commit + seconds_per_commit_and_grain * sizes.grains);
+}
+
+/// Steps that may follow failure, which a slope that holds up to tilt.end_angle does not see.
+double steps_of_flow(const Scenario& scenario, double end) {
+  switch (scenario.tilt.after_failure) {
+    case AfterFailure::lower:
+      return end / scenario.tilt.lowering_rate / time_step(scenario);
+    case AfterFailure::hold:
+      return scenario.deposition.max_time / time_step(scenario);
+    case AfterFailure::stop:
+      break;
+  }
+  return 0.0;
 }
 
 double estimated_seconds(const Scenario& scenario, const Estimate& sizes) {
   const double factor = difficulty(scenario);
   const double most = scenario.solver.max_iterations;
-  const double tilt =
-      scenario.deposition.method == DepositionMethod::collapse ? passes_of_tilt_of_collapsed : passes_of_tilt;
-  const double passes =
-      std::min(passes_of_deposition * factor, most) * static_cast<double>(sizes.deposition_steps) +
-      std::min(tilt * factor, most) * static_cast<double>(sizes.tilt_steps);
+  const double tilt = scenario.deposition.method == DepositionMethod::collapse
+                          ? iterations_of_tilt_of_collapsed
+                          : iterations_of_tilt;
+  const double iterations =
+      std::min(iterations_of_deposition * factor, most) * static_cast<double>(sizes.deposition_steps) +
+      std::min(tilt * factor, most) * static_cast<double>(sizes.tilt_steps + sizes.flow_steps);
   const bool accelerated = scenario.solver.method == SolverMethod::accelerated;
-  return (accelerated ? seconds_per_contact_and_pass : seconds_per_contact_and_sweep) * sizes.contacts *
-         passes;
+  const double computing = (accelerated ? seconds_per_contact_and_iteration : seconds_per_contact_and_sweep) *
+                           sizes.contacts * iterations;
+  return computing + seconds_of_commits(scenario, sizes, computing);
 }
 
 double estimated_file(const Estimate& sizes) {
@@ -55,7 +84,7 @@ double estimated_file(const Estimate& sizes) {
   return bytes_of_file +
          grains * (checkpoint_bytes_per_grain + frame_bytes_per_grain * static_cast<double>(sizes.frames)) +
          bytes_per_row * static_cast<double>(sizes.observable_rows) +
-         bytes_per_step * static_cast<double>(sizes.deposition_steps + sizes.tilt_steps);
+         bytes_per_step * static_cast<double>(sizes.deposition_steps + sizes.tilt_steps + sizes.flow_steps);
 }
 
 }  // namespace
@@ -72,14 +101,43 @@ Estimate estimate(const Scenario& scenario) {
   result.deposition_steps = std::llround((end_of_arrivals(scenario) + rest) / result.time_step);
   const double end = scenario.tilt.end_angle.value_or(assumed_repose);
   result.tilt_steps = std::llround(end / scenario.tilt.step);
-  result.frames = 1 + static_cast<std::int64_t>(end / scenario.output.frame_every);
-  result.observable_rows = 1 + static_cast<std::int64_t>(end / scenario.output.observable_every);
+  result.flow_steps = std::llround(steps_of_flow(scenario, end));
+  // The flow is stored at the same intervals of time as the tilt.
+  const double stored = end + static_cast<double>(result.flow_steps) * scenario.tilt.step;
+  result.frames = 1 + static_cast<std::int64_t>(stored / scenario.output.frame_every);
+  result.observable_rows = 1 + static_cast<std::int64_t>(stored / scenario.output.observable_every);
 
   result.seconds = estimated_seconds(scenario, result);
   result.disk = estimated_file(result);
   result.memory = bytes_of_process + memory_per_grain * (result.grains + result.floor_grains) +
                   memory_of_packing * result.disk;
   return result;
+}
+
+void require_memory(const Scenario& scenario) {
+  Scenario without_flow = scenario;
+  without_flow.tilt.after_failure = AfterFailure::stop;
+  const Estimate expected = estimate(without_flow);
+  const double most = machine_memory();
+  if (expected.memory > most)
+    throw Error(
+        ExitCode::out_of_memory,
+        fmt::format("this run takes up to about {} of memory, but only {} are available: use a smaller "
+                    "bed (bed.length, bed.depth), fewer frames (output.frame_every), or a machine with "
+                    "more memory",
+                    size_text(expected.memory), size_text(most)));
+}
+
+std::string size_text(double bytes) {
+  return bytes < 1e9 ? fmt::format("{:.0f} MB", std::ceil(bytes / 1e6))
+                     : fmt::format("{:.1f} GB", bytes / 1e9);
+}
+
+std::string duration_text(double seconds) {
+  const long whole = std::lround(seconds);
+  if (whole >= 3600) return fmt::format("{} h {:02} min", whole / 3600, whole / 60 % 60);
+  if (whole >= 60) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
+  return fmt::format("{} s", whole);
 }
 
 }  // namespace talus

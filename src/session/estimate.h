@@ -2,9 +2,10 @@
 /// What a run will take, from its scenario, and from the file of its bed if it has one.
 
 #include <cstdint>
+#include <string>
 
 #include "core/types.h"
-#include "session/scenario.h"
+#include "scenario/scenario.h"
 
 namespace talus {
 
@@ -20,7 +21,8 @@ struct Estimate {
   double time_step = 0.0;             ///< h, s
   std::int64_t deposition_steps = 0;  ///< until the bed is at rest
   std::int64_t tilt_steps = 0;
-  std::int64_t frames = 0;
+  std::int64_t flow_steps = 0;  ///< after failure, at most
+  std::int64_t frames = 0;      ///< with those of the flow, at most, as the rows
   std::int64_t observable_rows = 0;
   double seconds = 0.0;  ///< wall time on one core
   double memory = 0.0;   ///< bytes, at most
@@ -29,5 +31,15 @@ struct Estimate {
 
 /// Throws as grain_count does.
 Estimate estimate(const Scenario& scenario);
+
+/// Throws Error(out_of_memory) where a run takes more memory than this process can have, without the flow
+/// after failure, which may be short.
+void require_memory(const Scenario& scenario);
+
+/// "12 MB", "13.8 GB".
+std::string size_text(double bytes);
+
+/// "8 s", "2 min 05 s", "3 h 10 min".
+std::string duration_text(double seconds);
 
 }  // namespace talus

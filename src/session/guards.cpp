@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/core.h>
 
-#include "session/scenario_text.h"
+#include "scenario/text.h"
 
 namespace talus {
 
@@ -34,25 +35,19 @@ std::string guard_message(Guard guard, double value, double limit, std::int64_t 
   const auto said = [guard](const std::string& number) -> std::string {
     switch (guard) {
       case Guard::velocity:
-        return "a grain moves at " + number + " sqrt(g D)";
+        return fmt::format("a grain moves at {} sqrt(g D)", number);
       case Guard::overlap:
-        return "two grains overlap by " + number + " D";
+        return fmt::format("two grains overlap by {} D", number);
       case Guard::energy:
-        return "the kinetic energy of a grain is " + number + " m g H in the mean";
+        return fmt::format("the mean kinetic energy of a grain is {} m g H", number);
       case Guard::unconverged:
       case Guard::count:
         break;
     }
     return number + " steps in a row did not reach their tolerance";
   };
-  return std::string("step ")
-      .append(std::to_string(step))
-      .append(": ")
-      .append(said(short_text(value)))
-      .append("; guards.")
-      .append(guard_names[static_cast<std::size_t>(guard)])
-      .append(" allows ")
-      .append(short_text(limit));
+  return fmt::format("step {}: {}; guards.{} allows {}", step, said(short_text(value)),
+                     guard_names[static_cast<std::size_t>(guard)], short_text(limit));
 }
 
 }  // namespace talus

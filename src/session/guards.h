@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "dynamics/step.h"
-#include "session/scenario.h"
+#include "scenario/scenario.h"
 
 namespace talus {
 

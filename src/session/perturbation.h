@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/world.h"
-#include "session/scenario.h"
+#include "scenario/scenario.h"
 
 namespace talus {
 

@@ -2,10 +2,11 @@
 
 #include <array>
 #include <charconv>
+#include <fmt/core.h>
 
 #include "core/errors.h"
 #include "core/text_stream.h"
-#include "session/scenario_text.h"
+#include "scenario/text.h"
 
 namespace talus {
 namespace {
@@ -15,9 +16,9 @@ constexpr std::string_view head =
 constexpr std::size_t column_count = 7;
 
 std::string plan_line(const PerturbationTable& table) {
-  return "# talus perturb --from " + short_text(table.plan.first) + " --every " +
-         short_text(table.plan.every) + " --patch " + patch_text(table.plan.patch) +
-         (table.complete ? ": complete" : ": under way");
+  return fmt::format("# talus perturb --from {} --every {} --patch {}{}", short_text(table.plan.first),
+                     short_text(table.plan.every), patch_text(table.plan.patch),
+                     table.complete ? ": complete" : ": under way");
 }
 
 bool read_number(std::string_view text, auto& number) {
@@ -45,17 +46,16 @@ bool read_row(const std::string& line, double& tilt, Trial& trial) {
          read_number(cells[6], trial.displacement) && text.peek() == EOF;
 }
 
-void append_row(std::string& text, double tilt, const Trial& trial) {
-  text.append(short_text(tilt)).append(",").append(short_text(trial.strength)).append(",");
-  text.append(short_text(trial.energy)).append(",").append(name_of(trial.end)).append(",");
-  text.append(short_text(trial.time)).append(",").append(std::to_string(trial.moved)).append(",");
-  text.append(short_text(trial.displacement)).append("\n");
+std::string row_text(double tilt, const Trial& trial) {
+  return fmt::format("{},{},{},{},{},{},{}\n", short_text(tilt), short_text(trial.strength),
+                     short_text(trial.energy), name_of(trial.end), short_text(trial.time), trial.moved,
+                     short_text(trial.displacement));
 }
 
 }  // namespace
 
 std::string patch_text(const SurfacePatch& patch) {
-  return short_text(patch.width) + "x" + short_text(patch.depth);
+  return fmt::format("{}x{}", short_text(patch.width), short_text(patch.depth));
 }
 
 std::optional<SurfacePatch> parse_patch(const std::string& text) {
@@ -69,9 +69,9 @@ std::optional<SurfacePatch> parse_patch(const std::string& text) {
 }
 
 std::string perturbation_csv(const PerturbationTable& table) {
-  std::string text = plan_line(table).append("\n").append(head).append("\n");
+  std::string text = fmt::format("{}\n{}\n", plan_line(table), head);
   for (const PerturbedState& state : table.states)
-    for (const Trial& trial : state.trials) append_row(text, state.tilt, trial);
+    for (const Trial& trial : state.trials) text += row_text(state.tilt, trial);
   return text;
 }
 
@@ -84,8 +84,11 @@ PerturbationTable parse_perturbation_csv(const std::string& text, const std::str
   std::string line;
   std::getline(lines, line);
   if (line != plan_line(table) && line != under_way)
-    throw Error(ExitCode::bad_data, name + " begins with '" + printable(line, 120) + "', expected '" +
-                                        under_way + "': it was made in another way; give another folder");
+    throw Error(
+        ExitCode::bad_data,
+        fmt::format(
+            "{} begins with '{}', expected '{}': it was made with other settings; give another folder", name,
+            printable(line, 120), under_way));
   table.complete = line != under_way;
   std::getline(lines, line);
   bool whole = line == head;
@@ -97,8 +100,9 @@ PerturbationTable parse_perturbation_csv(const std::string& text, const std::str
     table.states.back().trials.push_back(trial);
   }
   if (!whole)
-    throw Error(ExitCode::bad_data, name + ": unexpected line '" + printable(line, 120) +
-                                        "'; remove the file, and what it held is computed again");
+    throw Error(ExitCode::bad_data,
+                fmt::format("{}: unexpected line '{}'; remove the file, and its rows are computed again",
+                            name, printable(line, 120)));
   return table;
 }
 

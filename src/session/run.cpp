@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <fmt/core.h>
 
 #include "core/errors.h"
 #include "session/recorder.h"
@@ -45,7 +46,7 @@ void apply(Session& session, const Command& command) {
     session.apply(command);
   } catch (const Error& error) {
     throw Error(ExitCode::bad_data,
-                "data sets /commands at step " + std::to_string(command.step) + ": " + error.what());
+                fmt::format("data sets /commands at step {}: {}", command.step, error.what()));
   }
 }
 

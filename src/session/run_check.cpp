@@ -2,14 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/core.h>
 #include <limits>
 #include <span>
 
+#include "core/bed_frame.h"
 #include "core/errors.h"
+#include "core/tensor.h"
 #include "core/trigonometry.h"
+#include "scenario/scenario.h"
+#include "scenario/text.h"
 #include "session/run_header.h"
-#include "session/scenario.h"
-#include "session/scenario_text.h"
+#include "session/session.h"
 
 namespace talus {
 namespace {
@@ -21,17 +25,19 @@ struct Findings {
   RunCheck& check;
   std::size_t more = 0;
 
-  std::size_t count() const { return check.faults.size() + more; }
-
+  void add_changed(const std::string& what) {
+    ++check.changed;
+    add(what, "is not as it was written: its hash is another");
+  }
   void add(const std::string& where, const std::string& what) {
     if (check.faults.size() < most_faults)
-      check.faults.push_back(std::string(where).append(": ").append(what));
+      check.faults.push_back(fmt::format("{}: {}", where, what));
     else
       ++more;
   }
 };
 
-std::string frame_name(std::size_t k) { return "frame " + std::to_string(k); }
+std::string frame_name(std::size_t k) { return fmt::format("frame {}", k); }
 
 bool all_finite(std::span<const double> values) {
   return std::ranges::all_of(values, [](double value) { return std::isfinite(value); });
@@ -72,17 +78,16 @@ void check_remaining_steps(const std::vector<StepRow>& rows, Findings& found) {
 void check_steps(const std::vector<StepRow>& rows, const Checkpoint& checkpoint, Findings& found) {
   for (std::size_t k = 0; k < rows.size(); ++k) {
     if (at(rows[k], StepField::step) != static_cast<double>(k + 1)) {
-      found.add("/steps/step", "row " + std::to_string(k) + " is of step " +
-                                   short_text(at(rows[k], StepField::step)) + ", expected " +
-                                   std::to_string(k + 1));
+      found.add("/steps/step", fmt::format("row {} is of step {}, expected {}", k,
+                                           short_text(at(rows[k], StepField::step)), k + 1));
       break;
     }
     if (!all_finite(rows[k]))
-      found.add("/steps", "step " + std::to_string(k + 1) + " has a value that is not finite");
+      found.add("/steps", fmt::format("step {} has a value that is not finite", k + 1));
   }
   if (checkpoint.world.step != static_cast<std::int64_t>(rows.size()))
-    found.add("/checkpoint/step", std::to_string(checkpoint.world.step) + ", but /steps has " +
-                                      std::to_string(rows.size()) + " rows");
+    found.add("/checkpoint/step",
+              fmt::format("{}, but /steps has {} rows", checkpoint.world.step, rows.size()));
 }
 
 void check_observables(const std::vector<ObservableRow>& rows, double last_step, bool lacks_values,
@@ -91,16 +96,16 @@ void check_observables(const std::vector<ObservableRow>& rows, double last_step,
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const double step = at(rows[k], Observable::step);
     if (!(step > before) || step > last_step)
-      found.add("/observables/step", "row " + std::to_string(k) + " is of step " + short_text(step) +
-                                         ", expected one after " + short_text(before) + ", up to " +
-                                         short_text(last_step));
+      found.add("/observables/step",
+                fmt::format("row {} is of step {}, expected one after {}, up to {}", k, short_text(step),
+                            short_text(before), short_text(last_step)));
     before = step;
     for (const Observable field : {Observable::time, Observable::tilt, Observable::kinetic_energy,
                                    Observable::volume_strain, Observable::largest_overlap})
       if (!lacks_values && !std::isfinite(at(rows[k], field)))
         found.add(
             std::string("/observables/").append(observable_fields[static_cast<std::size_t>(field)].name),
-            "row " + std::to_string(k) + " is not finite");
+            fmt::format("row {} is not finite", k));
   }
 }
 
@@ -114,97 +119,91 @@ bool at_rest(const std::vector<ObservableRow>& rows, std::int64_t step) {
 
 // --- a frame ---
 
-bool check_values(const Frame& frame, const RunStatics& statics, const std::string& name, Findings& found) {
+bool check_values(const BedFrame& bed, const std::string& name, Findings& found) {
   const std::pair<const char*, const std::vector<double>*> values[] = {
-      {"position", &frame.x},
-      {"position", &frame.y},
-      {"angle", &frame.angle},
-      {"velocity", &frame.vx},
-      {"velocity", &frame.vy},
-      {"angular_velocity", &frame.omega},
-      {"contacts/force", &frame.contacts.fn},
-      {"contacts/force", &frame.contacts.ft}};
+      {"position", &bed.frame.x},
+      {"position", &bed.frame.y},
+      {"angle", &bed.frame.angle},
+      {"velocity", &bed.frame.vx},
+      {"velocity", &bed.frame.vy},
+      {"angular_velocity", &bed.frame.omega},
+      {"contacts/force", &bed.frame.contacts.fn},
+      {"contacts/force", &bed.frame.contacts.ft}};
   bool finite = true;
   for (const auto& [set, of] : values) {
     if (all_finite(*of)) continue;
-    found.add(name, std::string(set).append(" has a value that is not finite"));
+    found.add(name, fmt::format("{} has a value that is not finite", set));
     finite = false;
   }
   // In single precision the period itself can be reached.
-  const double room = 1e-5 * statics.length;
-  const auto outside = [&](double x) { return x < -room || x > statics.length + room; };
-  if (statics.periodic && std::ranges::any_of(frame.x, outside))
+  const double room = 1e-5 * bed.statics.length;
+  const auto outside = [&](double x) { return x < -room || x > bed.statics.length + room; };
+  if (bed.statics.periodic && std::ranges::any_of(bed.frame.x, outside))
     found.add(name, "a grain lies outside the period of the bed");
   return finite;
 }
 
 /// Overlap of a contact of two grains, m; 0 for one with a plane.
-double overlap(const Frame& frame, const RunStatics& statics, std::size_t c) {
-  const FrameContacts& contacts = frame.contacts;
-  if (contacts.b[c] >= frame.grain_count()) return 0.0;
+double overlap(const BedFrame& bed, std::size_t c) {
+  const FrameContacts& contacts = bed.frame.contacts;
+  if (contacts.b[c] >= bed.frame.grain_count()) return 0.0;
   const auto a = static_cast<std::size_t>(contacts.a[c]), b = static_cast<std::size_t>(contacts.b[c]);
-  const double x = frame.x[b] + static_cast<double>(contacts.shift[c]) * statics.length - frame.x[a];
-  return statics.radius[a] + statics.radius[b] - std::hypot(x, frame.y[b] - frame.y[a]);
+  const double x =
+      bed.frame.x[b] + static_cast<double>(contacts.shift[c]) * bed.statics.length - bed.frame.x[a];
+  return bed.statics.radius[a] + bed.statics.radius[b] - std::hypot(x, bed.frame.y[b] - bed.frame.y[a]);
 }
 
-void check_contacts(const Frame& frame, const RunStatics& statics, const Frictions& mu,
-                    const std::string& name, Findings& found) {
-  const FrameContacts& contacts = frame.contacts;
-  const double unit = statics.mass.empty() ? 1.0 : statics.mass.front() * statics.gravity;
+void check_contacts(const BedFrame& bed, const Frictions& mu, const std::string& name, Findings& found) {
+  const FrameContacts& contacts = bed.frame.contacts;
+  const double unit = bed.statics.mass.empty() ? 1.0 : bed.statics.mass.front() * bed.statics.gravity;
   double deepest = 0.0, mobilised = 0.0;
   std::size_t pulling = 0;
   for (std::size_t c = 0; c < contacts.a.size(); ++c) {
-    deepest = std::max(deepest, overlap(frame, statics, c));
+    deepest = std::max(deepest, overlap(bed, c));
     if (contacts.fn[c] < 0.0) ++pulling;
-    const bool wall = contacts.b[c] >= frame.grain_count() && std::abs(contacts.nx[c]) > 0.5;
+    const bool wall = contacts.b[c] >= bed.frame.grain_count() && std::abs(contacts.nx[c]) > 0.5;
     // Forces far below the weight of a grain have few digits in single precision.
     const double limit = (wall ? mu.walls : mu.grains) * contacts.fn[c] + smallest_force * unit;
     mobilised = std::max(mobilised, std::abs(contacts.ft[c]) / limit);
   }
   RunCheck& check = found.check;
-  check.largest_overlap = std::max(check.largest_overlap, deepest / statics.mean_diameter);
+  check.largest_overlap = std::max(check.largest_overlap, deepest / bed.statics.mean_diameter);
   check.largest_mobilisation = std::max(check.largest_mobilisation, mobilised);
-  if (pulling > 0) found.add(name, std::to_string(pulling) + " contacts pull; normal forces are >= 0");
-  if (deepest > overlap_limit * statics.mean_diameter)
-    found.add(name, "two grains overlap by " + short_text(deepest / statics.mean_diameter) + " D");
+  if (pulling > 0) found.add(name, fmt::format("{} contacts pull; normal forces are >= 0", pulling));
+  if (deepest > overlap_limit * bed.statics.mean_diameter)
+    found.add(name,
+              fmt::format("two grains overlap by {} D", short_text(deepest / bed.statics.mean_diameter)));
   if (mobilised > mobilisation_limit)
-    found.add(name, "a tangential force is " + short_text(mobilised) + " mu f_n, Coulomb's law allows 1");
+    found.add(name,
+              fmt::format("a tangential force is {} mu f_n, Coulomb's law allows 1", short_text(mobilised)));
 }
 
 /// What contacts give each grain: the sum of forces, and the internal moment (paper, Eq. 4).
 struct Loads {
-  std::vector<Vec2> force;
+  std::vector<Vector2> force;
   std::vector<Tensor2> moment;
 };
 
-Loads loads_of(const Frame& frame, const RunStatics& statics) {
-  const auto count = static_cast<std::size_t>(frame.grain_count());
-  Loads loads{std::vector<Vec2>(count), std::vector<Tensor2>(count)};
-  const FrameContacts& contacts = frame.contacts;
+Loads loads_of(const BedFrame& bed) {
+  const auto count = static_cast<std::size_t>(bed.frame.grain_count());
+  Loads loads{std::vector<Vector2>(count, Vector2::Zero()), std::vector<Tensor2>(count)};
+  const FrameContacts& contacts = bed.frame.contacts;
   // On the other side of a contact lever and force are both opposite: the moment is not.
-  const auto add = [&](Index body, double sign, Vec2 normal, Vec2 force) {
-    if (body >= frame.grain_count()) return;  // a plane
+  const auto add = [&](Index body, double sign, const Vector2& normal, const Vector2& force) {
+    if (body >= bed.frame.grain_count()) return;  // a plane
     const auto grain = static_cast<std::size_t>(body);
-    loads.force[grain].x += sign * force.x;
-    loads.force[grain].y += sign * force.y;
-    const double lever = statics.radius[grain];
-    Tensor2& moment = loads.moment[grain];
-    moment.xx += lever * normal.x * force.x;
-    moment.xy += lever * normal.x * force.y;
-    moment.yx += lever * normal.y * force.x;
-    moment.yy += lever * normal.y * force.y;
+    loads.force[grain] += sign * force;
+    matrix(loads.moment[grain]) += bed.statics.radius[grain] * normal * force.transpose();  // (T19)
   };
   for (std::size_t c = 0; c < contacts.a.size(); ++c) {
-    const Vec2 normal{contacts.nx[c], contacts.ny[c]};
-    const Vec2 force{contacts.fn[c] * normal.x - contacts.ft[c] * normal.y,
-                     contacts.fn[c] * normal.y + contacts.ft[c] * normal.x};
+    const Vector2 normal{contacts.nx[c], contacts.ny[c]}, tangent{-contacts.ny[c], contacts.nx[c]};
+    const Vector2 force = contacts.fn[c] * normal + contacts.ft[c] * tangent;
     add(contacts.a[c], -1.0, normal, force);
     add(contacts.b[c], 1.0, normal, force);
   }
   for (std::size_t i = 0; i < count; ++i) {  // of what spins (paper, Eq. 4)
-    const double spin = 0.25 * statics.mass[i] * std::pow(statics.radius[i] * frame.omega[i], 2);
-    loads.moment[i].xx -= spin;
-    loads.moment[i].yy -= spin;
+    const double spin = 0.25 * bed.statics.mass[i] * std::pow(bed.statics.radius[i] * bed.frame.omega[i], 2);
+    matrix(loads.moment[i]).diagonal().array() -= spin;
   }
   return loads;
 }
@@ -223,27 +222,68 @@ void check_moments(const Frame& frame, const Loads& loads, const std::string& na
   if (largest == 0.0) return;
   found.check.largest_moment_error = std::max(found.check.largest_moment_error, error / largest);
   if (error > moment_error_limit * largest)
-    found.add(name, "internal_moment is not that of the contacts: it differs by " +
-                        short_text(error / largest) + " of the largest");
+    found.add(name,
+              fmt::format("internal_moment is not that of the contacts: it differs by {} of the largest",
+                          short_text(error / largest)));
 }
 
 /// Newton's law of a bed at rest: forces carry the weight.
-void check_balance(const Frame& frame, const Loads& loads, const RunStatics& statics, const std::string& name,
-                   Findings& found) {
+void check_balance(const BedFrame& bed, const Loads& loads, const std::string& name, Findings& found) {
   double squares = 0.0;
-  for (Index i = 0; i < statics.free_count; ++i) {
+  for (Index i = 0; i < bed.statics.free_count; ++i) {
     const auto k = static_cast<std::size_t>(i);
-    const double weight = statics.mass[k] * statics.gravity;
-    const double x = loads.force[k].x / weight + sine(frame.tilt);
-    const double y = loads.force[k].y / weight - cosine(frame.tilt);
+    const double weight = bed.statics.mass[k] * bed.statics.gravity;
+    const double x = loads.force[k].x() / weight + sine(bed.frame.tilt);
+    const double y = loads.force[k].y() / weight - cosine(bed.frame.tilt);
     squares += x * x + y * y;
   }
-  const double imbalance = std::sqrt(squares / static_cast<double>(std::max<Index>(statics.free_count, 1)));
+  const double imbalance =
+      std::sqrt(squares / static_cast<double>(std::max<Index>(bed.statics.free_count, 1)));
   ++found.check.frames_at_rest;
   found.check.largest_imbalance = std::max(found.check.largest_imbalance, imbalance);
   if (imbalance > imbalance_limit)
-    found.add(name, "the bed is said to be at rest, but forces and weight differ by " +
-                        short_text(imbalance) + " m g (rms)");
+    found.add(name,
+              fmt::format("the bed is recorded as at rest, but forces and weight differ by {} m g (rms)",
+                          short_text(imbalance)));
+}
+
+// --- what is stored twice ---
+
+bool is_same(double one, double other) { return one == other || (std::isnan(one) && std::isnan(other)); }
+
+/// The parameters that a reader finds without the scenario are those of the scenario.
+void check_parameters(const RunHeader& header, const Scenario& scenario, Findings& found) {
+  const RunStatics& statics = header.statics;
+  if (header.seed != scenario.seed) found.add("/provenance", "the seed is not that of the scenario");
+  const double diameter = scenario.grains.mean_diameter;
+  const std::pair<const char*, std::pair<double, double>> values[] = {
+      {"mean_diameter", {statics.mean_diameter, diameter}},
+      {"friction", {statics.friction, scenario.contact.friction}},
+      {"depth", {statics.depth, scenario.bed.depth * diameter}},
+      {"gravity", {statics.gravity, World().gravity}}};
+  for (const auto& [name, pair] : values)
+    if (!is_same(pair.first, pair.second))
+      found.add(std::string("/parameters/").append(name),
+                "is " + short_text(pair.first) + ", the scenario says " + short_text(pair.second));
+}
+
+/// The grains that have arrived are those of the last state.
+void check_grains(const RunStatics& all, const World& world, Findings& found) {
+  const RunStatics statics = arrived_statics(all, world.grains.count());
+  if (statics.radius != world.grains.radius)
+    found.add("/particles/grains/radius", "is not that of /checkpoint");
+  if (statics.mass != world.grains.mass) found.add("/particles/grains/mass", "is not that of /checkpoint");
+}
+
+/// Results follow from the state of the run.
+void check_results(const Scenario& scenario, const Checkpoint& checkpoint, Findings& found) try {
+  const Figures results = Session(scenario, checkpoint, "/checkpoint").checkpoint(0.0).results;
+  for (const auto& [name, value] : checkpoint.results)
+    if (const auto expected = find_value(results, name); expected && !is_same(*expected, value))
+      found.add("/results/" + name,
+                "is " + short_text(value) + ", the state of the run says " + short_text(*expected));
+} catch (const Error& error) {
+  found.add("/checkpoint", error.what());
 }
 
 }  // namespace
@@ -251,6 +291,7 @@ void check_balance(const Frame& frame, const Loads& loads, const RunStatics& sta
 RunCheck check_run(const RunFile& run, const std::function<void(std::size_t)>& progress) {
   RunCheck check;
   Findings found{check};
+  for (const std::string& path : run.changed_data_sets()) found.add_changed(path);
   const RunStatics& statics = run.header().statics;
   const std::vector<ObservableRow> rows = run.all_observables();
   const std::vector<StepRow> steps = run.steps();
@@ -266,29 +307,34 @@ RunCheck check_run(const RunFile& run, const std::function<void(std::size_t)>& p
     check_steps(steps, run.checkpoint(), found);
   check_observables(rows, static_cast<double>(last_step), lacks, found);
   const Scenario scenario = stored_scenario(run.header(), "/parameters/scenario_resolved");
+  check_parameters(run.header(), scenario, found);
+  if (run.has_state()) {
+    check_grains(statics, run.checkpoint().world, found);
+    check_results(scenario, run.checkpoint(), found);
+  }
   std::int64_t before = -1;
   for (std::size_t k = 0; k < run.all_frame_tilts().size(); ++k, ++check.frames) {
     const std::string name = frame_name(k);
-    const std::size_t faults_before = found.count();
     try {
       const Frame frame = run.frame(k);
+      if (!run.is_as_written(frame, k)) found.add_changed(name);
       if (frame.step <= before || frame.step > last_step)
-        found.add("/frames/step", name + " is of step " + std::to_string(frame.step) +
-                                      ", after one of step " + std::to_string(before));
+        found.add("/frames/step",
+                  fmt::format("{} is of step {}, after one of step {}", name, frame.step, before));
       before = frame.step;
-      if (check_values(frame, statics, name, found)) {
-        check_contacts(frame, statics, frictions_of(run, scenario, k, frame), name, found);
-        const Loads loads = loads_of(frame, statics);
+      const BedFrame bed{frame, statics};
+      if (check_values(bed, name, found)) {
+        check_contacts(bed, frictions_of(run, scenario, k, frame), name, found);
+        const Loads loads = loads_of(bed);
         check_moments(frame, loads, name, found);
-        if (at_rest(rows, frame.step)) check_balance(frame, loads, statics, name, found);
+        if (at_rest(rows, frame.step)) check_balance(bed, loads, name, found);
       }
     } catch (const Error& error) {
       found.add(name, error.what());
     }
-    if (found.count() > faults_before) check.faulty_frames.push_back(k);
     if (progress) progress(k + 1);
   }
-  if (found.more > 0) check.faults.push_back("and " + std::to_string(found.more) + " more");
+  if (found.more > 0) check.faults.push_back(fmt::format("and {} more", found.more));
   return check;
 }
 

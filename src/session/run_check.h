@@ -15,7 +15,7 @@ struct RunCheck {
   /// What is wrong, one sentence each with the data set or the frame; at most `most_faults`, and how many
   /// more.
   std::vector<std::string> faults;
-  std::vector<std::size_t> faulty_frames;  ///< their numbers, all of them
+  std::size_t changed = 0;  ///< data sets and frames that do not agree with their hashes
   std::size_t frames = 0, rows = 0, steps = 0, commands = 0, frames_at_rest = 0;
   double largest_overlap = 0.0;       ///< D, of two grains in a frame
   double largest_mobilisation = 0.0;  ///< |f_t| / (mu f_n) in a frame; 1: friction is fully mobilised

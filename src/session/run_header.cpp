@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <ctime>
+#include <fmt/core.h>
 
 #include "core/version.h"
 
@@ -23,9 +24,6 @@ std::string host_name() {
   gethostname(name, sizeof name - 1);
   return name;
 }
-
-/// All keys stand in a stored scenario, so one that lacks this key is from before it.
-constexpr const char* key_of_poured_beds = "arrival_speed";
 
 }  // namespace
 
@@ -48,12 +46,12 @@ RunHeader run_header(const Session& session, const RunOrigin& origin) {
 }
 
 Scenario stored_scenario(const RunHeader& header, const std::string& name) {
-  Scenario scenario = parse_scenario(header.scenario_resolved, name);
-  if (header.scenario_resolved.find(key_of_poured_beds) == std::string::npos) {
-    scenario.deposition.method = DepositionMethod::collapse;
-    scenario.deposition.wall_friction = scenario.deposition.friction;
-  }
-  return scenario;
+  return parse_scenario(header.scenario_resolved, name);
+}
+
+std::string version_of(const Facts& provenance) {
+  return fmt::format("{} ({})", find_value(provenance, "version").value_or("unknown"),
+                     find_value(provenance, "git_hash").value_or("unknown"));
 }
 
 }  // namespace talus

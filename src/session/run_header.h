@@ -18,9 +18,10 @@ struct RunOrigin {
 /// The header of a run that this program begins now, on this host.
 RunHeader run_header(const Session& session, const RunOrigin& origin);
 
-/// The scenario of a stored run, from its header; `name` is what messages call it. A run of before grains
-/// were poured says nothing of a method: its grains collapsed, and all its contacts had deposition.friction
-/// until the bed was at rest.
+/// The scenario of a stored run, from its header; `name` is what messages call it.
 Scenario stored_scenario(const RunHeader& header, const std::string& name);
+
+/// The version that computed a run, with its git hash, from its provenance: "0.1.0 (abc)".
+std::string version_of(const Facts& provenance);
 
 }  // namespace talus

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/core.h>
 
 #include "core/errors.h"
 #include "core/trigonometry.h"
@@ -13,6 +14,8 @@ namespace {
 std::int64_t steps_between(double degrees_between, double step) {
   return std::max<std::int64_t>(1, std::llround(degrees_between / step));
 }
+
+bool follows_failure(const Scenario& scenario) { return scenario.tilt.after_failure != AfterFailure::stop; }
 
 double seconds(const StepReport& report) {
   double sum = 0.0;
@@ -75,13 +78,19 @@ Session::Session(const Scenario& scenario)
   let_arrive(arrivals_, pour_rule(scenario_), time_step(scenario_), world_);
 }
 
+Session::Session(const Scenario& scenario, Checkpoint checkpoint, const std::string& origin)
+    : scenario_(scenario),
+      world_(std::move(checkpoint.world)),
+      schedule_(stored_schedule(checkpoint, follows_failure(scenario), origin)),
+      arrivals_(arrivals_of(scenario)) {}
+
 ContactLawParameters Session::law() const {
   ContactLawParameters law = contact_law(scenario_);
-  if (phase_ == Phase::deposition) {
+  if (schedule_.phase == Phase::deposition) {
     law.friction = scenario_.deposition.friction.value_or(law.friction);
     law.wall_friction = scenario_.deposition.wall_friction.value_or(law.wall_friction);
   }
-  law.friction = friction_.value_or(law.friction);
+  law.friction = schedule_.friction.value_or(law.friction);
   return law;
 }
 
@@ -98,8 +107,8 @@ bool Session::is_quiet() const {
 }
 
 void Session::apply(Command command) {
-  if (phase_ == Phase::done)
-    throw Error(ExitCode::usage, std::string(name_of(command.kind)) + ": the run has ended");
+  if (schedule_.phase == Phase::done)
+    throw Error(ExitCode::usage, fmt::format("{}: the run has ended", name_of(command.kind)));
   check_command(command, scenario_, world_);
   switch (command.kind) {
     case CommandKind::push:
@@ -110,24 +119,26 @@ void Session::apply(Command command) {
       drop_grains(world_, command.grain, command.x, command.y, scenario_.grains.mean_diameter);
       break;
     case CommandKind::friction:
-      friction_ = command.x;
+      schedule_.friction = command.x;
       break;
     case CommandKind::tilt_rate:
-      if (phase_ == Phase::flow)
-        throw Error(ExitCode::usage, "tilt_rate: the slope has failed; its tilt goes by tilt.after_failure");
-      course_ = TiltCourse{command.x, scheduled_tilt(), tilt_steps_};
+      if (schedule_.phase == Phase::flow)
+        throw Error(ExitCode::usage,
+                    "tilt_rate: the slope has failed; its tilt now follows tilt.after_failure");
+      schedule_.course = TiltCourse{radians(command.x), scheduled_tilt(), schedule_.tilt_steps};
   }
   command.step = world_.step;
   segment_.commands.push_back(command);
 }
 
 const StepReport& Session::advance() {
-  if (!broken_guard_.empty() && phase_ != Phase::done) throw Error(ExitCode::internal, broken_guard_);
-  if (phase_ == Phase::deposition)
+  if (!broken_guard_.empty() && schedule_.phase != Phase::done)
+    throw Error(ExitCode::bad_data, broken_guard_);
+  if (schedule_.phase == Phase::deposition)
     advance_deposition();
-  else if (phase_ == Phase::tilt)
+  else if (schedule_.phase == Phase::tilt)
     advance_tilt();
-  else if (phase_ == Phase::flow)
+  else if (schedule_.phase == Phase::flow)
     advance_flow();
   return report_;
 }
@@ -145,49 +156,50 @@ void Session::advance_deposition() {
   if (is_at_rest() && report_.solver.converged)
     begin_tilt();
   else if (world_.time >= end_of_arrivals(scenario_) + scenario_.deposition.max_time)
-    throw Error(ExitCode::bad_data,
-                "the bed did not come to rest within deposition.max_time = " +
-                    std::to_string(scenario_.deposition.max_time) + " s: its rms velocity is " +
-                    std::to_string(report_.rms_velocity / (world_.gravity * time_step(scenario_))) +
-                    " g h, rest asks for deposition.rest_velocity = " +
-                    std::to_string(scenario_.deposition.rest_velocity) +
-                    " g h; allow more time, or set solver.moving_tolerance or solver.tolerance lower");
+    throw Error(
+        ExitCode::bad_data,
+        fmt::format("the bed did not come to rest within deposition.max_time = {:g} s: its rms "
+                    "velocity is {:.3g} g h, rest requires deposition.rest_velocity = {:g} g h; allow "
+                    "more time, or set solver.moving_tolerance or solver.tolerance lower",
+                    scenario_.deposition.max_time,
+                    report_.rms_velocity / (world_.gravity * time_step(scenario_)),
+                    scenario_.deposition.rest_velocity));
 }
 
 void Session::begin_tilt() {
-  phase_ = Phase::tilt;
-  baseline_ = measure_baseline(world_, scenario_.grains.mean_diameter);
+  schedule_.phase = Phase::tilt;
+  schedule_.baseline = measure_baseline(world_, scenario_.grains.mean_diameter);
   record_row();
   segment_.frames.push_back(make_frame(world_, law()));
 }
 
 double Session::scheduled_tilt() const {
-  if (!course_) return static_cast<double>(tilt_steps_) * radians(scenario_.tilt.step);
-  return course_->from +
-         static_cast<double>(tilt_steps_ - course_->since) * radians(course_->rate) * time_step(scenario_);
+  if (!schedule_.course) return static_cast<double>(schedule_.tilt_steps) * radians(scenario_.tilt.step);
+  return schedule_.course->from + static_cast<double>(schedule_.tilt_steps - schedule_.course->since) *
+                                      schedule_.course->rate * time_step(scenario_);
 }
 
 void Session::advance_tilt() {
-  ++tilt_steps_;
+  ++schedule_.tilt_steps;
   world_.tilt = scheduled_tilt();
   const double velocity = take_step_and_follow();
-  const bool failed_before = flow_.failed;
-  follow_surface(flow_, velocity, world_.tilt, time_step(scenario_),
+  const bool failed_before = schedule_.flow.failed;
+  follow_surface(schedule_.flow, velocity, world_.tilt, time_step(scenario_),
                  flow_rule(scenario_.grains.mean_diameter, world_.gravity, world_.boundary));
 
   const double tilt = degrees(world_.tilt);
-  const bool followed = flow_.failed && scenario_.tilt.after_failure != AfterFailure::stop;
+  const bool followed = schedule_.flow.failed && follows_failure(scenario_);
   const bool reached = scenario_.tilt.end_angle
                            ? tilt >= *scenario_.tilt.end_angle - 0.5 * scenario_.tilt.step
-                           : flow_.failed || tilt >= steepest_tilt;
+                           : schedule_.flow.failed || tilt >= steepest_tilt;
   const bool ends = followed || reached;
-  record(ends, ends || flow_.failed != failed_before);
-  if (ends) phase_ = followed ? Phase::flow : Phase::done;
+  record(ends, ends || schedule_.flow.failed != failed_before);
+  if (ends) schedule_.phase = followed ? Phase::flow : Phase::done;
 }
 
 void Session::advance_flow() {
-  ++flow_steps_;
-  const double time = static_cast<double>(flow_steps_) * time_step(scenario_);
+  ++schedule_.flow_steps;
+  const double time = static_cast<double>(schedule_.flow_steps) * time_step(scenario_);
   const bool lowered = scenario_.tilt.after_failure == AfterFailure::lower;
   if (lowered) world_.tilt = std::max(0.0, scheduled_tilt() - time * radians(scenario_.tilt.lowering_rate));
   take_step_and_follow();
@@ -196,23 +208,23 @@ void Session::advance_flow() {
   const bool ends = rests || (lowered ? world_.tilt == 0.0 : time >= scenario_.deposition.max_time);
   record(ends, ends);
   if (rests)
-    angle_at_rest_ =
+    schedule_.angle_at_rest =
         world_.tilt - surface_inclination(world_.grains, world_.boundary,
                                           surface_sample_spacing * scenario_.grains.mean_diameter);
-  if (ends) phase_ = Phase::done;
+  if (ends) schedule_.phase = Phase::done;
 }
 
 double Session::take_step_and_follow() {
   take_step();
   const double layer = surface_layer_depth * scenario_.grains.mean_diameter;
-  const double velocity = surface_velocity(world_.grains, surface_height_ - layer);
-  surface_displacement_ += time_step(scenario_) * velocity;
+  const double velocity = surface_velocity(world_.grains, schedule_.surface_height - layer);
+  schedule_.surface_displacement += time_step(scenario_) * velocity;
   return velocity;
 }
 
 void Session::record(bool row, bool frame) {
   const auto due = [this](double every) {
-    return (tilt_steps_ + flow_steps_) % steps_between(every, scenario_.tilt.step) == 0;
+    return (schedule_.tilt_steps + schedule_.flow_steps) % steps_between(every, scenario_.tilt.step) == 0;
   };
   if (row || due(scenario_.output.observable_every)) record_row();
   if (frame || due(scenario_.output.frame_every)) segment_.frames.push_back(make_frame(world_, law()));
@@ -220,32 +232,33 @@ void Session::record(bool row, bool frame) {
 
 void Session::take_step() {
   report_ = step(world_, settings(), workspace_);
-  quiet_steps_ = is_quiet() && have_all_arrived() ? quiet_steps_ + 1 : 0;
-  const bool tilting = phase_ == Phase::tilt;
+  schedule_.quiet_steps = is_quiet() && have_all_arrived() ? schedule_.quiet_steps + 1 : 0;
+  const bool tilting = schedule_.phase == Phase::tilt;
   if (!report_.solver.converged)
-    ++(tilting                       ? record_.unconverged_tilt
-       : phase_ == Phase::deposition ? record_.unconverged_deposition
-                                     : record_.unconverged_flow);
+    ++(tilting                                ? schedule_.record.unconverged_tilt
+       : schedule_.phase == Phase::deposition ? schedule_.record.unconverged_deposition
+                                              : schedule_.record.unconverged_flow);
   const double eta = report_.solver.residual.eta;
-  residual_since_row_ = std::max(residual_since_row_, eta);
+  schedule_.residual_since_row = std::max(schedule_.residual_since_row, eta);
   if (tilting) {
-    double& worst = is_at_rest() ? record_.residual_max_rest : record_.residual_max_moving;
+    double& worst = is_at_rest() ? schedule_.record.residual_max_rest : schedule_.record.residual_max_moving;
     worst = std::max(worst, eta);
   }
-  for (std::size_t k = 0; k < stage_count; ++k) stage_seconds_[k] += report_.seconds[k];
-  (phase_ == Phase::deposition ? deposition_seconds_ : tilt_seconds_) += seconds(report_);
-  segment_.steps.push_back(step_row(world_, report_, static_cast<double>(phase_)));
+  for (std::size_t k = 0; k < stage_count; ++k) schedule_.seconds.stages[k] += report_.seconds[k];
+  (schedule_.phase == Phase::deposition ? schedule_.seconds.deposition : schedule_.seconds.tilt) +=
+      seconds(report_);
+  segment_.steps.push_back(step_row(world_, report_, static_cast<double>(schedule_.phase)));
   watch();
 }
 
 void Session::watch() {
-  unconverged_in_a_row_ = report_.solver.converged ? 0 : unconverged_in_a_row_ + 1;
-  const GuardValues values = guard_values(world_, report_, unconverged_in_a_row_, scenario_);
+  schedule_.unconverged_in_a_row = report_.solver.converged ? 0 : schedule_.unconverged_in_a_row + 1;
+  const GuardValues values = guard_values(world_, report_, schedule_.unconverged_in_a_row, scenario_);
   const GuardValues limits = guard_limits(scenario_);
   for (std::size_t k = 0; k < guard_count; ++k) {
     if (values[k] <= limits[k]) continue;
     if (scenario_.guards.action == GuardAction::warn) {
-      if (guard_warnings_.steps[k]++ == 0) guard_warnings_.first[k] = world_.step;
+      if (schedule_.warnings.steps[k]++ == 0) schedule_.warnings.first[k] = world_.step;
     } else if (broken_guard_.empty()) {
       broken_guard_ = guard_message(static_cast<Guard>(k), values[k], limits[k], world_.step);
     }
@@ -254,21 +267,30 @@ void Session::watch() {
 
 void Session::record_row() {
   RowContext context;
-  context.baseline = baseline_;
+  context.baseline = schedule_.baseline;
   context.law = law();
   context.mean_diameter = scenario_.grains.mean_diameter;
-  context.surface_displacement = surface_displacement_;
+  context.surface_displacement = schedule_.surface_displacement;
   context.largest_overlap = report_.largest_overlap;
-  context.residual = residual_since_row_;
+  context.residual = schedule_.residual_since_row;
   context.at_rest = is_at_rest();
   segment_.observables.push_back(measure(world_, context));
-  residual_since_row_ = 0.0;
-  const double volume = (1.0 + at(segment_.observables.back(), Observable::volume_strain)) * baseline_.volume;
-  surface_height_ = volume / world_.boundary.length;
+  schedule_.residual_since_row = 0.0;
+  const double volume =
+      (1.0 + at(segment_.observables.back(), Observable::volume_strain)) * schedule_.baseline.volume;
+  schedule_.surface_height = volume / world_.boundary.length;
 }
 
-std::optional<double> Session::angle_of_repose() const {
-  return flow_.failed ? std::optional<double>(flow_.onset_tilt) : std::nullopt;
+double Session::tilt_rate() const {
+  return schedule_.course ? schedule_.course->rate : radians(scenario_.tilt.rate);
+}
+
+Checkpoint Session::checkpoint(double seconds_writing) const {
+  Checkpoint checkpoint;
+  checkpoint.world = world_;
+  store_schedule(schedule_, follows_failure(scenario_), checkpoint);
+  checkpoint.timing.emplace_back("write", seconds_writing);
+  return checkpoint;
 }
 
 }  // namespace talus

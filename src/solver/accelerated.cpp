@@ -16,7 +16,7 @@ constexpr double smallest_step = 0.01;
 // this much above the best since the last restart, the momentum is dropped.
 constexpr double tolerated_growth = 1.3;
 constexpr int patience = 10;
-// The linearisation is renewed after so many passes, then after twice as many each time: soon without a
+// The linearisation is renewed after so many iterations, then after twice as many each time: soon without a
 // guess, as || P || grows from nothing.
 constexpr int first_renewal_cold = 16;
 constexpr int first_renewal_warm = 256;
@@ -25,12 +25,12 @@ constexpr int first_renewal_warm = 256;
 constexpr double hopeful = 1.5;
 constexpr double cautious = 0.9;
 
-/// Decides after each pass how to go on. Every thread keeps its own copy and comes to the same decision.
+/// Decides after each iteration how to go on. Every thread keeps its own copy and comes to the same decision.
 struct Momentum {
   double theta = 1.0;
   double beta = 0.0;
   double step = first_step;
-  double best = 0.0;  ///< change per pass, since the last restart
+  double best = 0.0;  ///< change per iteration, since the last restart
   int since_restart = 0;
 
   void restart() {
@@ -39,8 +39,7 @@ struct Momentum {
     since_restart = 0;
   }
 
-  /// Nesterov's sequence with adaptive restart (O'Donoghue and Candes 2015). `change` is that of a pass, in
-  /// units of the step.
+  /// Nesterov's sequence with adaptive restart (T16). `change` is that of an iteration, in units of the step.
   void update(double change, double ascent) {
     if (since_restart == 0) best = change;
     best = std::min(best, change);
@@ -55,9 +54,9 @@ struct Momentum {
   }
 };
 
-PassSums add_blocks(const std::vector<PassSums>& blocks) {
-  PassSums sum;
-  for (const PassSums& block : blocks) {
+IterationSums add_blocks(const std::vector<IterationSums>& blocks) {
+  IterationSums sum;
+  for (const IterationSums& block : blocks) {
     sum.change += block.change;
     sum.ascent += block.ascent;
   }
@@ -65,14 +64,14 @@ PassSums add_blocks(const std::vector<PassSums>& blocks) {
 }
 
 /// What one member of the team works on, and all members together wait for.
-struct Member {
+struct TeamMember {
   const ContactProblem& problem;
   AcceleratedWorkspace& w;
   ThreadTeam* team;  ///< null: alone
   GradientKernels kernels;
   Index first_block, last_block, first_body, last_body;
 
-  Member(const ContactProblem& of, AcceleratedWorkspace& workspace, ThreadTeam* of_team, int member)
+  TeamMember(const ContactProblem& of, AcceleratedWorkspace& workspace, ThreadTeam* of_team, int member)
       : problem(of), w(workspace), team(of_team), kernels(gradient_kernels()) {
     const auto blocks = static_cast<int>(w.sums.size());
     const int size = team ? team->size() : 1;
@@ -102,7 +101,7 @@ struct Member {
 
   /// Velocities due to y, after a renewal.
   void go_on() {
-    kernels.bodies(body_pass_arrays(w.linearisation), first_body, last_body);
+    kernels.bodies(body_arrays(w.linearisation), first_body, last_body);
     wait_for_all();
   }
 
@@ -114,15 +113,15 @@ struct Member {
     return exact_residual(w.linearisation);
   }
 
-  PassSums pass(const Momentum& momentum) {
+  IterationSums iterate(const Momentum& momentum) {
     const auto groups = static_cast<Index>(w.linearisation.contacts.size());
-    const ContactPassArrays arrays = contact_pass_arrays(w.linearisation);
+    const ContactArrays arrays = contact_arrays(w.linearisation);
     for (Index block = first_block; block < last_block; ++block)
       kernels.contacts(arrays, block * groups_per_block, std::min(groups, (block + 1) * groups_per_block),
                        static_cast<float>(momentum.step), static_cast<float>(momentum.beta), w.sums[block]);
     wait_for_all();
-    const PassSums sums = add_blocks(w.sums);
-    kernels.bodies(body_pass_arrays(w.linearisation), first_body, last_body);
+    const IterationSums sums = add_blocks(w.sums);
+    kernels.bodies(body_arrays(w.linearisation), first_body, last_body);
     wait_for_all();
     return sums;
   }
@@ -131,7 +130,7 @@ struct Member {
 /// The part of the work of one member of the team; all members return the same outcome.
 /// || p_new - y || / (step || P ||) stands in for the residual between renewals: it costs nothing, and tells
 /// when a look at the residual itself is worth its price. Only that decides.
-AcceleratedOutcome iterate(Member member, double tolerance, int max_iterations) {
+AcceleratedOutcome solve_part(TeamMember member, double tolerance, int max_iterations) {
   Momentum momentum;
   AcceleratedOutcome outcome;
   ExactResidual at = member.begin();
@@ -143,7 +142,7 @@ AcceleratedOutcome iterate(Member member, double tolerance, int max_iterations) 
     if (outcome.iterations > 0) member.go_on();
     double estimate = 0.0;
     do {
-      const PassSums sums = member.pass(momentum);
+      const IterationSums sums = member.iterate(momentum);
       ++outcome.iterations;
       const double change = std::sqrt(sums.change) / momentum.step;
       estimate = change / at.norm;
@@ -167,8 +166,9 @@ void ensure_team(AcceleratedWorkspace& w, int threads) {
   w.choice = {};
 }
 
-/// What a solve costs beside its passes, in passes: 0.5 ms to 0.043 ms for the paper's bed on one core.
-constexpr int passes_for_the_rest = 11;
+/// What a solve costs beside its iterations, in iterations: 0.5 ms to 0.043 ms for the paper's bed on one
+/// core.
+constexpr int iterations_for_the_rest = 11;
 
 }  // namespace
 
@@ -181,7 +181,7 @@ AcceleratedOutcome solve_accelerated(const ContactProblem& problem, double toler
   const auto begin = std::chrono::steady_clock::now();
   AcceleratedOutcome outcome;
   const auto take_part = [&](ThreadTeam* team, int member) {
-    const AcceleratedOutcome mine = iterate({problem, workspace, team, member}, tolerance, max_iterations);
+    const AcceleratedOutcome mine = solve_part({problem, workspace, team, member}, tolerance, max_iterations);
     if (member == 0) outcome = mine;
   };
   ThreadTeam& team = *workspace.team;
@@ -192,7 +192,7 @@ AcceleratedOutcome solve_accelerated(const ContactProblem& problem, double toler
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
   if (team.size() > 1)
     workspace.choice.add(taken.count(), static_cast<double>(problem.contact_count()) *
-                                            (outcome.iterations + passes_for_the_rest));
+                                            (outcome.iterations + iterations_for_the_rest));
   unload_solution(problem, workspace.linearisation, solution);
   return outcome;
 }

@@ -1,6 +1,6 @@
 #pragma once
-/// The accelerated solver: projected gradient with Nesterov's momentum. Each pass is a Jacobi step, so it
-/// vectorises and runs on any number of threads with the same bits.
+/// The accelerated solver: projected gradient with Nesterov's momentum (T16). Each iteration is a Jacobi
+/// step, so it vectorises and runs on any number of threads with the same bits.
 
 #include <memory>
 
@@ -15,17 +15,17 @@ namespace talus {
 /// Arrays and threads kept between solves; no state that a result depends on.
 struct AcceleratedWorkspace {
   Linearisation linearisation;
-  std::vector<PassSums> sums;  ///< one for each block of contacts
+  std::vector<IterationSums> sums;  ///< one for each block of contacts
   std::unique_ptr<ThreadTeam> team;
   TeamChoice choice;  ///< between the team and its first member alone
 };
 
 struct AcceleratedOutcome {
-  int iterations = 0;  ///< passes over all contacts
+  int iterations = 0;  ///< over all contacts
   Residual residual;
 };
 
-/// Solves until the natural-map residual is at most `tolerance` or `max_iterations` passes are spent.
+/// Solves until the natural-map residual is at most `tolerance` or `max_iterations` are spent.
 /// Contacts must be sorted by their first body. `solution` as in solve(). `threads` >= 1.
 AcceleratedOutcome solve_accelerated(const ContactProblem& problem, double tolerance, int max_iterations,
                                      int threads, AcceleratedWorkspace& workspace, ContactSolution& solution);

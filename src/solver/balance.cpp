@@ -83,17 +83,10 @@ bool uphill(const std::vector<DelassusDiagonal>& w, const ContactSolution& last,
 Residual residual_of(const ContactProblem& problem, const std::vector<DelassusDiagonal>& w,
                      const ContactSolution& solution, ContactSolution& scratch) {
   descend(problem, w, 1.0, solution, scratch);
-  double change = 0.0, largest = 0.0, impulse = 0.0, impulse_after = 0.0;
-  for (std::size_t c = 0; c < w.size(); ++c) {
-    const double dn = scratch.pn[c] - solution.pn[c], dt = scratch.pt[c] - solution.pt[c];
-    change += dn * dn + dt * dt;
-    largest = std::max(largest, dn * dn + dt * dt);
-    impulse += solution.pn[c] * solution.pn[c] + solution.pt[c] * solution.pt[c];
-    impulse_after += scratch.pn[c] * scratch.pn[c] + scratch.pt[c] * scratch.pt[c];
-  }
-  const double scale = impulse > 0.0 ? impulse : impulse_after;
-  if (!(scale > 0.0)) return {};
-  return {std::sqrt(change / scale), std::sqrt(largest / scale)};
+  ResidualSums sums;
+  for (std::size_t c = 0; c < w.size(); ++c)
+    sums.add({solution.pn[c], solution.pt[c]}, {scratch.pn[c], scratch.pt[c]});
+  return sums.residual();
 }
 
 void extrapolate(double momentum, const ContactSolution& last, const ContactSolution& next,
@@ -108,7 +101,7 @@ void extrapolate(double momentum, const ContactSolution& last, const ContactSolu
 
 SolverReport balance(const ContactProblem& problem, double tolerance, int max_iterations,
                      ContactSolution& solution) {
-  constexpr int passes_between_checks = 20;
+  constexpr int iterations_between_checks = 20;
   const ContactProblem still = without_demands(problem);
   const std::vector<DelassusDiagonal> w = diagonals(still);
   const double step = 0.9 / largest_eigenvalue(still, w, solution);
@@ -116,7 +109,7 @@ SolverReport balance(const ContactProblem& problem, double tolerance, int max_it
   ContactSolution at = solution, next = solution;
   double t = 1.0;
   for (;; ++report.iterations) {
-    if (report.iterations % passes_between_checks == 0 || report.iterations >= max_iterations) {
+    if (report.iterations % iterations_between_checks == 0 || report.iterations >= max_iterations) {
       velocities_from_impulses(still, solution);
       report.residual = residual_of(still, w, solution, next);
       if (report.residual.eta <= tolerance || report.iterations >= max_iterations) break;

@@ -8,7 +8,7 @@
 namespace talus {
 
 /// Looks for impulses of the closed contacts (c_n <= 0) that leave the bodies no velocity, from the first
-/// guess in `solution` on: minimises the kinetic energy of v = v_free + M^-1 H^T P over Coulomb's cones by
+/// guess in `solution` on: minimises the kinetic energy of v = v_free + M^-1 H P over Coulomb's cones by
 /// projected gradients with Nesterov's momentum, and so ends near the set closest to the guess. Demands of
 /// overlaps and restitution (c_n < 0, c_t) are left out. The residual is that of residual.h with the
 /// orthogonal projection on the cones: it vanishes at the minimum, whether bodies are held there or not,

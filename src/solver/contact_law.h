@@ -1,5 +1,5 @@
 #pragma once
-/// Signorini and Coulomb, exact for one contact.
+/// Signorini's condition (T9) and Coulomb's law (T10), exact for one contact.
 
 #include <algorithm>
 #include <cmath>
@@ -20,9 +20,9 @@ inline Impulse admissible(double pn, double pt, double mu) {
   return {normal, std::min(std::max(pt, -bound), bound)};
 }
 
-/// The impulse that solves one contact exactly, all others held, from the present impulse and relative
+/// The impulse that solves one contact exactly, all others held (T13), from the present impulse and relative
 /// velocity; w_n and w_t are the inverse of the Delassus diagonal, kg.
-inline Impulse local_solution(double pn, double pt, double un, double ut, double w_n, double w_t, double mu) {
+inline Impulse solve_contact(double pn, double pt, double un, double ut, double w_n, double w_t, double mu) {
   return admissible(pn - un * w_n, pt - ut * w_t, mu);
 }
 

@@ -18,8 +18,8 @@ void gauss_seidel_sweep(const ContactProblem& problem, ContactSolution& solution
   for (Index c = 0; c < problem.contact_count(); ++c) {
     const DelassusDiagonal w = delassus_diagonal(problem, c);
     const RelativeVelocity u = relative_velocity(problem, solution, c);
-    const Impulse p = local_solution(solution.pn[c], solution.pt[c], u.normal, u.tangential, 1.0 / w.normal,
-                                     1.0 / w.tangential, problem.mu[c]);
+    const Impulse p = solve_contact(solution.pn[c], solution.pt[c], u.normal, u.tangential, 1.0 / w.normal,
+                                    1.0 / w.tangential, problem.mu[c]);
     const double dn = p.normal - solution.pn[c];
     const double dt = p.tangential - solution.pt[c];
     const double fx = dn * problem.nx[c] - dt * problem.ny[c];

@@ -1,5 +1,5 @@
 #pragma once
-/// The reference solver: nonlinear Gauss-Seidel (Jean 1999), plain and readable. Others are compared with it.
+/// The reference solver: nonlinear Gauss-Seidel (T15), plain and readable. Others are compared with it.
 
 #include "solver/problem.h"
 

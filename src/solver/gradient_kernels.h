@@ -28,7 +28,7 @@ constexpr int lane_of(std::size_t contact) {
 }
 
 /// Eight contacts around the impulses P0 at which the problem was linearised, in the units of the solve. The
-/// increment p = P - P0 is what the passes look for: in single precision, it can be found to any digit.
+/// increment p = P - P0 is what the iterations look for: in single precision, it can be found to any digit.
 struct alignas(64) ContactGroup {
   Lane nx, ny;
   Lane un, ut;        ///< relative velocity at P0
@@ -55,20 +55,20 @@ inline constexpr Index groups_per_block = 64;
 inline constexpr Index contacts_per_block = groups_per_block * lane_count;
 
 /// Sums over contacts at the extrapolated point y.
-struct PassSums {
+struct IterationSums {
   double change = 0.0;  ///< || p_new - y ||^2
   double ascent = 0.0;  ///< (y - p_new) . (p_new - p): > 0 where the momentum points uphill
 };
 
-struct ContactPassArrays {
+struct ContactArrays {
   const ContactGroup* contacts;
-  ImpulseGroup* increment;  ///< in: p of the pass before; out: the new p
+  ImpulseGroup* increment;  ///< in: p of the last iteration; out: the new p
   ImpulseGroup* ahead;      ///< in: y; out: the next y = p_new + beta (p_new - p)
   const Row* velocity;      ///< of the bodies, due to y
   ForceGroup* force;        ///< out: the next y in the axes of the bed
 };
 
-struct BodyPassArrays {
+struct BodyArrays {
   const Row* mobility;
   const ForceGroup* force;
   /// Body i is the first body of contacts first_a[i] ... first_a[i + 1] - 1, and the second body of those
@@ -78,15 +78,15 @@ struct BodyPassArrays {
   Row* velocity;
 };
 
-/// One projected gradient step, in units of the inverse diagonal, for groups first ... last - 1.
-using ContactPass = void (*)(const ContactPassArrays& arrays, Index first, Index last, float step, float beta,
-                             PassSums& sums);
+/// One projected gradient step (T16), in units of the inverse diagonal, for groups first ... last - 1.
+using ContactKernel = void (*)(const ContactArrays& arrays, Index first, Index last, float step, float beta,
+                               IterationSums& sums);
 /// Velocities of bodies first ... last - 1 due to the forces of their contacts.
-using BodyPass = void (*)(const BodyPassArrays& arrays, Index first, Index last);
+using BodyKernel = void (*)(const BodyArrays& arrays, Index first, Index last);
 
 struct GradientKernels {
-  ContactPass contacts;
-  BodyPass bodies;
+  ContactKernel contacts;
+  BodyKernel bodies;
 };
 
 /// The fastest kernels that this processor has.

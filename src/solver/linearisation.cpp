@@ -139,14 +139,7 @@ void linearise(const ContactProblem& problem, std::size_t c, const InverseUnits&
   const double pn = w.pn[c];
   const double pt = w.pt[c];
 
-  const Impulse after = local_solution(pn, pt, un, ut, w.wn[c], w.wt[c], problem.mu[c]);
-  const double dn = after.normal - pn;
-  const double dt = after.tangential - pt;
-  const double square = dn * dn + dt * dt;
-  sums.change += square;
-  sums.largest = std::max(sums.largest, square);
-  sums.impulse += pn * pn + pt * pt;
-  sums.impulse_after += after.normal * after.normal + after.tangential * after.tangential;
+  sums.add({pn, pt}, solve_contact(pn, pt, un, ut, w.wn[c], w.wt[c], problem.mu[c]));
 
   ContactGroup& group = w.contacts[c / lanes];
   const int k = lane_of(c);
@@ -237,11 +230,8 @@ ExactResidual exact_residual(const Linearisation& w) {
     sum.impulse_after += block.impulse_after;
     sum.largest = std::max(sum.largest, block.largest);
   }
-  const double scale = sum.impulse > 0.0 ? sum.impulse : sum.impulse_after;
-  if (!(scale > 0.0)) return {};
-  return {{std::sqrt(sum.change / scale), std::sqrt(sum.largest / scale)},
-          std::sqrt(scale) / w.impulse_unit,
-          !(sum.impulse > 0.0)};
+  if (!(sum.scale() > 0.0)) return {};
+  return {sum.residual(), std::sqrt(sum.scale()) / w.impulse_unit, !(sum.impulse > 0.0)};
 }
 
 void unload_solution(const ContactProblem& problem, const Linearisation& w, ContactSolution& solution) {
@@ -257,11 +247,11 @@ void unload_solution(const ContactProblem& problem, const Linearisation& w, Cont
   }
 }
 
-ContactPassArrays contact_pass_arrays(Linearisation& w) {
+ContactArrays contact_arrays(Linearisation& w) {
   return {w.contacts.data(), w.increment.data(), w.ahead.data(), w.velocity.data(), w.force.data()};
 }
 
-BodyPassArrays body_pass_arrays(Linearisation& w) {
+BodyArrays body_arrays(Linearisation& w) {
   return {w.mobility.data(), w.force.data(),   w.first_a.data(),
           w.first_b.data(),  w.b_force.data(), w.velocity.data()};
 }

@@ -1,7 +1,7 @@
 #pragma once
 /// The two precisions of the accelerated solver. Impulses P0, velocities and the residual are double; the
-/// passes look for an increment p = P - P0 in single precision, at half the bytes and twice the lanes. P0 is
-/// moved to P0 + p now and then, so nothing is lost to single precision, whatever the tolerance.
+/// iterations look for an increment p = P - P0 in single precision, at half the bytes and twice the lanes. P0
+/// is moved to P0 + p now and then, so nothing is lost to single precision, whatever the tolerance.
 /// (Mixed-precision iterative refinement, Wilkinson 1963.)
 
 #include <cstdint>
@@ -18,14 +18,9 @@ struct ExactRow {
   double x = 0.0, y = 0.0, spin = 0.0;
 };
 
-/// Sums over a block of contacts.
-struct ResidualSums {
-  double change = 0.0, impulse = 0.0, impulse_after = 0.0, largest = 0.0;
-};
-
 /// Arrays kept between solves. Contacts are padded to whole groups.
 struct Linearisation {
-  // Single precision: what the passes work on.
+  // Single precision: what the iterations work on.
   std::vector<ContactGroup> contacts;
   std::vector<ImpulseGroup> increment, ahead;
   std::vector<ForceGroup> force;
@@ -69,7 +64,7 @@ ExactResidual exact_residual(const Linearisation& w);
 /// P0 and its velocities.
 void unload_solution(const ContactProblem& problem, const Linearisation& w, ContactSolution& solution);
 
-ContactPassArrays contact_pass_arrays(Linearisation& w);
-BodyPassArrays body_pass_arrays(Linearisation& w);
+ContactArrays contact_arrays(Linearisation& w);
+BodyArrays body_arrays(Linearisation& w);
 
 }  // namespace talus

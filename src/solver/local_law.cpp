@@ -40,7 +40,7 @@ std::vector<LocalContact> local_contacts(const LocalProblem& problem) {
   return contacts;
 }
 
-Impulse coupled_solution(const LocalContact& contact, Impulse p, RelativeVelocity u) {
+Impulse solve_coupled_contact(const LocalContact& contact, Impulse p, RelativeVelocity u) {
   const DelassusBlock& w = contact.w;
   const RelativeVelocity b{u.normal - w.nn * p.normal - w.nt * p.tangential,
                            u.tangential - w.tn * p.normal - w.tt * p.tangential};
@@ -53,28 +53,16 @@ Impulse coupled_solution(const LocalContact& contact, Impulse p, RelativeVelocit
   }
   Impulse slide;
   if (slides(contact, b, 1.0, slide) || slides(contact, b, -1.0, slide)) return slide;
-  return local_solution(p.normal, p.tangential, u.normal, u.tangential, contact.w_n, contact.w_t, contact.mu);
+  return solve_contact(p.normal, p.tangential, u.normal, u.tangential, contact.w_n, contact.w_t, contact.mu);
 }
 
 Residual natural_map_residual(const LocalProblem& problem, const LocalSolution& solution) {
-  double change = 0.0;
-  double largest = 0.0;
-  double impulse = 0.0;
-  double impulse_after = 0.0;
+  ResidualSums sums;
   for (Index c = 0; c < problem.contact_count(); ++c) {
-    const Impulse p = solution.p[c];
     const LocalContact contact = local_contact(problem.block[problem.diagonal[c]], problem.mu[c]);
-    const Impulse after = local_solution(contact, p, solution.u[c]);
-    const double dn = after.normal - p.normal;
-    const double dt = after.tangential - p.tangential;
-    change += dn * dn + dt * dt;
-    largest = std::max(largest, dn * dn + dt * dt);
-    impulse += p.normal * p.normal + p.tangential * p.tangential;
-    impulse_after += after.normal * after.normal + after.tangential * after.tangential;
+    sums.add(solution.p[c], solve_local_contact(contact, solution.p[c], solution.u[c]));
   }
-  const double scale = impulse > 0.0 ? impulse : impulse_after;
-  if (!(scale > 0.0)) return {};
-  return {std::sqrt(change / scale), std::sqrt(largest / scale)};
+  return sums.residual();
 }
 
 }  // namespace talus

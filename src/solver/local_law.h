@@ -22,12 +22,12 @@ std::vector<LocalContact> local_contacts(const LocalProblem& problem);
 ///   slide  P_t = s mu P_n with P_n = -b_n / (w_nn + s mu w_nt), s = +1 and -1, where P_n >= 0 and s U_t <= 0
 /// Exactly one case fits where w is positive definite and mu |w_nt| < w_nn. Where none does, the contact is
 /// solved as if it were not coupled.
-Impulse coupled_solution(const LocalContact& contact, Impulse p, RelativeVelocity u);
+Impulse solve_coupled_contact(const LocalContact& contact, Impulse p, RelativeVelocity u);
 
 /// The impulse that solves one contact exactly, all others held, from its present impulse and velocity.
-inline Impulse local_solution(const LocalContact& contact, Impulse p, RelativeVelocity u) {
-  if (contact.coupled) return coupled_solution(contact, p, u);
-  return local_solution(p.normal, p.tangential, u.normal, u.tangential, contact.w_n, contact.w_t, contact.mu);
+inline Impulse solve_local_contact(const LocalContact& contact, Impulse p, RelativeVelocity u) {
+  if (contact.coupled) return solve_coupled_contact(contact, p, u);
+  return solve_contact(p.normal, p.tangential, u.normal, u.tangential, contact.w_n, contact.w_t, contact.mu);
 }
 
 /// The measure of residual.h for a problem in local form; `solution` holds impulses and their velocities.

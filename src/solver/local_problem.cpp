@@ -100,7 +100,7 @@ LocalProblem local_problem(const ContactProblem& problem) {
   return local;
 }
 
-LocalSolution local_solution(const ContactProblem& problem, const ContactSolution& solution) {
+LocalSolution local_form(const ContactProblem& problem, const ContactSolution& solution) {
   LocalSolution local;
   for (Index c = 0; c < problem.contact_count(); ++c) {
     local.p.push_back({solution.pn[c], solution.pt[c]});

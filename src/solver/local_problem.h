@@ -46,10 +46,10 @@ struct MatrixEntry {
 LocalProblem local_problem(std::vector<MatrixEntry> entries, std::vector<RelativeVelocity> q,
                            std::vector<double> mu);
 
-/// W = H M^-1 H^T and q = H v_free + c of a problem with bodies.
+/// W = H^T M^-1 H and q = H^T v_free + c of a problem with bodies (T7).
 LocalProblem local_problem(const ContactProblem& problem);
-/// Impulses and relative velocities of a solution with bodies.
-LocalSolution local_solution(const ContactProblem& problem, const ContactSolution& solution);
+/// A solution with bodies in local form: its impulses and relative velocities.
+LocalSolution local_form(const ContactProblem& problem, const ContactSolution& solution);
 
 /// U_c = (W P + q)_c.
 inline RelativeVelocity relative_velocity(const LocalProblem& problem, const std::vector<Impulse>& p,

@@ -12,7 +12,7 @@ RelativeVelocity relative_velocity(const ContactProblem& problem, const std::vec
   const double dvx = vx[b] - vx[a];
   const double dvy = vy[b] - vy[a];
   const double spin = problem.lever[a] * omega[a] + problem.lever[b] * omega[b];
-  return {dvx * nx + dvy * ny + problem.cn[c], dvy * nx - dvx * ny - spin + problem.ct[c]};
+  return {dvx * nx + dvy * ny + problem.cn[c], dvy * nx - dvx * ny - spin + problem.ct[c]};  // (T5)
 }
 
 }  // namespace
@@ -23,7 +23,7 @@ DelassusDiagonal delassus_diagonal(const ContactProblem& problem, Index c) {
   const double normal = problem.inverse_mass[a] + problem.inverse_mass[b];
   const double spin = problem.lever[a] * problem.lever[a] * problem.inverse_inertia[a] +
                       problem.lever[b] * problem.lever[b] * problem.inverse_inertia[b];
-  return {normal, normal + spin};
+  return {normal, normal + spin};  // (T8)
 }
 
 RelativeVelocity relative_velocity(const ContactProblem& problem, const ContactSolution& at, Index c) {
@@ -41,7 +41,7 @@ void velocities_from_impulses(const ContactProblem& problem, ContactSolution& so
   for (Index c = 0; c < problem.contact_count(); ++c) {
     const double fx = solution.pn[c] * problem.nx[c] - solution.pt[c] * problem.ny[c];
     const double fy = solution.pn[c] * problem.ny[c] + solution.pt[c] * problem.nx[c];
-    for (const bool second : {false, true}) {
+    for (const bool second : {false, true}) {  // (T6)
       const Index body = second ? problem.b[c] : problem.a[c];
       const double sign = second ? 1.0 : -1.0;
       solution.vx[body] += sign * problem.inverse_mass[body] * fx;

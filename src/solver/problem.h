@@ -8,11 +8,12 @@
 namespace talus {
 
 /// Bodies i with velocity (v_x, v_y, omega), contacts c between bodies a and b with normal n (from a to b)
-/// and tangent t = (-n_y, n_x). Unknowns are the impulses P = (P_n, P_t) on b. With v = v_free + M^-1 H^T P,
+/// and tangent t = (-n_y, n_x). Unknowns are the impulses P = (P_n, P_t) on b. With v = v_free + M^-1 H P
+/// (T6), the relative velocities U = H^T v + c (T5),
 ///   U_n = (v_b - v_a) . n + c_n
 ///   U_t = (v_b - v_a) . t - (r_b omega_b + r_a omega_a) + c_t
-/// must satisfy Signorini, 0 <= U_n complementary to P_n >= 0, and Coulomb, |P_t| <= mu P_n with sliding
-/// opposing P_t (Moreau 1988; Jean 1999). c holds gaps and restitution. All per metre of thickness.
+/// must satisfy Signorini's condition (T9), 0 <= U_n complementary to P_n >= 0, and Coulomb's law (T10),
+/// |P_t| <= mu P_n with sliding opposing P_t. c holds gaps and restitution. All per metre of thickness.
 struct ContactProblem {
   // Bodies.
   std::vector<double> vx, vy, omega;    ///< free velocity, m/s and rad/s
@@ -33,10 +34,10 @@ struct ContactProblem {
 /// Impulses, N s, and the velocities that they give the bodies.
 struct ContactSolution {
   std::vector<double> pn, pt;         ///< in: first guess; out: solution
-  std::vector<double> vx, vy, omega;  ///< out: v = v_free + M^-1 H^T P
+  std::vector<double> vx, vy, omega;  ///< out: v = v_free + M^-1 H P
 };
 
-/// Diagonal of the Delassus operator W = H M^-1 H^T at contact c; for disks its 2 x 2 block is diagonal.
+/// Diagonal of the Delassus operator W = H^T M^-1 H at contact c (T8); for disks its 2 x 2 block is diagonal.
 /// W_nn = 1/m_a + 1/m_b, W_tt = W_nn + r_a^2 / I_a + r_b^2 / I_b. 1/kg.
 struct DelassusDiagonal {
   double normal = 0.0;
@@ -44,17 +45,17 @@ struct DelassusDiagonal {
 };
 DelassusDiagonal delassus_diagonal(const ContactProblem& problem, Index c);
 
-/// Relative velocity U at contact c for the given body velocities.
+/// Relative velocity U at contact c for the given body velocities (T5).
 struct RelativeVelocity {
   double normal = 0.0;
   double tangential = 0.0;
 };
 RelativeVelocity relative_velocity(const ContactProblem& problem, const ContactSolution& at, Index c);
 
-/// q_c = (H v_free + c)_c: what U is at contact c without impulses, U = W P + q.
+/// q_c = (H^T v_free + c)_c (T7): what U is at contact c without impulses, U = W P + q.
 RelativeVelocity free_relative_velocity(const ContactProblem& problem, Index c);
 
-/// v = v_free + M^-1 H^T P, summed contact by contact in their order.
+/// v = v_free + M^-1 H P (T6), summed contact by contact in their order.
 void velocities_from_impulses(const ContactProblem& problem, ContactSolution& solution);
 
 }  // namespace talus

@@ -15,13 +15,13 @@ enum class SolverKind {
 struct SolverSettings {
   SolverKind kind = SolverKind::accelerated;
   double tolerance = 1e-6;    ///< natural-map residual eta to reach
-  int max_iterations = 1000;  ///< passes over all contacts, at most
+  int max_iterations = 1000;  ///< over all contacts, at most
   int threads = 1;            ///< of the accelerated solver; the result does not depend on it
 };
 
 /// How a solve ended. Not reaching the tolerance is a result, not an error.
 struct SolverReport {
-  int iterations = 0;  ///< passes over all contacts
+  int iterations = 0;  ///< over all contacts
   Residual residual;
   bool converged = false;
 };
@@ -32,8 +32,8 @@ struct SolverWorkspace {
   AcceleratedWorkspace accelerated;
 };
 
-/// Solves the problem from the first guess in `solution` to the tolerance, and judges the result by
-/// natural_map_residual. The same bits for the same problem and guess.
+/// Solves the problem, (T7) with (T9) and (T10), from the first guess in `solution` to the tolerance, and
+/// judges the result by natural_map_residual. The same bits for the same problem and guess.
 SolverReport solve(const ContactProblem& problem, const SolverSettings& settings, SolverWorkspace& workspace,
                    ContactSolution& solution);
 

@@ -3,7 +3,7 @@
 namespace talus {
 namespace {
 
-/// Waits until the value differs from `old`: a spin of some tens of microseconds for passes that end at
+/// Waits until the value differs from `old`: a spin of some tens of microseconds for tasks that end at
 /// nearly the same time, then the thread sleeps in the kernel.
 void wait_while_equal(const std::atomic<unsigned>& value, unsigned old, int spins) {
   for (int spin = 0; spin < spins; ++spin) {

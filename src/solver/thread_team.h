@@ -8,7 +8,7 @@
 
 namespace talus {
 
-/// The calling thread and size - 1 others. Made for passes of some tens of microseconds: members wait for
+/// The calling thread and size - 1 others. Made for tasks of some tens of microseconds: members wait for
 /// each other by spinning for a moment, then sleeping. Running a task allocates nothing.
 class ThreadTeam {
  public:

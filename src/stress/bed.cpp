@@ -37,20 +37,26 @@ ContactStatus contact_status(double fn, double ft, double friction, double toler
   return std::fabs(ft) >= (friction - tolerance) * fn ? ContactStatus::sliding : ContactStatus::sticking;
 }
 
-double coordination_number(const Grains& grains, const Contacts& contacts) {
-  std::vector<Index> degree(static_cast<std::size_t>(grains.count()), 0);
-  for (Index c = 0; c < contacts.count(); ++c) {
-    if (!(contacts.fn[c] > 0.0)) continue;
-    ++degree[contacts.a[c]];
-    if (contacts.b[c] < grains.count()) ++degree[contacts.b[c]];
-  }
-  Index carrying = 0;
-  Index ends = 0;
-  for (Index i = 0; i < grains.free_count; ++i) {
-    ends += degree[i];
-    if (degree[i] > 0) ++carrying;
+std::vector<Index> loaded_contacts(std::span<const Index> a, std::span<const Index> b,
+                                   std::span<const double> fn, Index free_count) {
+  std::vector<Index> count(static_cast<std::size_t>(free_count), 0);
+  for (std::size_t c = 0; c < fn.size(); ++c)
+    for (const Index body : {a[c], b[c]})
+      if (body < free_count && fn[c] > 0.0) ++count[static_cast<std::size_t>(body)];
+  return count;
+}
+
+double coordination_number(std::span<const Index> loaded_contacts) {
+  Index ends = 0, carrying = 0;
+  for (const Index each : loaded_contacts) {
+    ends += each;
+    carrying += each > 0 ? 1 : 0;
   }
   return carrying > 0 ? static_cast<double>(ends) / carrying : 0.0;
+}
+
+double coordination_number(const Grains& grains, const Contacts& contacts) {
+  return coordination_number(loaded_contacts(contacts.a, contacts.b, contacts.fn, grains.free_count));
 }
 
 }  // namespace talus

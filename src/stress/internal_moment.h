@@ -1,5 +1,5 @@
 #pragma once
-/// Grain stresses: the internal moments of Moreau.
+/// Grain stresses: the internal moments of Moreau (1997; paper, Eq. 4; docs/theory.md).
 
 #include <vector>
 
@@ -9,7 +9,7 @@
 
 namespace talus {
 
-/// Internal moment of each grain, M_ij = - sum_a r_i f_j - (1/2) I omega^2 delta_ij (paper, Eq. 4), with r
+/// Internal moment of each grain, M_ij = - sum_a r_i f_j - (1/2) I omega^2 delta_ij (T19), with r
 /// from the centre of the grain to the contact and f the force on the grain. One tensor for each grain, floor
 /// included, in J per metre of thickness; compression is positive. At rest M is symmetric: xy - yx is the
 /// unbalanced torque. Moments add: the moment of a set of grains is the sum of theirs.

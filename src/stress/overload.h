@@ -1,12 +1,12 @@
 #pragma once
-/// Which grains are overloaded.
+/// Which grains are overloaded (paper, section V A).
 
-#include "core/snapshot.h"
+#include "core/bed_frame.h"
 
 namespace talus {
 
 /// Whether a grain with stress ratio `gamma` carries more than the packing's Coulomb threshold
-/// Gamma_c = sin(theta_c): gamma >= gamma_c (paper, section V A). A grain that carries nothing (NaN) is not.
+/// Gamma_c = sin(theta_c): gamma >= gamma_c (T23). A grain that carries nothing (NaN) is not.
 inline bool is_overloaded(double gamma, double gamma_c) { return gamma >= gamma_c; }
 
 /// Overloaded among the free grains of a frame.
@@ -17,6 +17,6 @@ struct OverloadCount {
   /// p_o; NaN where no grain carries anything.
   double fraction() const { return static_cast<double>(overloaded) / static_cast<double>(loaded); }
 };
-OverloadCount count_overloaded(const Frame& frame, const RunStatics& statics, double gamma_c);
+OverloadCount count_overloaded(const BedFrame& bed, double gamma_c);
 
 }  // namespace talus

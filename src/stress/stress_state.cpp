@@ -3,16 +3,20 @@
 #include <cmath>
 #include <limits>
 
+#include "core/tensor.h"
+
 namespace talus {
 
 StressState stress_state(const Tensor2& tensor) {
-  const double difference = tensor.xx - tensor.yy;
-  const double shear = tensor.xy + tensor.yx;  // twice the symmetric shear component
+  const auto m = matrix(tensor);
+  const Vector2 deviator{m(0, 0) - m(1, 1), m(0, 1) + m(1, 0)};  // Q (cos 2 axis, sin 2 axis)
   StressState state;
-  state.mean = tensor.xx + tensor.yy;
-  state.deviator = std::sqrt(difference * difference + shear * shear);
-  state.ratio = state.mean > 0.0 ? state.deviator / state.mean : std::numeric_limits<double>::quiet_NaN();
-  state.axis = 0.5 * std::atan2(shear, difference);  // for display only: never enters the dynamics
+  state.mean = m.trace();            // (T21)
+  state.deviator = deviator.norm();  // (T21)
+  state.ratio =
+      state.mean > 0.0 ? state.deviator / state.mean : std::numeric_limits<double>::quiet_NaN();  // (T22)
+  // For display only: never enters the dynamics.
+  state.axis = 0.5 * std::atan2(deviator.y(), deviator.x());
   return state;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Principal values and ratios of a stress or of an internal moment.
+/// Principal values and ratios of a stress or of an internal moment, (T21) and (T22) of docs/theory.md.
 
 #include "core/types.h"
 

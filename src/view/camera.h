@@ -1,7 +1,7 @@
 #pragma once
 /// What part of the bed a picture shows.
 
-#include "maps/maps.h"
+#include "pictures/maps.h"
 #include "view/view_state.h"
 
 namespace talus {

@@ -1,30 +1,9 @@
 #include "view/frame_series.h"
 
-#include <algorithm>
 #include <exception>
 #include <utility>
 
-#include "analysis/percolation.h"
-#include "maps/cluster_frame.h"
-
 namespace talus {
-namespace {
-
-MapSettings settings_of(const OverloadRule& rule) {
-  MapSettings settings;
-  settings.theta_c = rule.theta_c;
-  settings.threshold_factor = rule.threshold_factor;
-  settings.joined_by_neighbours = rule.joined_by_neighbours;
-  settings.l_min = rule.l_min;
-  return settings;
-}
-
-void join(MapExtent& extent, const MapExtent& other) {
-  extent.y_min = std::min(extent.y_min, other.y_min);
-  extent.y_max = std::max(extent.y_max, other.y_max);
-}
-
-}  // namespace
 
 FrameSeries::FrameSeries(const RunStatics& statics, ReadFrame read)
     : statics_(statics),
@@ -32,7 +11,7 @@ FrameSeries::FrameSeries(const RunStatics& statics, ReadFrame read)
       extent_(bed_extent(statics)),
       thread_([this](const std::stop_token& stop) { work(stop); }) {}
 
-void FrameSeries::begin(const OverloadRule& rule, std::vector<FrameValues> known) {
+void FrameSeries::begin(const OverloadRule& rule, std::vector<FrameRecord> known) {
   rule_ = rule;
   values_ = std::move(known);
   known_ = values_.size();
@@ -67,27 +46,23 @@ bool FrameSeries::take_in() {
   }
   for (Result& result : ready) {
     const std::size_t frame = colours_.size();
-    if (frame >= known_ && frame < of_tilt_) values_.push_back(result.values);
+    if (frame >= known_ && frame < of_tilt_) values_.push_back(std::move(result.values));
     colours_.push_back(std::move(result.colours));
-    join(extent_, result.extent);
+    extend(extent_, result.extent);
   }
   return true;
 }
 
 FrameSeries::Result FrameSeries::measure(const Frame& stored, const OverloadRule& rule, bool with_values,
                                          ClusterColours& tracker) const {
-  const MapSettings settings = settings_of(rule);
-  const Frame frame = mapped_frame(stored, statics_, settings);
-  const Clusters clusters = overloaded_clusters(frame, statics_, settings);
+  const Frame frame = mapped_frame(stored, statics_, rule.l_min);
+  const BedFrame bed{frame, statics_};
+  const Clusters clusters = overloaded_clusters(bed, rule);
   Result result;
   result.extent = bed_extent(statics_);
-  extend(result.extent, frame, statics_);
+  extend(result.extent, bed);
   result.colours = tracker.next(clusters);
-  if (!with_values) return result;
-  result.values = overload_values(frame, statics_, rule);
-  if (clusters.count() > 0)
-    result.values.largest_share = static_cast<double>(clusters.size[0]) / clusters.members;
-  result.values.spans = find_spanning(clusters, bed_edges(frame, statics_)).floor_to_surface >= 0;
+  if (with_values) result.values = overload_record(bed, clusters, rule);
   return result;
 }
 

@@ -10,8 +10,8 @@
 #include <thread>
 #include <vector>
 
-#include "maps/cluster_colours.h"
-#include "maps/maps.h"
+#include "pictures/cluster_colours.h"
+#include "pictures/maps.h"
 #include "view/frame_values.h"
 
 namespace talus {
@@ -30,7 +30,7 @@ class FrameSeries {
   FrameSeries& operator=(const FrameSeries&) = delete;
 
   /// All frames anew, by this rule. Values that are `known`, of the first frames, are not worked out again.
-  void begin(const OverloadRule& rule, std::vector<FrameValues> known);
+  void begin(const OverloadRule& rule, std::vector<FrameRecord> known);
   /// How many frames there are, and how many of them, the first, are of the tilt: only these have values.
   void set_counts(std::size_t frames, std::size_t of_tilt);
 
@@ -39,7 +39,7 @@ class FrameSeries {
 
   const OverloadRule& rule() const { return rule_; }
   /// Of the first frames of the tilt, as far as they are known.
-  const std::vector<FrameValues>& values() const { return values_; }
+  const std::vector<FrameRecord>& values() const { return values_; }
   /// Whether all frames of the tilt have values.
   bool has_all_values() const { return values_.size() >= of_tilt_; }
   /// Clusters of the first frames, as far as they were met.
@@ -53,7 +53,7 @@ class FrameSeries {
 
  private:
   struct Result {
-    FrameValues values;
+    FrameRecord values;
     std::vector<ClusterColour> colours;
     MapExtent extent;
   };
@@ -77,7 +77,7 @@ class FrameSeries {
   ReadFrame read_;
   OverloadRule rule_;
   std::size_t of_tilt_ = 0, known_ = 0;
-  std::vector<FrameValues> values_;
+  std::vector<FrameRecord> values_;
   std::vector<std::vector<ClusterColour>> colours_;
   ClusterColours tracker_;
   MapExtent extent_;

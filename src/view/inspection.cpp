@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/core.h>
 #include <limits>
 
 #include "analysis/free_grains.h"
@@ -18,16 +19,15 @@ std::string plane_name(double nx) {
   return nx > 0.5 ? "right wall" : "floor";
 }
 
-std::string body_name(const Frame& frame, const RunStatics& statics, Index body, double nx) {
-  if (body >= frame.grain_count()) return plane_name(nx);
-  return (body < statics.free_count ? std::string("grain ") : std::string("floor grain ")) +
-         std::to_string(body);
+std::string body_name(const BedFrame& bed, Index body, double nx) {
+  if (body >= bed.frame.grain_count()) return plane_name(nx);
+  return fmt::format("{} {}", body < bed.statics.free_count ? "grain" : "floor grain", body);
 }
 
 /// The normal turns where the grain is the second of its contact, and so does the force: its components along
 /// normal and tangent stay.
-std::vector<GrainContact> contacts_of(const Frame& frame, const RunStatics& statics, Index grain) {
-  const FrameContacts& all = frame.contacts;
+std::vector<GrainContact> contacts_of(const BedFrame& bed, Index grain) {
+  const FrameContacts& all = bed.frame.contacts;
   std::vector<GrainContact> contacts;
   for (Index c = 0; c < all.count(); ++c) {
     if (all.a[c] != grain && all.b[c] != grain) continue;
@@ -40,7 +40,7 @@ std::vector<GrainContact> contacts_of(const Frame& frame, const RunStatics& stat
     contact.fn = all.fn[c];
     contact.ft = all.ft[c];
     contact.status = all.status[c];
-    contact.other_name = body_name(frame, statics, contact.other, contact.nx);
+    contact.other_name = body_name(bed, contact.other, contact.nx);
     contacts.push_back(contact);
   }
   return contacts;
@@ -62,43 +62,42 @@ double gamma_at(const NeighbourhoodCurve& curve, double l) {
 
 }  // namespace
 
-Inspection inspect(const Frame& frame, const RunStatics& statics, const Clusters& clusters,
-                   const InspectionRule& rule, Index grain) {
+Inspection inspect(const BedFrame& bed, const Clusters& clusters, const InspectionRule& rule, Index grain) {
   const auto i = static_cast<std::size_t>(grain);
   Inspection of;
   of.grain = grain;
-  of.free = grain < statics.free_count;
-  of.radius = statics.radius[i];
-  of.mass = statics.mass[i];
-  of.x = frame.x[i];
-  of.y = frame.y[i];
-  of.vx = frame.vx[i];
-  of.vy = frame.vy[i];
-  of.omega = frame.omega[i];
-  of.contacts = contacts_of(frame, statics, grain);
-  of.internal_moment = frame.internal_moment[i];
+  of.free = grain < bed.statics.free_count;
+  of.radius = bed.statics.radius[i];
+  of.mass = bed.statics.mass[i];
+  of.x = bed.frame.x[i];
+  of.y = bed.frame.y[i];
+  of.vx = bed.frame.vx[i];
+  of.vy = bed.frame.vy[i];
+  of.omega = bed.frame.omega[i];
+  of.contacts = contacts_of(bed, grain);
+  of.internal_moment = bed.frame.internal_moment[i];
   of.state = stress_state(of.internal_moment);
-  of.gamma = frame.gamma[i];
+  of.gamma = bed.frame.gamma[i];
   of.neighbourhood_gamma = nan;
   if (!of.free) return of;
   of.overloaded = is_overloaded(of.gamma, rule.threshold);
   of.cluster = clusters.label[i];
   if (of.cluster >= 0) of.cluster_size = clusters.size[static_cast<std::size_t>(of.cluster)];
   const double widest = std::max(rule.cut, rule.neighbourhood);
-  of.curve = neighbourhood_curve(frame, statics, grain, widest);
+  of.curve = neighbourhood_curve(bed, grain, widest);
   if (of.overloaded) of.coarse_graining_length = length_of(of.curve, rule);
   of.neighbourhood_gamma = gamma_at(of.curve, rule.neighbourhood);
   return of;
 }
 
-std::optional<Index> find_grain(const Frame& frame, const RunStatics& statics, double x, double y) {
-  const double period = period_of(statics);
+std::optional<Index> find_grain(const BedFrame& bed, double x, double y) {
+  const double period = period_of(bed.statics);
   std::optional<Index> nearest;
-  double least = statics.mean_diameter;  // from the edge of a disc; negative within it
-  for (Index i = 0; i < frame.grain_count(); ++i) {
-    double dx = frame.x[i] - x;
+  double least = bed.statics.mean_diameter;  // from the edge of a disc; negative within it
+  for (Index i = 0; i < bed.frame.grain_count(); ++i) {
+    double dx = bed.frame.x[i] - x;
     if (period > 0.0) dx -= period * std::round(dx / period);
-    const double distance = std::hypot(dx, frame.y[i] - y) - statics.radius[i];
+    const double distance = std::hypot(dx, bed.frame.y[i] - y) - bed.statics.radius[i];
     if (distance > least) continue;
     least = distance;
     nearest = i;

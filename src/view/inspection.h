@@ -7,7 +7,7 @@
 
 #include "analysis/clusters.h"
 #include "analysis/coarse_graining.h"
-#include "core/snapshot.h"
+#include "core/bed_frame.h"
 #include "stress/stress_state.h"
 
 namespace talus {
@@ -50,11 +50,10 @@ struct InspectionRule {
 
 /// Of a grain of a frame of mapped_frame, floor included; one of the floor has contacts, but no
 /// neighbourhoods. `clusters` are those of the overloaded grains of the frame.
-Inspection inspect(const Frame& frame, const RunStatics& statics, const Clusters& clusters,
-                   const InspectionRule& rule, Index grain);
+Inspection inspect(const BedFrame& bed, const Clusters& clusters, const InspectionRule& rule, Index grain);
 
 /// The grain whose disc holds the place (m, frame of the bed; in a periodic bed any image of it), else the
 /// one whose edge is nearest, not farther than a mean diameter.
-std::optional<Index> find_grain(const Frame& frame, const RunStatics& statics, double x, double y);
+std::optional<Index> find_grain(const BedFrame& bed, double x, double y);
 
 }  // namespace talus

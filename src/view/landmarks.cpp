@@ -3,13 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/transition.h"
 #include "core/trigonometry.h"
-#include "session/analysis_transition.h"
+#include "pictures/frame_choice.h"
 
 namespace talus {
 
-std::optional<std::size_t> percolation_frame(std::span<const FrameValues> frames) {
-  const auto first = std::ranges::find(frames, true, &FrameValues::spans);
+std::optional<std::size_t> percolation_frame(std::span<const FrameRecord> frames) {
+  const auto spans = [](const FrameRecord& frame) { return frame.thresholds.front().spans_depth != 0; };
+  const auto first = std::ranges::find_if(frames, spans);
   if (first == frames.end()) return std::nullopt;
   return static_cast<std::size_t>(first - frames.begin());
 }
@@ -24,20 +26,14 @@ std::optional<std::size_t> dilation_frame(std::span<const ObservableRow> rows,
   return nearest_frame(tilts, dilation_onset(row_tilts, strains, theta_c, radians(dilation_window)).tilt);
 }
 
-std::optional<std::size_t> length_jump_frame(std::span<const FrameValues> frames, double cut,
+std::optional<std::size_t> length_jump_frame(std::span<const FrameRecord> frames, double cut,
                                              double theta_c) {
   std::vector<double> tilts, lengths;
-  for (const FrameValues& frame : frames) {
+  for (const FrameRecord& frame : frames) {
     tilts.push_back(frame.tilt);
-    lengths.push_back(frame.largest_length);
+    lengths.push_back(frame.thresholds.front().lc_max);
   }
   return nearest_frame(tilts, length_jump(tilts, lengths, theta_c, cut).tilt);
-}
-
-std::optional<std::size_t> nearest_frame(const std::vector<double>& tilts, double tilt) {
-  if (tilts.empty() || std::isnan(tilt)) return std::nullopt;
-  const auto nearest = std::ranges::min_element(tilts, {}, [tilt](double of) { return std::abs(of - tilt); });
-  return static_cast<std::size_t>(nearest - tilts.begin());
 }
 
 }  // namespace talus

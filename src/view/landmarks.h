@@ -20,7 +20,7 @@ enum class Landmark {
 };
 
 /// The frame in which a cluster first spans; none where none does.
-std::optional<std::size_t> percolation_frame(std::span<const FrameValues> frames);
+std::optional<std::size_t> percolation_frame(std::span<const FrameRecord> frames);
 
 /// The frame nearest to the onset of dilation, up to theta_c (rad; NaN: not known): of the smallest volume
 /// strain, as analyses find it.
@@ -28,10 +28,7 @@ std::optional<std::size_t> dilation_frame(std::span<const ObservableRow> rows,
                                           const std::vector<double>& tilts, double theta_c);
 
 /// The frame after the largest jump of the largest l_c, up to theta_c (rad; NaN: not known) and to the first
-/// frame that reaches `cut` (D). All frames of the tilt are to be there.
-std::optional<std::size_t> length_jump_frame(std::span<const FrameValues> frames, double cut, double theta_c);
-
-/// The frame nearest to a tilt (rad), none for NaN.
-std::optional<std::size_t> nearest_frame(const std::vector<double>& tilts, double tilt);
+/// frame that reaches `cut` (m). All frames of the tilt are to be there.
+std::optional<std::size_t> length_jump_frame(std::span<const FrameRecord> frames, double cut, double theta_c);
 
 }  // namespace talus

@@ -13,6 +13,7 @@
 
 #include "core/errors.h"
 #include "core/hash.h"
+#include "core/trigonometry.h"
 #include "session/measure.h"
 #include "session/recorder.h"
 #include "session/run_header.h"
@@ -244,7 +245,7 @@ void LiveRun::State::describe() {
   status.depositing = session.phase() == Phase::deposition;
   status.done = session.phase() == Phase::done;
   status.theta_c = session.angle_of_repose();
-  status.tilt_rate = session.tilt_rate();
+  status.tilt_rate = degrees(session.tilt_rate());
   status.friction = session.law().friction;
   const std::chrono::duration<double> elapsed = Clock::now() - speed_since;
   if (elapsed < speed_interval) return;
@@ -342,7 +343,7 @@ void LiveRun::apply(Command command) {
 
 void LiveRun::record(const std::string& output, bool overwrite) {
   state_->ask([state = state_.get(), &output, overwrite] {
-    if (state->is_recorded) throw Error(ExitCode::usage, "this run is recorded already");
+    if (state->is_recorded) throw Error(ExitCode::usage, "this run is already being recorded");
     state->record(output, overwrite);
     state->keep([state] { state->recorder->commit(); });
     state->pack();

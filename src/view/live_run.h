@@ -11,8 +11,8 @@
 #include "core/errors.h"
 #include "core/observables.h"
 #include "core/snapshot.h"
+#include "scenario/scenario.h"
 #include "session/command.h"
-#include "session/scenario.h"
 
 namespace talus {
 

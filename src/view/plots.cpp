@@ -16,21 +16,21 @@ constexpr int gamma_bins = 50;
 
 Plot& plot_of(std::vector<Plot>& plots, PlotKind kind) { return plots[static_cast<std::size_t>(kind)]; }
 
-PlotSeries law(const std::string& name) { return {name, {}, {}, true}; }
+PlotSeries curve(const std::string& name) { return {name, {}, {}, false, {}}; }
+PlotSeries law(const std::string& name) { return {name, {}, {}, true, {}}; }
+PlotSeries series_of(const QuantityMember& member) { return talus::series_of(quantity_of(member)); }
 
 /// A logarithmic axis has no place for zero.
 double positive(double value) { return value > 0.0 ? value : nan; }
 
-void clear(Plot& plot) {
-  for (PlotSeries& series : plot.series) {
-    series.x.clear();
-    series.y.clear();
-  }
+void clear(PlotSeries& series) {
+  series.x.clear();
+  series.y.clear();
 }
 
-void add(Plot& plot, std::size_t series, double x, double y) {
-  plot.series[series].x.push_back(x);
-  plot.series[series].y.push_back(y);
+void add(PlotSeries& series, double x, double y) {
+  series.x.push_back(x);
+  series.y.push_back(y);
 }
 
 /// The largest value of a field.
@@ -42,78 +42,91 @@ double largest_of(std::span<const StepRow> rows, StepField field) {
 
 }  // namespace
 
+PlotSeries series_of(const Quantity& quantity) { return {quantity.display.symbol, {}, {}, false, quantity}; }
+
+Plot plot_over_tilt(const std::string& name, const std::string& title, std::vector<PlotSeries> series) {
+  return {name, title, "θ in °", true, false, std::move(series)};
+}
+
 std::vector<Plot> empty_plots() {
-  const std::string tilt = "θ in °";
   std::vector<Plot> plots(plot_count);
   const auto set = [&plots](PlotKind kind, Plot plot) { plot_of(plots, kind) = std::move(plot); };
-  const auto one = [](const std::string& name) { return PlotSeries{name, {}, {}, false}; };
+  const auto set_quantity = [&set](PlotKind kind, const std::string& name, const QuantityMember& member) {
+    set(kind, plot_over_tilt(name, shown_title(quantity_of(member)), {series_of(member)}));
+  };
   set(PlotKind::stress,
-      {"stress", "Packing", tilt, true, false, {one("Γ = Q/P"), one("σ_T/σ_N"), law("sin θ"), law("tan θ")}});
-  set(PlotKind::overloaded, {"overloaded", "Overloaded grains, share p_o", tilt, true, false, {one("p_o")}});
-  set(PlotKind::cluster,
-      {"cluster", "Largest cluster, share of p_o", tilt, true, false, {one("largest cluster")}});
-  set(PlotKind::lengths, {"lengths", "ℓ_c in D", tilt, true, false, {one("mean"), one("largest")}});
-  set(PlotKind::strain, {"strain", "Volume strain ΔV/V in %", tilt, true, false, {one("ΔV/V")}});
-  set(PlotKind::energy, {"energy", "Energy E_k/mgD of a grain", tilt, true, true, {one("kinetic energy")}});
-  set(PlotKind::gamma, {"gamma", "Density of γ, this frame", "γ = q/p", false, false, {one("pdf")}});
-  set(PlotKind::residual, {"residual", "Solver residual η", "step", false, true, {one("η")}});
-  set(PlotKind::passes, {"passes", "Solver passes", "step", false, false, {one("passes")}});
+      plot_over_tilt("stress", "Packing",
+                     {series_of(&FrameRecord::stress_ratio), series_of(&FrameRecord::sigma_t_over_n),
+                      law("sin θ"), law("tan θ")}));
+  set_quantity(PlotKind::overloaded, "overloaded", &FrameThreshold::overloaded_fraction);
+  set_quantity(PlotKind::cluster, "cluster", &FrameThreshold::largest_share);
+  set(PlotKind::lengths,
+      plot_over_tilt("lengths", "ℓ_c in D",
+                     {series_of(&FrameThreshold::lc_mean), series_of(&FrameThreshold::lc_max)}));
+  set_quantity(PlotKind::strain, "strain", &FrameRecord::volume_strain);
+  set(PlotKind::energy, plot_over_tilt("energy", "Energy E_k/mgD of a grain", {curve("kinetic energy")}));
+  plot_of(plots, PlotKind::energy).log_y = true;
+  set(PlotKind::gamma, {"gamma", "Density of γ, this frame", "γ = q/p", false, false, {curve("pdf")}});
+  set(PlotKind::residual, {"residual", "Solver residual η", "step", false, true, {curve("η")}});
+  set(PlotKind::iterations, {"iterations", "Solver iterations", "step", false, false, {curve("iterations")}});
   return plots;
 }
 
 void plot_observables(std::span<const ObservableRow> rows, const RunStatics& statics,
                       std::vector<Plot>& plots) {
-  Plot& stress = plot_of(plots, PlotKind::stress);
-  Plot& strain = plot_of(plots, PlotKind::strain);
-  Plot& energy = plot_of(plots, PlotKind::energy);
-  for (Plot* plot : {&stress, &strain, &energy}) clear(*plot);
+  for (Plot& plot : plots)
+    for (PlotSeries& series : plot.series) {
+      if (!series.quantity || !series.quantity->display.observable) continue;
+      clear(series);
+      for (const ObservableRow& row : rows)
+        add(series, degrees(at(row, Observable::tilt)),
+            shown(*series.quantity, at(row, *series.quantity->display.observable), statics.mean_diameter));
+    }
+  PlotSeries& sine_law = plot_of(plots, PlotKind::stress).series[2];
+  PlotSeries& tangent_law = plot_of(plots, PlotKind::stress).series[3];
+  PlotSeries& energy = plot_of(plots, PlotKind::energy).series[0];
+  for (PlotSeries* series : {&sine_law, &tangent_law, &energy}) clear(*series);
   double mass = 0.0;
   for (Index i = 0; i < statics.free_count; ++i) mass += statics.mass[i];
   const double energy_unit = mass * statics.gravity * statics.mean_diameter;
   for (const ObservableRow& row : rows) {
     const double theta = at(row, Observable::tilt), x = degrees(theta);
-    add(stress, 0, x, at(row, Observable::stress_ratio));
-    add(stress, 1, x, at(row, Observable::sigma_t_over_n));
-    add(stress, 2, x, sine(theta));
-    add(stress, 3, x, sine(theta) / cosine(theta));
-    add(strain, 0, x, 100.0 * at(row, Observable::volume_strain));
-    add(energy, 0, x, positive(at(row, Observable::kinetic_energy) / energy_unit));
+    add(sine_law, x, sine(theta));
+    add(tangent_law, x, sine(theta) / cosine(theta));
+    add(energy, x, positive(at(row, Observable::kinetic_energy) / energy_unit));
   }
 }
 
-void plot_frames(std::span<const FrameValues> frames, std::vector<Plot>& plots) {
-  Plot& overloaded = plot_of(plots, PlotKind::overloaded);
-  Plot& cluster = plot_of(plots, PlotKind::cluster);
-  Plot& lengths = plot_of(plots, PlotKind::lengths);
-  for (Plot* plot : {&overloaded, &cluster, &lengths}) clear(*plot);
-  for (const FrameValues& frame : frames) {
-    const double x = degrees(frame.tilt);
-    add(overloaded, 0, x, frame.overloaded);
-    add(cluster, 0, x, frame.largest_share);
-    add(lengths, 0, x, frame.mean_length);
-    add(lengths, 1, x, frame.largest_length);
-  }
+void plot_frames(std::span<const FrameRecord> frames, double mean_diameter, std::vector<Plot>& plots) {
+  for (Plot& plot : plots)
+    for (PlotSeries& series : plot.series) {
+      if (!series.quantity || series.quantity->display.observable) continue;
+      clear(series);
+      for (const FrameRecord& frame : frames)
+        add(series, degrees(frame.tilt),
+            shown(*series.quantity, number_of(*series.quantity, frame), mean_diameter));
+    }
 }
 
-void plot_gamma(const Frame& frame, const RunStatics& statics, std::vector<Plot>& plots) {
-  Plot& plot = plot_of(plots, PlotKind::gamma);
-  clear(plot);
-  const Histogram histogram = stress_ratio_distribution(frame, statics, gamma_bins);
+void plot_gamma(const BedFrame& bed, std::vector<Plot>& plots) {
+  PlotSeries& series = plot_of(plots, PlotKind::gamma).series[0];
+  clear(series);
+  const Histogram histogram = stress_ratio_distribution(bed, gamma_bins);
   if (histogram.total == 0.0) return;
   const std::vector<double> density = histogram.density();
-  for (std::size_t bin = 0; bin < density.size(); ++bin) add(plot, 0, histogram.centre(bin), density[bin]);
+  for (std::size_t bin = 0; bin < density.size(); ++bin) add(series, histogram.centre(bin), density[bin]);
 }
 
 void plot_steps(std::span<const StepRow> steps, std::vector<Plot>& plots) {
-  Plot& residual = plot_of(plots, PlotKind::residual);
-  Plot& passes = plot_of(plots, PlotKind::passes);
-  for (Plot* plot : {&residual, &passes}) clear(*plot);
+  PlotSeries& residual = plot_of(plots, PlotKind::residual).series[0];
+  PlotSeries& iterations = plot_of(plots, PlotKind::iterations).series[0];
+  for (PlotSeries* series : {&residual, &iterations}) clear(*series);
   const std::size_t together = (steps.size() + most_points - 1) / most_points;
   for (std::size_t k = 0; k < steps.size(); k += together) {
     const auto rows = steps.subspan(k, std::min(together, steps.size() - k));
     const double x = at(rows.front(), StepField::step);
-    add(residual, 0, x, positive(largest_of(rows, StepField::residual)));
-    add(passes, 0, x, largest_of(rows, StepField::iterations));
+    add(residual, x, positive(largest_of(rows, StepField::residual)));
+    add(iterations, x, largest_of(rows, StepField::iterations));
   }
 }
 

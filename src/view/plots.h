@@ -1,10 +1,13 @@
 #pragma once
 /// The curves beside the map.
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "analysis/quantities.h"
+#include "core/bed_frame.h"
 #include "core/observables.h"
 #include "core/snapshot.h"
 #include "view/frame_values.h"
@@ -13,9 +16,10 @@ namespace talus {
 
 /// One curve over the tilt, and what is known of it.
 struct PlotSeries {
-  std::string name;          ///< "p_o": short, for the legend
-  std::vector<double> x, y;  ///< tilt in deg; NaN where there is none
-  bool law = false;          ///< what theory says, beside what was measured
+  std::string name;                                 ///< "p_o": short, for the legend
+  std::vector<double> x, y;                         ///< tilt in deg; NaN where there is none
+  bool law = false;                                 ///< what theory says, beside what was measured
+  std::optional<Quantity> quantity = std::nullopt;  ///< what it shows, where the table has it
 };
 
 /// A plot beside the map: curves over the tilt, or over what `x_title` says.
@@ -28,8 +32,8 @@ struct Plot {
   std::vector<PlotSeries> series;  ///< the first is what was measured, others laws or measures beside it
 };
 
-/// "stress", "overloaded", "cluster", "lengths", "strain", "energy", "gamma", "residual", "passes": the order
-/// in which they are shown.
+/// "stress", "overloaded", "cluster", "lengths", "strain", "energy", "gamma", "residual", "iterations": the
+/// order in which they are shown.
 enum class PlotKind : std::size_t {
   stress,      ///< Gamma and sigma_T/sigma_N of the packing, with the laws of a periodic bed
   overloaded,  ///< p_o
@@ -39,22 +43,27 @@ enum class PlotKind : std::size_t {
   energy,      ///< kinetic energy of a grain, the mean, over m g D, m the mean mass
   gamma,       ///< probability density of gamma in the frame shown
   residual,    ///< of the solver, over steps
-  passes,      ///< of the solver over all contacts, over steps
+  iterations,  ///< of the solver, over steps
   count
 };
 inline constexpr std::size_t plot_count = static_cast<std::size_t>(PlotKind::count);
 
+/// An empty curve of a quantity, called by its symbol, and an empty plot of some over the tilt.
+PlotSeries series_of(const Quantity& quantity);
+Plot plot_over_tilt(const std::string& name, const std::string& title, std::vector<PlotSeries> series);
+
 /// All plots, empty.
 std::vector<Plot> empty_plots();
 
-/// Fills those of the observables: stress, strain, energy.
+/// Fills the curves of the observables: of the quantities that a run records more often than its frames, the
+/// laws beside them, and the energy.
 void plot_observables(std::span<const ObservableRow> rows, const RunStatics& statics,
                       std::vector<Plot>& plots);
-/// Fills those of the frames: overloaded, cluster, lengths. Frames without values make a gap.
-void plot_frames(std::span<const FrameValues> frames, std::vector<Plot>& plots);
+/// Fills the curves of all other quantities, from frames with one threshold. Values that are NaN make a gap.
+void plot_frames(std::span<const FrameRecord> frames, double mean_diameter, std::vector<Plot>& plots);
 /// Fills gamma; a frame in which no grain carries anything leaves it empty.
-void plot_gamma(const Frame& frame, const RunStatics& statics, std::vector<Plot>& plots);
-/// Fills residual and passes. Of many steps, groups in a row are drawn as one, at the largest value.
+void plot_gamma(const BedFrame& bed, std::vector<Plot>& plots);
+/// Fills residual and iterations. Of many steps, groups in a row are drawn as one, at the largest value.
 void plot_steps(std::span<const StepRow> steps, std::vector<Plot>& plots);
 
 }  // namespace talus

@@ -1,10 +1,10 @@
 #include "view/render_command.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
+#include <fmt/core.h>
 
+#include "core/text.h"
 #include "core/trigonometry.h"
 #include "render/colour_map.h"
 
@@ -12,22 +12,14 @@ namespace talus {
 namespace {
 
 /// As short as it can be: eight digits tell any two frames apart.
-std::string number(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.8g", value == 0.0 ? 0.0 : value);
-  return text.data();
-}
-
-bool any(const MapLayers& layers, bool (*has)(MapKind)) { return std::ranges::any_of(layers, has); }
-
-bool draws(const MapLayers& layers, MapKind kind) { return std::ranges::count(layers, kind) > 0; }
+std::string number(double value) { return fmt::format("{:.8g}", value == 0.0 ? 0.0 : value); }
 
 /// In D, rounded into the part: `talus render` refuses what leaves the bed.
 std::string crop_text(const MapExtent& part, double diameter) {
   constexpr double parts = 100.0;  // of D
   const auto up = [&](double x) { return number(std::ceil(x / diameter * parts - 1e-9) / parts); };
   const auto down = [&](double x) { return number(std::floor(x / diameter * parts + 1e-9) / parts); };
-  return up(part.x_min) + "," + up(part.y_min) + "," + down(part.x_max) + "," + down(part.y_max);
+  return fmt::format("{},{},{},{}", up(part.x_min), up(part.y_min), down(part.x_max), down(part.y_max));
 }
 
 /// The range that is not the one that `talus render` finds by itself: one that was chosen, or, of motion, the
@@ -48,37 +40,29 @@ std::string render_command_line(const RenderRequest& shown) {
   const MapLayers& layers = settings.layers;
   std::string line = "talus render " + shell_quoted(shown.run);
   const auto add = [&line](const std::string& option, const std::string& value) {
-    line.append(" ").append(option).append(" ").append(value);
+    line += fmt::format(" {} {}", option, value);
   };
-  const auto flag = [&line](const std::string& option) { line.append(" ").append(option); };
+  const auto flag = [&line](const std::string& option) { line += " " + option; };
   add("--map", layers_name(layers));
   add("--at", number(degrees(shown.tilt)));
   if (shown.in_flow) flag("--flow");
-  const bool by_theta_c = any(layers, needs_theta_c);
+  const bool by_theta_c = any_layer(layers, needs_theta_c);
   if (by_theta_c && settings.theta_c_assumed) add("--theta-c", number(degrees(settings.theta_c)));
-  if (any(layers, shows_gamma) && settings.l_min != MapSettings().l_min)
+  if (any_layer(layers, shows_gamma) && settings.l_min != MapSettings().l_min)
     add("--l-min", number(settings.l_min));
-  const bool by_threshold = draws(layers, MapKind::overloaded) || draws(layers, MapKind::clusters);
+  const bool by_threshold = shows(layers, MapKind::overloaded) || shows(layers, MapKind::clusters);
   if (by_threshold && settings.threshold_factor != 1.0) add("--threshold", number(settings.threshold_factor));
-  if (draws(layers, MapKind::coarse) && settings.length != MapSettings().length)
+  if (shows(layers, MapKind::coarse) && settings.length != MapSettings().length)
     add("--length", number(settings.length));
-  if (shown.since && any(layers, needs_reference)) add("--since", number(degrees(*shown.since)));
-  if (settings.joined_by_neighbours && draws(layers, MapKind::clusters)) add("--joined", "neighbours");
+  if (shown.since && any_layer(layers, needs_reference)) add("--since", number(degrees(*shown.since)));
+  if (settings.joined_by_neighbours && shows(layers, MapKind::clusters)) add("--joined", "neighbours");
   if (has_bar(layers) && settings.colours) add("--colours", std::string(colour_map_name(*settings.colours)));
   if (const std::optional<ScaleRange> range = range_of(shown))
-    add("--range", number(range->low) + "," + number(range->high));
+    add("--range", fmt::format("{},{}", number(range->low), number(range->high)));
   if (shown.part) add("--crop", crop_text(*shown.part, shown.mean_diameter));
   if (settings.turned) flag("--turned");
   if (settings.transparent) flag("--transparent");
   return line;
-}
-
-std::string shell_quoted(const std::string& word) {
-  const std::string plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_./,=:+%@";
-  if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
-  std::string quoted = "'";
-  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
 }
 
 }  // namespace talus

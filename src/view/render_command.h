@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "maps/maps.h"
+#include "pictures/maps.h"
 
 namespace talus {
 
@@ -22,8 +22,5 @@ struct RenderRequest {
 /// "talus render RUN --map gamma --at 12.25": with an option for each setting that the map depends on and
 /// that is not the default; as a shell reads it.
 std::string render_command_line(const RenderRequest& shown);
-
-/// A word as a shell reads it: in quotes where it has to be.
-std::string shell_quoted(const std::string& word);
 
 }  // namespace talus

@@ -7,8 +7,8 @@
 #include "analysis/free_grains.h"
 #include "core/errors.h"
 #include "core/trigonometry.h"
-#include "maps/bed_view.h"
-#include "maps/texts.h"
+#include "pictures/bed_view.h"
+#include "pictures/texts.h"
 
 namespace talus {
 namespace {
@@ -17,21 +17,16 @@ constexpr Colour selection_colour{0, 90, 220}, length_colour{220, 50, 0}, circle
 constexpr Colour cluster_colour{240, 130, 0};
 constexpr int circle_lines = 64;
 
-bool reaches_into(const FrameView& view, double left, double right, double bottom, double top) {
-  return right > view.x_min && left < view.x_max && top > view.y_min && bottom < view.y_max;
-}
-
 /// A disc of a grain of the highlighted cluster, in single precision as it is drawn.
 using DrawnGrain = std::array<float, 3>;  // x, y, radius
 
 /// Sorted, with images that reach across a periodic edge.
-std::vector<DrawnGrain> drawn_cluster(const Frame& frame, const RunStatics& statics, const Clusters& clusters,
-                                      Index cluster) {
-  const auto period = static_cast<float>(period_of(statics));
+std::vector<DrawnGrain> drawn_cluster(const BedFrame& bed, const Clusters& clusters, Index cluster) {
+  const auto period = static_cast<float>(period_of(bed.statics));
   std::vector<DrawnGrain> drawn;
-  for (Index i = 0; cluster >= 0 && i < statics.free_count; ++i) {
+  for (Index i = 0; cluster >= 0 && i < bed.statics.free_count; ++i) {
     if (clusters.label[i] != cluster) continue;
-    const Disc disc = disc_of(frame, statics, i);
+    const Disc disc = disc_of(bed, i);
     drawn.push_back({disc.x, disc.y, disc.radius});
     if (disc.x - disc.radius < 0.0f) drawn.push_back({disc.x + period, disc.y, disc.radius});
     if (disc.x + disc.radius > period) drawn.push_back({disc.x - period, disc.y, disc.radius});
@@ -54,20 +49,14 @@ void add_highlighted(FrameView& view, const Disc& disc) {
 void add_grains(FrameView& view, const FrameView& map, const std::vector<DrawnGrain>& highlighted) {
   view.discs.reserve(map.discs.size() + highlighted.size());
   for (const Disc& disc : map.discs) {
-    if (!reaches_into(view, disc.x - disc.radius, disc.x + disc.radius, disc.y - disc.radius,
-                      disc.y + disc.radius))
-      continue;
+    if (!is_seen(view, disc)) continue;
     if (std::ranges::binary_search(highlighted, DrawnGrain{disc.x, disc.y, disc.radius}))
       add_highlighted(view, disc);
     else
       view.discs.push_back(disc);
   }
-  for (const Line& line : map.lines) {
-    const auto [left, right] = std::minmax(line.x0, line.x1);
-    const auto [bottom, top] = std::minmax(line.y0, line.y1);
-    const float half = line.half_width;
-    if (reaches_into(view, left - half, right + half, bottom - half, top + half)) view.lines.push_back(line);
-  }
+  for (const Line& line : map.lines)
+    if (is_seen(view, line)) view.lines.push_back(line);
 }
 
 void add_circle(FrameView& view, Vec2 centre, double radius, double half_width, const Colour& colour,
@@ -92,12 +81,13 @@ void add_ring(FrameView& view, Vec2 centre, double radius, double half_width, co
   add_circle(view, centre, radius, half_width, colour, statics);
 }
 
-void add_overlay(FrameView& view, const Frame& frame, const Overlay& overlay, const RunStatics& statics) {
+void add_overlay(FrameView& view, const BedFrame& bed, const Overlay& overlay) {
   if (!overlay.selected) return;
+  const RunStatics& statics = bed.statics;
   const double d = statics.mean_diameter;
   const double pen = std::min(d, (view.x_max - view.x_min) / 60.0);  // finer where little is shown
   const auto grain = static_cast<std::size_t>(*overlay.selected);
-  const Vec2 centre{frame.x[grain], frame.y[grain]};
+  const Vec2 centre{bed.frame.x[grain], bed.frame.y[grain]};
   for (const double diameter : overlay.diameters)
     add_ring(view, centre, 0.5 * diameter, 0.05 * pen, circle_colour, statics);
   if (overlay.critical_length)
@@ -106,7 +96,8 @@ void add_overlay(FrameView& view, const Frame& frame, const Overlay& overlay, co
 }
 
 /// Side walls, and a smooth floor.
-void add_boundary(FrameView& view, const Frame& frame, const RunStatics& statics) {
+void add_boundary(FrameView& view, const BedFrame& bed) {
+  const RunStatics& statics = bed.statics;
   const auto add = [&](double x0, double y0, double x1, double y1) {
     view.lines.push_back({static_cast<float>(x0), static_cast<float>(y0), static_cast<float>(x1),
                           static_cast<float>(y1), static_cast<float>(0.1 * statics.mean_diameter), black});
@@ -115,34 +106,12 @@ void add_boundary(FrameView& view, const Frame& frame, const RunStatics& statics
   if (!statics.periodic)
     for (const double x : {0.0, statics.length})
       if (x >= view.x_min && x <= view.x_max) add(x, low, x, view.y_max);
-  const bool smooth = statics.free_count == frame.grain_count();
+  const bool smooth = statics.free_count == bed.frame.grain_count();
   if (smooth && view.y_min <= 0.0 && view.y_max >= 0.0)
     add(std::max(0.0, view.x_min), 0.0, std::min(statics.length, view.x_max), 0.0);
 }
 
-bool is_same(const MapExtent& one, const MapExtent& other) {
-  return one.x_min == other.x_min && one.x_max == other.x_max && one.y_min == other.y_min &&
-         one.y_max == other.y_max;
-}
-
-bool is_same(const MapSettings& one, const MapSettings& other) {
-  return one.layers == other.layers && one.colours == other.colours && one.range_low == other.range_low &&
-         one.range_high == other.range_high && one.theta_c == other.theta_c &&
-         one.theta_c_assumed == other.theta_c_assumed && one.threshold_factor == other.threshold_factor &&
-         one.l_min == other.l_min && one.length == other.length &&
-         one.joined_by_neighbours == other.joined_by_neighbours && one.turned == other.turned &&
-         one.tilt_max == other.tilt_max && one.furniture == other.furniture &&
-         one.transparent == other.transparent;
-}
-
 }  // namespace
-
-bool is_same(const MapSource& one, const MapSource& other) {
-  return one.frame == other.frame && one.reference == other.reference && one.per_degree == other.per_degree &&
-         std::ranges::equal(one.colours, other.colours, {}, &ClusterColour::palette_index,
-                            &ClusterColour::palette_index) &&
-         is_same(one.settings, other.settings) && is_same(one.extent, other.extent);
-}
 
 bool depends_on_extent(const MapLayers& layers) {
   return layers.size() > 1 && layers[1] == MapKind::displacement;
@@ -150,11 +119,10 @@ bool depends_on_extent(const MapLayers& layers) {
 
 FrameView draw_map(const MapSource& source, const RunStatics& statics) {
   try {
-    const MapFrame frame{*source.frame, statics, source.reference.get(), source.per_degree, source.colours};
+    const MapFrame frame{{*source.frame, statics}, source.reference.get(), source.per_degree, source.colours};
     return make_map(frame, source.settings, source.extent);
   } catch (const Error& error) {
-    const std::vector<double> none(static_cast<std::size_t>(statics.free_count), 0.0);
-    FrameView view = bare_map(*source.frame, statics, none, source.extent);
+    FrameView view = bare_map({*source.frame, statics}, {}, source.extent);
     view.furniture = true;
     view.tilt = source.frame->tilt;
     view.title = error.what();
@@ -171,17 +139,17 @@ std::vector<double> growing_diameters(double largest) {
   return diameters;
 }
 
-FrameView shown_map(const FrameView& map, const MapExtent& part, const Frame& frame, const Overlay& overlay,
-                    const Clusters& clusters, const RunStatics& statics) {
+FrameView shown_map(const FrameView& map, const MapExtent& part, const BedFrame& bed, const Overlay& overlay,
+                    const Clusters& clusters) {
   FrameView view = empty_view(part);
   view.turn = map.turn;
   view.turn_max = map.turn_max;
   view.tilt = map.tilt;
   view.coloured = true;  // one target for all that is shown
   view.transparent = map.transparent;
-  add_grains(view, map, drawn_cluster(frame, statics, clusters, overlay.cluster));
-  add_boundary(view, frame, statics);
-  add_overlay(view, frame, overlay, statics);
+  add_grains(view, map, drawn_cluster(bed, clusters, overlay.cluster));
+  add_boundary(view, bed);
+  add_overlay(view, bed, overlay);
   return view;
 }
 

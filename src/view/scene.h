@@ -6,8 +6,7 @@
 #include <vector>
 
 #include "analysis/clusters.h"
-#include "core/snapshot.h"
-#include "maps/maps.h"
+#include "pictures/maps.h"
 #include "render/frame_view.h"
 
 namespace talus {
@@ -19,8 +18,8 @@ struct MapSource {
   std::vector<ClusterColour> colours;  ///< of the clusters, as in MapFrame: may be empty
   MapSettings settings;
   MapExtent extent;
+  bool operator==(const MapSource&) const = default;
 };
-bool is_same(const MapSource& one, const MapSource& other);
 
 /// Whether the map depends on how much of the bed it shows: arrows are spread over it.
 bool depends_on_extent(const MapLayers& layers);
@@ -42,7 +41,7 @@ std::vector<double> growing_diameters(double largest);
 
 /// The part of a map that is shown, with what is over it. Nothing is drawn beyond the extent of the map but
 /// side walls and a smooth floor, as lines.
-FrameView shown_map(const FrameView& map, const MapExtent& part, const Frame& frame, const Overlay& overlay,
-                    const Clusters& clusters, const RunStatics& statics);
+FrameView shown_map(const FrameView& map, const MapExtent& part, const BedFrame& bed, const Overlay& overlay,
+                    const Clusters& clusters);
 
 }  // namespace talus

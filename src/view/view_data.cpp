@@ -1,26 +1,11 @@
 #include "view/view_data.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "core/errors.h"
-#include "maps/frame_choice.h"
+#include "pictures/frame_choice.h"
 
 namespace talus {
-namespace {
-
-MapExtent extent_of(const Frame& frame, const RunStatics& statics) {
-  MapExtent extent = bed_extent(statics);
-  extend(extent, frame, statics);
-  return extent;
-}
-
-void join(MapExtent& extent, const MapExtent& other) {
-  extent.y_min = std::min(extent.y_min, other.y_min);
-  extent.y_max = std::max(extent.y_max, other.y_max);
-}
-
-}  // namespace
 
 void ViewModel::Data::open_replay() {
   frames = std::make_shared<RunFrames>(path);
@@ -36,7 +21,8 @@ void ViewModel::Data::open_replay() {
   plot_steps(file.steps(), plots);
   dilation = dilation_frame(rows, file.frame_tilts(), theta_c.value_or(std::nan("")));
   // The bed is highest at its beginning or at its end.
-  bed = extent_of(*frames->read(replay->count() - 1), statics);
+  bed = bed_extent(statics);
+  extend(bed, {*frames->read(replay->count() - 1), statics});
   show(replay->frame(0));
   begin_series();
 }
@@ -91,7 +77,7 @@ void ViewModel::Data::show(std::shared_ptr<const Frame> next) {
     statics = arrived_statics(all_statics, stored->grain_count());
   // While a bed falls together its top goes down: then only the frame shown counts.
   if (!replay) bed = series ? series->extent() : bed_extent(statics);
-  join(bed, extent_of(*stored, statics));
+  extend(bed, {*stored, statics});
   make_frame();
 }
 
@@ -103,10 +89,8 @@ bool ViewModel::Data::read_with(double next_l_min) {
 }
 
 void ViewModel::Data::make_frame() {
-  MapSettings settings;
-  settings.l_min = l_min;
-  frame = std::make_shared<const Frame>(mapped_frame(*stored, statics, settings));
-  plot_gamma(*frame, statics, plots);
+  frame = std::make_shared<const Frame>(mapped_frame(*stored, statics, l_min));
+  plot_gamma({*frame, statics}, plots);
 }
 
 bool ViewModel::Data::take_live() {
@@ -128,16 +112,14 @@ bool ViewModel::Data::follow_frames(const OverloadRule& rule) {
   bool changed = !(series->rule() == rule);
   if (changed) {
     const auto threshold = analysis ? find_threshold(*analysis, rule) : std::nullopt;
-    series->begin(rule, threshold
-                            ? stored_values(*analysis, *threshold, statics, frames->file().frame_tilts())
-                            : std::vector<FrameValues>{});
+    series->begin(rule, threshold ? stored_records(*analysis, *threshold) : std::vector<FrameRecord>{});
   }
   if (series->take_in()) {
-    if (replay) join(bed, series->extent());
+    if (replay) extend(bed, series->extent());
     if (!series->error().empty()) error = series->error();
     changed = true;
   }
-  if (changed) plot_frames(series->values(), plots);
+  if (changed) plot_frames(series->values(), statics.mean_diameter, plots);
   return changed;
 }
 
@@ -158,8 +140,7 @@ std::optional<std::size_t> ViewModel::Data::place_of(Landmark landmark) const {
       return dilation;
     case Landmark::length_jump:
       if (!series->has_all_values()) return std::nullopt;
-      return length_jump_frame(series->values(),
-                               length_cut(statics, series->rule().l_min) / statics.mean_diameter,
+      return length_jump_frame(series->values(), length_cut(statics, series->rule().l_min),
                                theta_c.value_or(std::nan("")));
   }
   return std::nullopt;

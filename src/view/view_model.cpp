@@ -1,12 +1,13 @@
 #include "view/view_model.h"
 
 #include <filesystem>
+#include <fmt/core.h>
 #include <limits>
 
 #include "core/errors.h"
 #include "io/run_file.h"
-#include "maps/bed_view.h"
-#include "maps/frame_choice.h"
+#include "pictures/bed_view.h"
+#include "pictures/frame_choice.h"
 #include "view/camera.h"
 #include "view/view_data.h"
 
@@ -17,7 +18,7 @@ namespace {
 std::string next_output(const std::string& first) {
   const std::filesystem::path path(first);
   for (int k = 2;; ++k) {
-    const std::string name = path.stem().string() + "-" + std::to_string(k) + path.extension().string();
+    const std::string name = fmt::format("{}-{}{}", path.stem().string(), k, path.extension().string());
     std::string next = (path.parent_path() / name).string();
     if (run_presence(next) == RunPresence::none) return next;
   }
@@ -31,9 +32,8 @@ ViewModel ViewModel::open(const std::string& path, const std::vector<std::string
   data->path = path;
   if (is_run(path)) {
     if (!settings.empty() || !output.empty() || overwrite)
-      throw Error(ExitCode::usage, path +
-                                       " is a run, which is replayed: settings and an output are for a "
-                                       "scenario, which is computed");
+      throw Error(ExitCode::usage,
+                  path + " is a run, which is only replayed: leave out the settings and the output");
     data->open_replay();
   } else {
     data->scenario = read_scenario(path, settings, &data->scenario_text);
@@ -78,7 +78,7 @@ bool ViewModel::may_discard() {
   const bool saved = !is_live() || !data_->output.empty() || data_->live->status().step == 0;
   if (saved || std::exchange(state.discard_asked, false)) return true;
   state.discard_asked = true;
-  state.message = "This run is not saved: once more to give it up, or s to save it.";
+  state.message = "This run is not saved. Press again to discard it, or s to save it.";
   return false;
 }
 
@@ -106,7 +106,7 @@ void ViewModel::go_to(std::size_t frame) {
 
 void ViewModel::go_to_angle(const std::string& angle) {
   if (!data_->replay)
-    throw Error(ExitCode::usage, path() + ": a run that is computed has no frames to go to");
+    throw Error(ExitCode::usage, path() + ": this run is being computed, so it has no frames to go to");
   const double theta_c = data_->theta_c.value_or(std::numeric_limits<double>::quiet_NaN());
   go_to(frames_at(data_->frames->file().frame_tilts(), {angle}, theta_c).front());
 }
@@ -139,7 +139,7 @@ bool ViewModel::update(double seconds) {
     changed = true;
   }
   changed = data.read_with(std::clamp(state.map.l_min, 0.0, 100.0)) || changed;
-  changed = data.follow_frames(overload_rule(data.map_settings(state))) || changed;
+  changed = data.follow_frames(data.map_settings(state)) || changed;
   state.camera = centred(clamped(state.camera, data.bed, mean_diameter()), data.part(state, data.aspect));
   if (!data.error.empty()) state.message = std::exchange(data.error, {});
   return changed;
@@ -162,7 +162,7 @@ FrameView ViewModel::furnished_map() const {
   const MapExtent part = common_part(data_->part(state, data_->aspect), data_->bed);
   const FrameView& whole = data_->whole_map(state, part);
   FrameView view = data_->picture(state, part);
-  add_surroundings(view, *data_->frame, data_->statics);
+  add_surroundings(view, {*data_->frame, data_->statics});
   view.furniture = true;
   view.transparent = whole.transparent;
   view.title = whole.title;
@@ -183,7 +183,7 @@ std::array<double, 4> ViewModel::shown_region(double aspect) const {
 }
 
 std::optional<Index> ViewModel::grain_at(double x, double y) const {
-  return find_grain(*data_->frame, data_->statics, x, y);
+  return find_grain({*data_->frame, data_->statics}, x, y);
 }
 
 const Inspection* ViewModel::inspection() const { return data_->inspect_selected(state); }

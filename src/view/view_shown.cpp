@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "core/trigonometry.h"
-#include "maps/cluster_frame.h"
+#include "pictures/frame_choice.h"
 #include "view/camera.h"
 #include "view/render_command.h"
 #include "view/view_data.h"
@@ -10,16 +10,12 @@
 namespace talus {
 namespace {
 
-constexpr double assumed_theta_c = 20.0;  // deg, while the slope has not failed
-
-bool draws_clusters(const MapLayers& layers) { return std::ranges::count(layers, MapKind::clusters) > 0; }
-
-/// Of the frames recorded, the last before a step; null where there is none.
-std::shared_ptr<const Frame> recorded_before(const RecordedFrames& recorded, std::int64_t step) {
+/// How many of the frames recorded come before a step.
+std::size_t count_before(const RecordedFrames& recorded, std::int64_t step) {
   const auto& all = recorded.all();
   const auto after = std::ranges::partition_point(
       all, [step](const std::shared_ptr<const Frame>& frame) { return frame->step < step; });
-  return after == all.begin() ? nullptr : *std::prev(after);
+  return static_cast<std::size_t>(after - all.begin());
 }
 
 std::vector<double> tilts_of(const RecordedFrames& recorded) {
@@ -48,14 +44,14 @@ MapSettings ViewModel::Data::map_settings(const ViewState& asked) const {
 }
 
 const Clusters& ViewModel::Data::shown_clusters(const MapSettings& settings) {
-  const OverloadRule rule = overload_rule(settings);
+  const OverloadRule& rule = settings;
   if (clusters.frame != frame || !(clusters.rule == rule))
-    clusters = {frame, rule, overloaded_clusters(*frame, statics, settings)};
+    clusters = {frame, rule, overloaded_clusters({*frame, statics}, settings)};
   return clusters.clusters;
 }
 
 const std::vector<ClusterColour>& ViewModel::Data::shown_colours(const MapSettings& settings) {
-  const OverloadRule rule = overload_rule(settings);
+  const OverloadRule& rule = settings;
   // Colours of another rule are of other clusters.
   const std::size_t met = series->rule() == rule ? series->colours().size() : 0;
   if (colours.frame == frame && colours.rule == rule && colours.met == met) return colours.colours;
@@ -71,13 +67,13 @@ const std::vector<ClusterColour>& ViewModel::Data::shown_colours(const MapSettin
 const Inspection* ViewModel::Data::inspect_selected(const ViewState& asked) {
   if (!asked.selected || *asked.selected < 0 || *asked.selected >= frame->grain_count()) return nullptr;
   const MapSettings by = map_settings(asked);
-  const OverloadRule rule = overload_rule(by);
+  const OverloadRule& rule = by;
   if (inspection.frame != frame || !(inspection.rule == rule) ||
       inspection.neighbourhood != asked.neighbourhood || inspection.of.grain != *asked.selected) {
     const double widest = statics.periodic ? statics.length : 2.0 * std::max(statics.length, statics.depth);
     const double neighbourhood = std::clamp(asked.neighbourhood * statics.mean_diameter, 0.0, widest);
     inspection = {frame, rule, asked.neighbourhood,
-                  inspect(*frame, statics, shown_clusters(by),
+                  inspect({*frame, statics}, shown_clusters(by),
                           {.threshold = threshold_of(rule),
                            .l_min = l_min * statics.mean_diameter,
                            .cut = length_cut(statics, l_min),
@@ -100,14 +96,16 @@ MapExtent ViewModel::Data::part(const ViewState& asked, double shown_aspect) con
 
 std::shared_ptr<const Frame> ViewModel::Data::reference(const MapSettings& settings,
                                                         std::optional<double> since) {
-  if (!std::ranges::any_of(settings.layers, needs_reference)) return nullptr;
-  if (!since && replay) return replay->index() > 0 ? read(replay->index() - 1) : nullptr;
-  if (!since) return recorded_before(*recorded, frame->step);
-  const auto nearest = nearest_frame(replay ? frames->file().frame_tilts() : tilts_of(*recorded), *since);
-  if (!nearest) return nullptr;
-  if (replay) return *nearest < replay->index() ? read(*nearest) : nullptr;
-  const auto& candidate = recorded->all()[*nearest];
-  return candidate->step < frame->step ? candidate : nullptr;
+  if (!any_layer(settings.layers, needs_reference)) return nullptr;
+  std::optional<std::size_t> begin;
+  if (since) {
+    begin = nearest_frame(replay ? frames->file().frame_tilts() : tilts_of(*recorded), *since);
+    if (!begin) return nullptr;
+  }
+  const std::size_t k = replay ? replay->index() : count_before(*recorded, frame->step);
+  const std::optional<std::size_t> from = reference_frame(k, begin);
+  if (!from) return nullptr;
+  return replay ? read(*from) : recorded->all()[*from];
 }
 
 const FrameView& ViewModel::Data::whole_map(const ViewState& asked, const MapExtent& shown) {
@@ -116,9 +114,9 @@ const FrameView& ViewModel::Data::whole_map(const ViewState& asked, const MapExt
   source.frame = frame;
   source.reference = reference(source.settings, asked.since);
   source.per_degree = !asked.since;
-  if (draws_clusters(source.settings.layers)) source.colours = shown_colours(source.settings);
+  if (shows(source.settings.layers, MapKind::clusters)) source.colours = shown_colours(source.settings);
   source.extent = depends_on_extent(source.settings.layers) ? common_part(shown, bed) : bed;
-  if (!is_same(map.source, source)) {
+  if (!(map.source == source)) {
     map.view = draw_map(source, statics);
     map.source = std::move(source);
   }
@@ -136,8 +134,8 @@ FrameView ViewModel::Data::picture(const ViewState& asked, const MapExtent& show
       overlay.critical_length = of->coarse_graining_length;
     }
   }
-  return shown_map(whole_map(asked, shown), shown, *frame, overlay, shown_clusters(map_settings(asked)),
-                   statics);
+  return shown_map(whole_map(asked, shown), shown, {*frame, statics}, overlay,
+                   shown_clusters(map_settings(asked)));
 }
 
 std::string ViewModel::Data::render_command(const ViewState& asked) const {
@@ -159,9 +157,7 @@ std::string ViewModel::Data::render_command(const ViewState& asked) const {
     shown.tilt = recorded->all()[*nearest]->tilt;
   }
   const MapExtent seen = common_part(part(asked, aspect), bed);
-  const bool all = seen.x_min == bed.x_min && seen.x_max == bed.x_max && seen.y_min == bed.y_min &&
-                   seen.y_max == bed.y_max;
-  if (!all) shown.part = seen;
+  if (!(seen == bed)) shown.part = seen;
   return render_command_line(shown);
 }
 

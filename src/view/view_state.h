@@ -6,7 +6,7 @@
 #include <string>
 
 #include "core/types.h"
-#include "maps/maps.h"
+#include "pictures/maps.h"
 
 namespace talus {
 

@@ -105,7 +105,7 @@ TEST_F(Problem, that_is_spoilt_is_refused_with_the_place) {
       {"no-problem", "has no group /fclib_local"},
       {"no-values", "/fclib_local/W/x is missing"},
       {"constraints", "equality constraints"},
-      {"friction", "/fclib_local/vectors/mu holds the negative value -0.500000 at index 3"},
+      {"friction", "/fclib_local/vectors/mu holds the negative value -0.5 at index 3"},
       {"nan", "/fclib_local/vectors/q holds a value that is not finite, at index 7"},
       {"index", "/fclib_local/W/i holds 1048576 at index 5"},
       {"size", "/fclib_local/vectors/q has 3 values, expected "},

@@ -21,7 +21,7 @@ def dense(group):
 
 
 def from_bodies(talus, contacts):
-    """W = H M^-1 H^T and q = H v_free + c, written down from the definitions."""
+    """W = H^T M^-1 H and q = H^T v_free + c, written down from the definitions."""
     body = {name: talus["bodies/" + name][:] for name in talus["bodies"]}
     contact = {name: talus["contacts/" + name][:] for name in talus["contacts"]}
     h = np.zeros((2 * contacts, 3 * len(body["vx"])))

@@ -50,11 +50,25 @@ class Repair : public testing::Test {
 
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
+TEST_F(Repair, check_tells_of_a_value_that_was_changed_before_the_file_was_sealed_again) {
+  compute("bed.h5", true);
+  example::spoil_data_set(folder_.path("bed.h5"), "/results/residual_max");
+  example::seal_again(folder_.path("bed.h5"));
+  const Outcome check = talus({"check", "bed.h5"});
+  EXPECT_EQ(check.exit_code, 65) << check.out;
+  EXPECT_TRUE(has(check.out, "hashes      wrong for 1 of the data sets and frames\n")) << check.out;
+  EXPECT_TRUE(has(check.err, "bed.h5 is damaged: /results/residual_max: is not as it was written"))
+      << check.err;
+  const Outcome repair = talus({"repair", "bed.h5", "-o", "new.h5"});
+  EXPECT_TRUE(has(repair.out, "/results/residual_max: is not as it was written")) << repair.out;
+  EXPECT_EQ(talus({"check", "new.h5"}).exit_code, 0);
+}
+
 TEST_F(Repair, says_that_a_whole_run_is_whole) {
   compute("bed.h5", true);
   const Outcome repair = talus({"repair", "bed.h5", "-o", "new.h5"});
   EXPECT_EQ(repair.exit_code, 0) << repair.err;
-  EXPECT_EQ(repair.out, "bed.h5 is whole: there is nothing to repair, and nothing was written\n");
+  EXPECT_EQ(repair.out, "bed.h5 is whole: there was nothing to repair, and nothing was written\n");
   EXPECT_FALSE(fs::exists(folder_.path("new.h5")));
 }
 
@@ -65,7 +79,7 @@ TEST_F(Repair, of_a_file_keeps_its_whole_frames_and_every_command_reads_them) {
   const Outcome check = talus({"check", "bed.h5"});
   EXPECT_EQ(check.exit_code, 65);
   EXPECT_EQ(check.out, "bed.h5: damaged\n  fault: frame 2, at 1.000 deg\n");
-  EXPECT_TRUE(has(check.err, "keep what is whole of it: talus repair bed.h5 -o NEW.h5")) << check.err;
+  EXPECT_TRUE(has(check.err, "save what is undamaged with: talus repair bed.h5 -o NEW.h5")) << check.err;
   EXPECT_TRUE(has(talus({"check", "bed.h5", "--json"}).out, "\"faults\": [\"frame 2, at 1.000 deg\"]"));
 
   const Outcome repair = talus({"repair", "bed.h5", "-o", "new.h5"});
@@ -106,11 +120,12 @@ TEST_F(Repair, of_a_file_without_its_statics_is_refused) {
   example::spoil_data_set(folder_.path("bed.h5"), "/particles/grains/mass");
   const Outcome repair = talus({"repair", "bed.h5", "-o", "new.h5"});
   EXPECT_EQ(repair.exit_code, 65);
-  EXPECT_TRUE(has(repair.err, "nothing can be kept: data set /particles/grains/mass is lost")) << repair.err;
+  EXPECT_TRUE(has(repair.err, "nothing can be saved: /particles/grains/mass: is not as it was written"))
+      << repair.err;
   EXPECT_FALSE(fs::exists(folder_.path("new.h5")));
 }
 
-TEST_F(Repair, of_a_folder_goes_on_to_the_same_end) {
+TEST_F(Repair, of_a_folder_keeps_the_frames_and_its_scenario_computes_the_rest_again) {
   compute("whole.h5", true);
   for (const char* kind : {"checkpoint_", "segment_", "manifest"}) {
     const std::string name = std::string(kind) + ".h5", fixed = "fixed-" + name;
@@ -119,16 +134,12 @@ TEST_F(Repair, of_a_folder_goes_on_to_the_same_end) {
     EXPECT_EQ(talus({"check", name}).exit_code, 65);
     const Outcome repair = talus({"repair", name, "-o", fixed});
     EXPECT_EQ(repair.exit_code, 0) << repair.err;
-    EXPECT_TRUE(has(repair.out, "continue it with: talus run --resume " + fixed)) << repair.out;
     EXPECT_EQ(talus({"check", fixed}).exit_code, 0) << talus({"check", fixed}).out;
-    const Outcome resumed = talus({"run", "--resume", fixed, "--quiet"});
-    EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
     const RunFile whole = RunFile::open(folder_.path("whole.h5")), run = RunFile::open(folder_.path(fixed));
-    EXPECT_EQ(state_hash(run.checkpoint().world), state_hash(whole.checkpoint().world)) << kind;
-    EXPECT_EQ(run.steps(), whole.steps());
-    ASSERT_EQ(run.all_frame_tilts(), whole.all_frame_tilts());
+    EXPECT_GE(run.all_frame_tilts().size(), 2U);
     for (std::size_t k = 0; k < run.all_frame_tilts().size(); ++k)
       EXPECT_EQ(run.frame(k).x, whole.frame(k).x);
+    EXPECT_EQ(run.header().scenario_resolved, whole.header().scenario_resolved);
   }
 }
 

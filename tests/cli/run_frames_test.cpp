@@ -101,7 +101,8 @@ TEST_F(RunFrames, that_cannot_be_written_do_not_lose_the_run) {
   const Outcome outcome = talus(run("bed.h5", "maps", {"--overwrite"}));
   EXPECT_EQ(outcome.exit_code, 73);
   EXPECT_NE(outcome.err.find("warning"), std::string::npos) << outcome.err;
-  EXPECT_NE(outcome.err.find("the run is complete, but not its maps"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("the run is complete, but its maps in maps are not"), std::string::npos)
+      << outcome.err;
   EXPECT_EQ(info("bed.h5", "state_hash"), info("plain.h5", "state_hash"));
   EXPECT_EQ(info("bed.h5", "complete"), "true");
 }

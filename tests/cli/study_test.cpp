@@ -169,7 +169,7 @@ TEST(Study, with_a_bad_key_leaves_with_65_before_anything_runs) {
   for (const char* axis : {"tilt.stp=0.002", "tilt.step=0.002,-1"}) {
     const Outcome study = run_talus({"study", "bed.toml", "--vary", axis, "-o", "study"}, folder.path());
     EXPECT_EQ(study.exit_code, 65) << axis;
-    EXPECT_NE(study.err.find("--set tilt.st"), std::string::npos) << study.err;
+    EXPECT_NE(study.err.find("--vary tilt.st"), std::string::npos) << study.err;
   }
   EXPECT_FALSE(std::filesystem::exists(folder.path("study")));
 }

@@ -361,7 +361,7 @@ TEST_F(Live, friction_and_pushes_are_commands) {
   ASSERT_EQ(model_.live()->commands().size(), 3u) << "only where it is let go";
   EXPECT_EQ(model_.live()->commands()[2].kind, CommandKind::tilt_rate);
   EXPECT_NEAR(model_.live()->commands()[2].x, 7.0, 0.5);
-  EXPECT_EQ(status().tilt_rate, model_.live()->commands()[2].x);
+  EXPECT_DOUBLE_EQ(status().tilt_rate, model_.live()->commands()[2].x);
   gui_.click("drop");
   ASSERT_EQ(model_.live()->commands().size(), 4u);
   EXPECT_EQ(model_.live()->commands()[3].kind, CommandKind::drop);

@@ -153,7 +153,7 @@ TEST(Avalanche, is_resumed_to_the_same_bits) {
   EXPECT_EQ(parts->phase(), Phase::done);
   EXPECT_EQ(state_hash(parts->world()), state_hash(whole.world()));
   EXPECT_EQ(parts->angle_at_rest(), whole.angle_at_rest());
-  EXPECT_EQ(parts->solver_record().unconverged_flow, whole.solver_record().unconverged_flow);
+  EXPECT_EQ(parts->schedule().record.unconverged_flow, whole.schedule().record.unconverged_flow);
   // Of the end too.
   const Session again(scenario, whole.checkpoint(0.0));
   EXPECT_EQ(again.angle_at_rest(), whole.angle_at_rest());

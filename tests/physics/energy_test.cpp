@@ -1,7 +1,7 @@
 /// Energy, as the scheme has it. With P the impulses of a step, v- + h g the free velocity and e = 0,
 /// Signorini and Coulomb give K(v+) - K(v- + h g) = P . U+ - P . W P / 2 <= 0. As positions follow (v- + v+)
 /// / 2, height energy takes exactly what gravity gives, and the whole energy gains - w . M w / 2 - (h / 2) w
-/// . M g at most, with w = M^-1 H^T P: never more than m (g h)^2 / 8 for each grain in one step, and nothing
+/// . M g at most, with w = M^-1 H P: never more than m (g h)^2 / 8 for each grain in one step, and nothing
 /// without gravity.
 
 #include <gtest/gtest.h>

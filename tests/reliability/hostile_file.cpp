@@ -8,6 +8,7 @@
 #include <iterator>
 #include <limits>
 
+#include "core/hash.h"
 #include "io/hdf5_handle.h"
 #include "io/packed_file.h"
 
@@ -192,6 +193,22 @@ std::vector<std::string> data_sets(const Bytes& file) {
   std::vector<std::string> found;
   H5Ovisit(open.get(), H5_INDEX_NAME, H5_ITER_INC, note_data_set, &found);
   return found;
+}
+
+std::uint64_t values_hash(const Bytes& file) {
+  Bytes bytes = file;
+  const Handle open = hdf5::open_image(bytes, "hashed", H5F_ACC_RDONLY);
+  Hasher hasher;
+  for (const std::string& path : data_sets(file)) {
+    const Handle set(H5Dopen2(open.get(), path.c_str(), H5P_DEFAULT), H5Dclose);
+    const Handle type(H5Dget_type(set.get()), H5Tclose), space(H5Dget_space(set.get()), H5Sclose);
+    const auto count = static_cast<std::size_t>(H5Sget_simple_extent_npoints(space.get()));
+    Bytes values(count * H5Tget_size(type.get()));
+    H5Dread(set.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+    hasher.add_array(path);
+    hasher.add_array(values);
+  }
+  return hasher.value();
 }
 
 Bytes spoilt(const Bytes& file, std::span<const Spoil> spoils) {

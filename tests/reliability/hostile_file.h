@@ -46,6 +46,9 @@ struct Spoil {
 /// Paths of all data sets of an HDF5 file in memory.
 std::vector<std::string> data_sets(const Bytes& file);
 
+/// The hash of the values of all data sets, as they are stored.
+std::uint64_t values_hash(const Bytes& file);
+
 /// The file with harm done; with its seal made right again where it has one.
 Bytes spoilt(const Bytes& file, std::span<const Spoil> spoils);
 

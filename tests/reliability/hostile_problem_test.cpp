@@ -9,8 +9,8 @@
 
 #include "core/errors.h"
 #include "core/random.h"
-#include "io/fclib_file.h"
 #include "io/foreign_file.h"
+#include "problems/fclib_file.h"
 #include "reliability/hostile_run.h"
 #include "reliability/hostile_test.h"
 

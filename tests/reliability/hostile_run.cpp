@@ -3,11 +3,11 @@
 #include "core/hash.h"
 #include "core/trigonometry.h"
 #include "io/analysis_file.h"
+#include "problems/local_solvers.h"
+#include "problems/step_problem.h"
 #include "session/analysis_run.h"
 #include "session/run.h"
 #include "session/run_header.h"
-#include "session/step_problem.h"
-#include "solver/local_solvers.h"
 #include "solver/solve.h"
 #include "support/small_bed.h"
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "io/run_file.h"
-#include "session/problem_file.h"
+#include "problems/problem_file.h"
 
 namespace talus::hostile {
 

@@ -7,7 +7,10 @@
 #include <algorithm>
 #include <optional>
 
+#include "cli/process.h"
 #include "core/random.h"
+#include "core/sanitizers.h"
+#include "io/child_process.h"
 #include "io/run_file.h"
 #include "reliability/hostile_test.h"
 
@@ -18,7 +21,16 @@ namespace fs = std::filesystem;
 
 void open_run(const std::string& path) { RunFile::open(path); }
 
-std::optional<std::string> refusal(const std::string& path, void (*use)(const std::string&) = use_run) {
+/// In a process of its own: HDF5 may crash on what is malformed and sealed again, and the program then says
+/// so (src/app/program_end.cpp). A time that no file can need is a failure as well.
+void use_apart(const std::string& path) {
+  in_child_process(path, fs::file_size(path), [&path] {
+    use_run(path);
+    return Bytes();
+  });
+}
+
+std::optional<std::string> refusal(const std::string& path, void (*use)(const std::string&) = use_apart) {
   return hostile::refusal(path, use);
 }
 
@@ -172,15 +184,21 @@ TEST_F(HostileRun, a_byte_flipped_anywhere_is_refused) {
 }
 
 /// Addresses of lists of links that lie outside the file: HDF5 reads there, and crashes.
-TEST_F(HostileRun, that_HDF5_crashes_on_is_refused_by_its_child_process) {
-  const Bytes kept = read_bytes(TALUS_SOURCE_DIR "/tests/runs/schema_2.h5");
-  for (const auto& [at, value] : {std::pair<std::size_t, int>{140377, 0x0e}, {22232, 0xd4}}) {
+TEST_F(HostileRun, that_HDF5_crashes_on_is_refused_by_the_program) {
+  if (sanitizes_addresses || sanitizes_threads) GTEST_SKIP() << "sanitizers report a crash themselves";
+  const Bytes kept = read_bytes(TALUS_SOURCE_DIR "/tests/runs/schema_4.h5");
+  for (const auto& [at, value] : {std::pair<std::size_t, int>{647, 0x0e}, {2480, 0x0e}}) {
     Bytes bytes = kept;
     ASSERT_EQ(bytes.at(at), std::byte{0xff}) << "no address";
     bytes[at] = static_cast<std::byte>(value);
-    const std::optional<std::string> message = refusal(bad(sealed(bytes)), open_run);
-    ASSERT_TRUE(message);
-    EXPECT_NE(message->find("HDF5 fails on it (in a process of its own)"), std::string::npos) << *message;
+    const std::string path = bad(sealed(bytes));
+    for (const char* command : {"info", "check"}) {
+      const test::Outcome outcome = test::run_talus({command, path}, folder->path());
+      EXPECT_EQ(outcome.exit_code, 65);
+      EXPECT_EQ(outcome.err, "talus: error: " + path +
+                                 ": HDF5 crashes on it: the file is malformed, although its hash is right; "
+                                 "restore it from a copy\n");
+    }
   }
 }
 
@@ -193,7 +211,9 @@ TEST_F(HostileRun, a_byte_flipped_and_sealed_again_is_refused_or_harmless) {
     const auto at = random.below(static_cast<std::uint32_t>(bytes.size()));
     bytes[at] ^= static_cast<std::byte>(1 + random.below(255));
     SCOPED_TRACE(at);
-    refused += refusal(bad(sealed(bytes))) ? 1 : 0;
+    const std::optional<std::string> message = refusal(bad(sealed(bytes)));
+    EXPECT_EQ(message.value_or("").find("longer than a file of its size can need"), std::string::npos);
+    refused += message ? 1 : 0;
   }
   EXPECT_GT(refused, count / 20);
 }

@@ -2,7 +2,6 @@
 /// happened, and --resume alone brings the run to the same end.
 
 #include <gtest/gtest.h>
-#include <sys/mount.h>
 #include <sys/resource.h>
 
 #include <cerrno>
@@ -12,6 +11,7 @@
 #include <set>
 
 #include "reliability/faults.h"
+#include "reliability/small_disk.h"
 #include "reliability/whole_run.h"
 
 namespace talus::test {
@@ -165,33 +165,6 @@ TEST_F(RunFaults, without_ffmpeg_no_movie_is_left) {
   EXPECT_EQ(files_in(reference_folder_.path()), before);
 }
 
-/// A file system in memory of a given size.
-class SmallDisk {
- public:
-  explicit SmallDisk(const fs::path& folder) : folder_(folder) {
-    fs::create_directory(folder_);
-    mounted_ = mount("tmpfs", folder_.c_str(), "tmpfs", 0, "size=64k") == 0;
-  }
-  ~SmallDisk() {
-    if (mounted_) umount2(folder_.c_str(), MNT_DETACH);
-  }
-  SmallDisk(const SmallDisk&) = delete;
-  SmallDisk& operator=(const SmallDisk&) = delete;
-
-  bool is_mounted() const { return mounted_; }
-  void forbid_writing() const {
-    ASSERT_EQ(mount("tmpfs", folder_.c_str(), "tmpfs", MS_REMOUNT | MS_RDONLY, nullptr), 0);
-  }
-  void resize(int kib) const {
-    const std::string size = "size=" + std::to_string(kib) + "k";
-    ASSERT_EQ(mount("tmpfs", folder_.c_str(), "tmpfs", MS_REMOUNT, size.c_str()), 0);
-  }
-
- private:
-  fs::path folder_;
-  bool mounted_;
-};
-
 TEST_F(RunFaults, on_a_full_disk_it_waits_for_room) {
   const TemporaryFolder folder;
   const SmallDisk disk(folder.path() / "disk");
@@ -207,13 +180,13 @@ TEST_F(RunFaults, on_a_full_disk_it_waits_for_room) {
   for (int k = 0; k < sizes; k += stride(sizes, 3)) {
     const int kib = 40 + 24 * k;
     SCOPED_TRACE(std::to_string(kib) + " KiB");
-    disk.resize(kib);
+    ASSERT_TRUE(disk.resize(kib));
     const Outcome outcome = run_talus(on_disk(command), folder.path());
     EXPECT_EQ(outcome.exit_code, 74) << outcome.err;
     if (outcome.exit_code == 74) ++full;
     EXPECT_NE(outcome.err.find(std::strerror(ENOSPC)), std::string::npos) << outcome.err;
     const int frames = committed_frames(run);
-    disk.resize(16384);
+    ASSERT_TRUE(disk.resize(16384));
     const Outcome after = run_talus(on_disk(resumed()), folder.path());
     EXPECT_EQ(after.exit_code, 0) << after.err;
     EXPECT_EQ(digest(run), reference_) << "after " << frames << " frames";
@@ -226,7 +199,7 @@ TEST_F(RunFaults, a_folder_that_may_not_be_written_is_said) {
   const TemporaryFolder folder;
   const SmallDisk disk(folder.path() / "disk");
   if (!disk.is_mounted()) GTEST_SKIP() << "needs root, to mount a small file system";
-  disk.forbid_writing();
+  ASSERT_TRUE(disk.forbid_writing());
   write_file(folder, "bed.toml", tiny_bed);
   const Outcome outcome = run_talus({"run", "bed.toml", "-o", "disk/run.h5"}, folder.path());
   EXPECT_EQ(outcome.exit_code, 73);

@@ -1,11 +1,13 @@
 #pragma once
 /// Maps of packings made by hand: D = 1 m, grains of 2 kg/m^2, gravity 10 m/s^2.
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
 #include "core/trigonometry.h"
-#include "maps/maps.h"
+#include "pictures/maps.h"
 #include "unit/analysis/packings.h"
 
 namespace talus::test {
@@ -39,15 +41,22 @@ inline MapSettings settings_of(const std::string& layers) {
   return settings;
 }
 
+/// Of the map of gamma (paper, Fig. 10): 0 is white, up to 0.05 and where a grain carries nothing; 1 is
+/// black, from 2 gamma_c on; linear between.
+inline double gamma_shade(double gamma, double gamma_c) {
+  return std::isnan(gamma) ? 0.0 : std::clamp((gamma - 0.05) / (2.0 * gamma_c - 0.05), 0.0, 1.0);
+}
+
 inline MapExtent extent_of(const Packing& packing) {
   MapExtent extent = bed_extent(packing.statics);
-  extend(extent, packing.frame, packing.statics);
+  extend(extent, {packing.frame, packing.statics});
   return extent;
 }
 
 inline FrameView map_of(const Packing& packing, const MapSettings& settings, const Frame* reference = nullptr,
                         bool per_degree = true) {
-  return make_map({packing.frame, packing.statics, reference, per_degree, {}}, settings, extent_of(packing));
+  return make_map({{packing.frame, packing.statics}, reference, per_degree, {}}, settings,
+                  extent_of(packing));
 }
 
 inline FrameView map_of(const Packing& packing, const std::string& layers) {

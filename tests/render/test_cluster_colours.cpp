@@ -4,8 +4,8 @@
 #include <map>
 #include <set>
 
-#include "maps/cluster_colours.h"
-#include "maps/cluster_frame.h"
+#include "pictures/cluster_colours.h"
+#include "pictures/overload_rule.h"
 #include "render/map_bed.h"
 
 namespace talus {
@@ -159,7 +159,7 @@ TEST(ClustersMap, SaysNothingOfSpanningWhereNoClusterSpans) {
 TEST(ClustersMap, TakesTheColoursThatAreGiven) {
   const Packing packing = bed_with_clusters();
   const std::vector<ClusterColour> colours = {{7, 5}, {8, -1}};
-  const FrameView view = make_map({packing.frame, packing.statics, nullptr, true, colours},
+  const FrameView view = make_map({{packing.frame, packing.statics}, nullptr, true, colours},
                                   settings_of("clusters"), test::extent_of(packing));
   EXPECT_EQ(view.discs[0].fill, cluster_palette()[5]);
   EXPECT_EQ(view.discs[12].fill, gray(0.4));
@@ -168,13 +168,13 @@ TEST(ClustersMap, TakesTheColoursThatAreGiven) {
 TEST(OverloadedClusters, AreJoinedByForcesOrByNeighbours) {
   Packing packing = test::row_of_grains({0.9, 0.9, 0.4, 0.9});
   MapSettings settings = settings_of("clusters");
-  EXPECT_EQ(overloaded_clusters(packing.frame, packing.statics, settings).count(), 3) << "no force";
+  EXPECT_EQ(overloaded_clusters({packing.frame, packing.statics}, settings).count(), 3) << "no force";
   settings.joined_by_neighbours = true;
-  EXPECT_EQ(overloaded_clusters(packing.frame, packing.statics, settings).count(), 2);
+  EXPECT_EQ(overloaded_clusters({packing.frame, packing.statics}, settings).count(), 2);
   settings.threshold_factor = 0.5;
-  EXPECT_EQ(overloaded_clusters(packing.frame, packing.statics, settings).count(), 1);
+  EXPECT_EQ(overloaded_clusters({packing.frame, packing.statics}, settings).count(), 1);
   settings.threshold_factor = 2.0;
-  EXPECT_EQ(overloaded_clusters(packing.frame, packing.statics, settings).count(), 0);
+  EXPECT_EQ(overloaded_clusters({packing.frame, packing.statics}, settings).count(), 0);
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 
 #include "core/errors.h"
 #include "core/trigonometry.h"
-#include "maps/frame_choice.h"
+#include "pictures/frame_choice.h"
 
 namespace talus {
 namespace {
@@ -30,6 +30,13 @@ TEST(FrameChoice, NearIsWithinHalfTheSpacing) {
   EXPECT_EQ(frame_near(run_tilts(), radians(17.37)), 70u);
   EXPECT_FALSE(frame_near(run_tilts(), radians(17.4)).has_value());
   EXPECT_FALSE(frame_near({radians(7.0), radians(7.5)}, 0.0).has_value());
+}
+
+TEST(FrameChoice, TheNearestIsByTilt) {
+  EXPECT_EQ(nearest_frame({0.0, 1.0, 2.0}, 1.6), 2u);
+  EXPECT_EQ(nearest_frame({0.0, 1.0, 2.0}, -3.0), 0u);
+  EXPECT_FALSE(nearest_frame({0.0, 1.0}, std::nan("")).has_value());
+  EXPECT_FALSE(nearest_frame({}, 1.0).has_value());
 }
 
 TEST(FrameChoice, RefusesWhatIsNotThere) {
@@ -66,10 +73,20 @@ TEST(FrameChoice, TakesOneFrameEveryStep) {
 
 TEST(FrameChoice, NamesSortAndTellFramesApart) {
   const std::vector<double> tilts = run_tilts();
-  EXPECT_EQ(frame_names(tilts, {0, 48}, "gamma"),
-            (std::vector<std::string>{"gamma_000.00.png", "gamma_012.00.png"}));
-  EXPECT_EQ(frame_names(tilts, {69, 70}, "overloaded"),
-            (std::vector<std::string>{"overloaded_017.250.png", "overloaded_017.253.png"}));
+  EXPECT_EQ(angle_decimals(tilts, {0, 48}), 2);
+  EXPECT_EQ(angle_name(tilts[48], 2), "012.00");
+  EXPECT_EQ(angle_decimals(tilts, {69, 70}), 3);
+  EXPECT_EQ(angle_name(tilts[70], 3), "017.253");
+  EXPECT_EQ(angle_decimals(tilts, {69, 71, 72}), 2) << "frames of a flow have names of another kind";
+  EXPECT_THROW(angle_decimals({0.1, 0.1}, {0, 1}), Error);
+}
+
+TEST(FrameChoice, MotionIsMeasuredFromAnEarlierFrame) {
+  EXPECT_EQ(reference_frame(3, {}), 2u);
+  EXPECT_EQ(reference_frame(3, 1), 1u);
+  EXPECT_FALSE(reference_frame(0, {}).has_value());
+  EXPECT_FALSE(reference_frame(1, 1).has_value()) << "it is where it is measured from";
+  EXPECT_FALSE(reference_frame(0, 1).has_value());
 }
 
 }  // namespace

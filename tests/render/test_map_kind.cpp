@@ -4,8 +4,8 @@
 #include <string>
 
 #include "core/errors.h"
-#include "maps/map_kind.h"
-#include "maps/traces.h"
+#include "pictures/map_kind.h"
+#include "pictures/traces.h"
 
 namespace talus {
 namespace {
@@ -64,7 +64,7 @@ TEST(MapLayers, UnknownNamesAreAnsweredWithThoseThereAre) {
 TEST(TraceKinds, HaveNamesThatAreFoundAgain) {
   for (const TraceKind kind : trace_kinds()) {
     EXPECT_EQ(trace_kinds(trace_name(kind)), std::vector<TraceKind>{kind});
-    EXPECT_FALSE(trace_help(kind).empty());
+    EXPECT_FALSE(trace_quantity(kind).display.title.empty());
   }
   EXPECT_EQ(trace_kinds("stress_ratio,overloaded"),
             (std::vector<TraceKind>{TraceKind::stress_ratio, TraceKind::overloaded}));

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/random.h"
-#include "maps/traces.h"
+#include "pictures/traces.h"
 #include "render/golden_picture.h"
 #include "render/map_bed.h"
 #include "render/renderer.h"
@@ -60,7 +60,7 @@ TEST(MapPictures, LookAsBefore) {
     settings.length = 5.0;
     settings.l_min = default_l_min;
     test::Packing packing = scene.packing;
-    packing.frame = mapped_frame(packing.frame, packing.statics, settings);
+    packing.frame = mapped_frame(packing.frame, packing.statics, settings.l_min);
     const FrameView view = test::map_of(packing, settings, &scene.before);
     test::expect_golden(renderer.draw(view, 500), std::string("map_").append(name));
   }

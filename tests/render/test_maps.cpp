@@ -10,6 +10,7 @@
 namespace talus {
 namespace {
 
+using test::gamma_shade;
 using test::map_of;
 using test::Packing;
 using test::row_of_grains;
@@ -27,17 +28,10 @@ Packing one_grain(double x) {
 }
 
 FrameView part_of(const Packing& packing, const MapExtent& extent, const std::string& layers = "gamma") {
-  return make_map({packing.frame, packing.statics}, settings_of(layers), extent);
+  return make_map({{packing.frame, packing.statics}}, settings_of(layers), extent);
 }
 
 TEST(GammaMap, IsWhiteBelowTheRangeBlackAboveAndLinearBetween) {
-  EXPECT_EQ(gamma_shade(0.0, gamma_c), 0.0);
-  EXPECT_EQ(gamma_shade(0.049, gamma_c), 0.0);
-  EXPECT_EQ(gamma_shade(2.0 * gamma_c, gamma_c), 1.0);
-  EXPECT_EQ(gamma_shade(nan, gamma_c), 0.0);
-  for (double shade : {0.25, 0.5, 0.75})
-    EXPECT_NEAR(gamma_shade(white_below + shade * (2.0 * gamma_c - white_below), gamma_c), shade, 1e-12);
-
   const std::vector<double> gamma = {0.0, 0.04, 0.3, 0.5, 0.9, 1.0, 1.2, nan};
   const FrameView view = map_of(row_of_grains(gamma), "gamma");
   ASSERT_EQ(view.discs.size(), gamma.size());
@@ -68,7 +62,7 @@ TEST(GammaMap, TakesGrainsWithTheirNeighboursAndSaysSo) {
   packing.frame.internal_moment = {{1, 0, 0, 0}, {0, 0, 0, 1}, {0, 0, 0, 0}, {0, 0, 0, 0}, {0.7, 0, 0, 0.3}};
   MapSettings settings = settings_of("gamma+overloaded");
   settings.l_min = 2.5;
-  packing.frame = mapped_frame(packing.frame, packing.statics, settings);
+  packing.frame = mapped_frame(packing.frame, packing.statics, settings.l_min);
   const FrameView view = map_of(packing, settings);
   EXPECT_EQ(view.discs[0].fill, white) << "two grains that are loaded across cancel their deviators";
   EXPECT_EQ(view.discs[2].fill, white) << "carries nothing, whatever its neighbour carries";
@@ -111,11 +105,12 @@ TEST(OverloadedMap, IsBlackFromTheThresholdOn) {
   EXPECT_EQ(higher.legends[0].swatches[0].label, "γ ≥ 1.5Γ_c = 0.75");
 }
 
-TEST(BareMap, TakesItsShadesAndHasNoFurniture) {
+TEST(BareMap, TakesItsLooksAndHasNoFurniture) {
   Packing packing = row_of_grains({0.1, 0.1, 0.1});
   test::add_floor_grain(packing, 0.5, -0.5);
-  const FrameView view =
-      bare_map(packing.frame, packing.statics, std::vector<double>{0.0, 0.25, 1.0}, {0.0, 3.0, -1.0, 2.0});
+  const Scale scale{ColourMap::gray, 0.0, 1.0};
+  const FrameView view = bare_map({packing.frame, packing.statics},
+                                  looks_of(scale, std::vector{0.0, 0.25, 1.0}), {0.0, 3.0, -1.0, 2.0});
   ASSERT_EQ(view.discs.size(), 4u);
   EXPECT_EQ(view.discs[0].fill, white);
   EXPECT_EQ(view.discs[0].rim, gray(0.45));

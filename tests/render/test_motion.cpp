@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "maps/motion.h"
+#include "pictures/motion.h"
 #include "render/map_bed.h"
 
 namespace talus {
@@ -22,7 +22,7 @@ struct Moved {
     now.frame.tilt = radians(2.0);
     now.frame.step = before.step + 10;
   }
-  MapFrame frame(bool per_degree) const { return {now.frame, now.statics, &before, per_degree, {}}; }
+  MapFrame frame(bool per_degree) const { return {{now.frame, now.statics}, &before, per_degree, {}}; }
 
   Packing now;
   Frame before;

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "core/errors.h"
-#include "maps/scale.h"
-#include "maps/texts.h"
+#include "pictures/scale.h"
+#include "pictures/texts.h"
 
 namespace talus {
 namespace {

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "core/errors.h"
-#include "maps/traces.h"
+#include "pictures/traces.h"
 #include "render/map_bed.h"
 
 namespace talus {
@@ -99,7 +99,7 @@ TEST(TraceValue, OfAFrameGoesByTheThreshold) {
   test::add_contact(packing, 0, 1, 1.0);
   MapSettings settings = settings_of("overloaded");
   const auto value = [&](TraceKind kind) {
-    return frame_value(kind, packing.frame, packing.statics, settings);
+    return frame_value(kind, {packing.frame, packing.statics}, settings);
   };
   EXPECT_DOUBLE_EQ(value(TraceKind::overloaded), 0.75);
   EXPECT_DOUBLE_EQ(value(TraceKind::largest_cluster), 2.0 / 3.0);

@@ -8,8 +8,8 @@
 #include "contact/memory.h"
 #include "core/random.h"
 #include "core/trigonometry.h"
-#include "dynamics/assemble.h"
 #include "dynamics/collapse.h"
+#include "dynamics/form_problem.h"
 
 namespace talus::test {
 namespace {
@@ -138,7 +138,8 @@ FrozenStep next_problem(const World& world, const StepSettings& settings) {
   FrozenStep frozen;
   NeighbourList list;
   detect_contacts(list, grains, world.boundary, settings.margin, frozen.contacts);
-  assemble(midpoint, frozen.contacts, settings.law, settings.h, frozen.problem);
+  free_velocity(midpoint, settings.h, frozen.problem);
+  form_problem(midpoint, frozen.contacts, settings.law, settings.h, frozen.problem);
   recall_forces(world.contacts, frozen.contacts);
   for (double fn : frozen.contacts.fn) frozen.guess.pn.push_back(fn * settings.h);
   for (double ft : frozen.contacts.ft) frozen.guess.pt.push_back(ft * settings.h);

@@ -1,7 +1,7 @@
 #pragma once
 /// A bed so small that a run of it takes some ten milliseconds.
 
-#include "session/scenario.h"
+#include "scenario/scenario.h"
 
 namespace talus::test {
 

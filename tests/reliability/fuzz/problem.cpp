@@ -5,8 +5,8 @@
 #include <span>
 
 #include "core/errors.h"
-#include "io/fclib_file.h"
 #include "io/foreign_file.h"
+#include "problems/fclib_file.h"
 #include "reliability/hostile_run.h"
 
 using namespace talus;

@@ -1,7 +1,7 @@
 /// Any text as a scenario: refused with places, or accepted and then the same when it is written out and read
 /// again.
 
-#include "session/scenario.h"
+#include "scenario/scenario.h"
 
 #include <cstdint>
 #include <cstdlib>

@@ -84,7 +84,8 @@ TEST(Clusters, are_ordered_by_size_and_then_by_id) {
   EXPECT_EQ(clusters.size, (std::vector<Index>{3, 2, 1, 1}));
   EXPECT_EQ(clusters.members, 7);
   EXPECT_EQ(mean_size(clusters), 7.0 / 4.0);
-  EXPECT_EQ(mean_size_of_others(clusters), 4.0 / 3.0);
+  EXPECT_EQ(largest_size(clusters), 3);
+  EXPECT_EQ(largest_share(clusters), 3.0 / 7.0);
   EXPECT_EQ(second_moment(clusters), 15.0 / 7.0);
   EXPECT_EQ(second_moment_of_others(clusters), 6.0 / 4.0);
 }

@@ -53,8 +53,7 @@ double length_of(const Packing& packing, Index centre, const CoarseGrainingRule&
 }
 
 CoarseGraining graining(const Packing& packing, double threshold, double cut) {
-  return coarse_graining(packing.frame, packing.statics,
-                         {.threshold = threshold, .end_ratio = threshold, .l_min = 0.0, .cut = cut});
+  return coarse_graining(packing, {.threshold = threshold, .end_ratio = threshold, .l_min = 0.0, .cut = cut});
 }
 
 void expect_same_bits(const std::vector<double>& one, const std::vector<double>& other) {
@@ -87,7 +86,7 @@ TEST(CoarseGraining, from_l_min_on_equals_the_definition_to_the_last_bit) {
       std::vector<double> expected;
       for (Index i = 0; i < 250; ++i) expected.push_back(length_of(packing, i, rule));
       const Frame frame = with_gamma_of_neighbourhoods(packing.frame, packing.statics, rule.l_min);
-      const CoarseGraining result = coarse_graining(frame, packing.statics, rule);
+      const CoarseGraining result = coarse_graining({frame, packing.statics}, rule);
       expect_same_bits(result.length, expected);
       EXPECT_TRUE(std::isnan(expected[7])) << "carries nothing";
       EXPECT_GT(result.largest, 4.0) << "too easy";
@@ -138,7 +137,7 @@ TEST(CoarseGraining, overloaded_over_scale_counts_neighbourhoods) {
       expected.push_back(overloaded / 199.0);
     }
     EXPECT_NE(expected[2], expected[4]);
-    expect_same_bits(overloaded_over_scale(packing.frame, packing.statics, threshold, scales), expected);
+    expect_same_bits(overloaded_over_scale(packing, threshold, scales), expected);
   }
 }
 
@@ -148,7 +147,7 @@ TEST(CoarseGraining, of_the_map_equals_the_definition_to_the_last_bit) {
     for (const double l : {5.0, 20.0}) {
       std::vector<double> expected;
       for (Index i = 0; i < 250; ++i) expected.push_back(ratio_within(packing, i, l));
-      expect_same_bits(coarse_stress_ratio(packing.frame, packing.statics, l), expected);
+      expect_same_bits(coarse_stress_ratio(packing, l), expected);
     }
   }
 }
@@ -160,8 +159,7 @@ TEST(CoarseGraining, of_a_uniform_stress_field) {
   test::gamma_from_moments(packing);
   const double gamma = std::sqrt(5.0) / 4.0;
   for (const double l : {0.0, 2.0, 5.0})
-    for (double each : coarse_stress_ratio(packing.frame, packing.statics, l))
-      EXPECT_NEAR(each, gamma, 1e-12);
+    for (double each : coarse_stress_ratio(packing, l)) EXPECT_NEAR(each, gamma, 1e-12);
   const CoarseGraining below = graining(packing, gamma - 0.01, 6.0);
   EXPECT_EQ(below.overloaded, 144);
   EXPECT_EQ(below.cut_off, 144);
@@ -201,7 +199,7 @@ TEST(CoarseGraining, of_a_checkerboard) {
   const Index middle = 8 * 16 + 8;
   EXPECT_EQ(graining(packing, 0.2, 8.0).length[middle], 2.0);
   EXPECT_EQ(graining(packing, 0.2, 8.0).overloaded, 128);
-  const NeighbourhoodCurve curve = neighbourhood_curve(packing.frame, packing.statics, middle, 3.0);
+  const NeighbourhoodCurve curve = neighbourhood_curve(packing, middle, 3.0);
   ASSERT_EQ(curve.l.size(), 3u);
   EXPECT_EQ(curve.l[1], 2.0);
   EXPECT_EQ(curve.l[2], 2.0 * std::sqrt(2.0));

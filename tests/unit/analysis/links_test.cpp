@@ -27,7 +27,7 @@ TEST(ForceLinks, join_free_grains_that_press_on_each_other) {
   test::add_contact(packing, a, b, 1.0, 0.0, -1);
   test::add_contact(packing, a, floor, 1.0);
   test::add_contact(packing, b, c, 0.0);
-  const std::vector<Link> links = force_links(packing.frame, packing.statics);
+  const std::vector<Link> links = force_links(packing);
   ASSERT_EQ(links.size(), 1u);
   EXPECT_EQ(links[0].a, a);
   EXPECT_EQ(links[0].b, b);
@@ -47,7 +47,7 @@ TEST(NeighbourLinks, are_all_pairs_closer_than_the_reach) {
             1.3 * (packing.statics.radius[a] + packing.statics.radius[b]))
           expected.emplace_back(a, b);
       }
-    const std::vector<Link> links = neighbour_links(frame, packing.statics, 1.3);
+    const std::vector<Link> links = neighbour_links({frame, packing.statics}, 1.3);
     EXPECT_EQ(pairs(links), expected);
     for (const Link& link : links)
       EXPECT_LT(std::fabs(frame.x[link.b] + 20.0 * link.shift - frame.x[link.a]), 2.0);
@@ -58,8 +58,8 @@ TEST(NeighbourLinks, are_all_pairs_closer_than_the_reach) {
 TEST(NeighbourLinks, of_a_triangular_lattice) {
   const Packing packing = test::triangular_lattice(10, 10, true);
   // Three for each grain, but for the row on top, which has one.
-  EXPECT_EQ(neighbour_links(packing.frame, packing.statics).size(), 3u * 90 + 10);
-  EXPECT_TRUE(neighbour_links(packing.frame, packing.statics, 0.99).empty());
+  EXPECT_EQ(neighbour_links(packing).size(), 3u * 90 + 10);
+  EXPECT_TRUE(neighbour_links(packing, 0.99).empty());
 }
 
 }  // namespace

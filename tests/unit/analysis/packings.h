@@ -3,13 +3,15 @@
 
 #include <cstdint>
 
-#include "core/snapshot.h"
+#include "core/bed_frame.h"
 
 namespace talus::test {
 
 struct Packing {
   Frame frame;
   RunStatics statics;
+
+  operator BedFrame() const { return {frame, statics}; }
 };
 
 /// No grains yet; mean diameter 1 m, friction 0.5.

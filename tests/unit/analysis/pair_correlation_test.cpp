@@ -72,8 +72,8 @@ TEST(PairCorrelation, equals_the_sum_over_all_pairs) {
 TEST(PairCorrelation, is_the_same_wherever_the_period_is_cut) {
   const Packing packing = test::random_packing(10, 200, 20.0, 12.0, true);
   const Packing moved = test::moved(packing, 7.25);
-  const PairCorrelation one = stress_ratio_correlation(packing.frame, packing.statics, 5.0, 10);
-  const PairCorrelation other = stress_ratio_correlation(moved.frame, moved.statics, 5.0, 10);
+  const PairCorrelation one = stress_ratio_correlation(packing, 5.0, 10);
+  const PairCorrelation other = stress_ratio_correlation(moved, 5.0, 10);
   EXPECT_EQ(one.pairs, other.pairs);
   for (std::size_t bin = 0; bin < 10; ++bin) EXPECT_NEAR(one.value[bin], other.value[bin], 1e-12);
 }
@@ -92,7 +92,7 @@ TEST(MeanStressCorrelation, is_not_that_of_depth) {
       test::add_grain(packing, column, row, radius, {half_moment, 0.0, 0.0, half_moment});
     }
   const PairCorrelation raw = pair_correlation(packing.frame.x, packing.frame.y, mean_stress, 4.5, 3, 24.0);
-  const PairCorrelation result = mean_stress_correlation(packing.frame, packing.statics, 4.5, 3);
+  const PairCorrelation result = mean_stress_correlation(packing, 4.5, 3);
   for (std::size_t bin = 0; bin < 3; ++bin) {
     EXPECT_GT(raw.value[bin], 0.5);
     EXPECT_LT(std::fabs(result.value[bin]), 0.1);
@@ -107,7 +107,7 @@ TEST(MeanStressCorrelation, does_not_depend_on_the_size_of_grains) {
     const double p = k % 2 == 0 ? 1.0 : 3.0;
     test::add_grain(packing, k, 0.5, radius, {pi * radius * radius * p, 0.0, 0.0, 0.0});
   }
-  EXPECT_NEAR(mean_stress_correlation(packing.frame, packing.statics, 4.5, 9).value[2], -1.0, 1e-12);
+  EXPECT_NEAR(mean_stress_correlation(packing, 4.5, 9).value[2], -1.0, 1e-12);
 }
 
 TEST(ForceCorrelation, is_that_of_normal_forces_at_contact_points) {
@@ -115,7 +115,7 @@ TEST(ForceCorrelation, is_that_of_normal_forces_at_contact_points) {
   for (Index k = 0; k < 20; ++k) test::add_grain(packing, k + 0.25, 0.5);
   for (Index k = 0; k + 1 < 20; ++k) test::add_contact(packing, k, k + 1, k % 2 == 0 ? 1.0 : 3.0);
   test::add_contact(packing, 0, 19, 3.0, 0.0, -1);
-  const PairCorrelation result = force_correlation(packing.frame, packing.statics, 4.5, 9);
+  const PairCorrelation result = force_correlation(packing, 4.5, 9);
   EXPECT_EQ(result.pairs[2], 20.0);
   EXPECT_NEAR(result.value[2], -1.0, 1e-12);
   EXPECT_NEAR(result.value[4], 1.0, 1e-12);

@@ -16,10 +16,9 @@ namespace {
 using test::Packing;
 
 Spanning spanning(const Packing& packing, const std::vector<bool>& in_set) {
-  const std::vector<Link> links = neighbour_links(packing.frame, packing.statics);
+  const std::vector<Link> links = neighbour_links(packing);
   const double period = packing.statics.periodic ? packing.statics.length : 0.0;
-  return find_spanning(find_clusters(in_set, links, packing.frame.x, period),
-                       bed_edges(packing.frame, packing.statics));
+  return find_spanning(find_clusters(in_set, links, packing.frame.x, period), bed_edges(packing));
 }
 
 // Site percolation on a triangular lattice has p_c = 1/2 (Sykes and Essam 1964).
@@ -88,7 +87,7 @@ TEST(BedEdges, are_where_the_bed_ends) {
   const Index right = test::add_grain(packing, 5.0, 1.4);
   const Index floor = test::add_floor_grain(packing, 3.0, 0.0);
   test::add_contact(packing, propped, floor, 1.0);
-  const BedEdges edges = bed_edges(packing.frame, packing.statics);
+  const BedEdges edges = bed_edges(packing);
   const auto ids = [](const std::vector<bool>& edge) {
     std::vector<Index> result;
     for (std::size_t i = 0; i < edge.size(); ++i)
@@ -101,7 +100,7 @@ TEST(BedEdges, are_where_the_bed_ends) {
   EXPECT_EQ(ids(edges.right), (std::vector<Index>{right}));
   EXPECT_FALSE(edges.floor[middle] || edges.surface[middle]);
   packing.statics.periodic = true;
-  EXPECT_TRUE(ids(bed_edges(packing.frame, packing.statics).left).empty());
+  EXPECT_TRUE(ids(bed_edges(packing).left).empty());
 }
 
 /// Grains of a path from the floor upwards whose steps, one diameter long, have these angles (deg).
@@ -129,10 +128,9 @@ BedEdges ends_of(const Packing& packing) {
 }
 
 DirectedPaths along(const Packing& packing, double direction, double spread = 30.0) {
-  return directed_paths(packing.frame, packing.statics,
-                        std::vector<bool>(static_cast<std::size_t>(packing.statics.free_count), true),
-                        neighbour_links(packing.frame, packing.statics, 1.01), ends_of(packing),
-                        radians(direction), radians(spread));
+  return directed_paths(
+      packing, std::vector<bool>(static_cast<std::size_t>(packing.statics.free_count), true),
+      neighbour_links(packing, 1.01), ends_of(packing), radians(direction), radians(spread));
 }
 
 TEST(DirectedPaths, advance_with_every_step) {
@@ -161,9 +159,9 @@ TEST(DirectedPaths, do_not_depend_on_ids) {
   const Packing packing = path({-120, -120, -120, -120});
   BedEdges edges = ends_of(packing);
   std::swap(edges.floor, edges.surface);
-  const DirectedPaths paths = directed_paths(packing.frame, packing.statics, std::vector<bool>(5, true),
-                                             neighbour_links(packing.frame, packing.statics, 1.01), edges,
-                                             radians(60.0), radians(30.0));
+  const DirectedPaths paths =
+      directed_paths(packing, std::vector<bool>(5, true), neighbour_links(packing, 1.01), edges,
+                     radians(60.0), radians(30.0));
   EXPECT_TRUE(paths.spans);
   EXPECT_NEAR(paths.height, 4.0 * std::sqrt(0.75), 1e-12);
 }
@@ -182,11 +180,10 @@ TEST(DirectedPaths, go_through_the_edge_of_the_period) {
 
 TEST(DirectedPaths, stay_in_the_set) {
   const Packing packing = path({60, 60, 60});
-  const std::vector<Link> links = neighbour_links(packing.frame, packing.statics);
+  const std::vector<Link> links = neighbour_links(packing);
   const BedEdges edges = ends_of(packing);
   const auto spans = [&](const std::vector<bool>& in_set) {
-    return directed_paths(packing.frame, packing.statics, in_set, links, edges, radians(60.0), radians(30.0))
-        .spans;
+    return directed_paths(packing, in_set, links, edges, radians(60.0), radians(30.0)).spans;
   };
   EXPECT_TRUE(spans({true, true, true, true}));
   EXPECT_FALSE(spans({true, false, true, true}));

@@ -32,8 +32,9 @@ TEST_F(OpenRunTest, names_the_run_and_the_value_that_its_checkpoint_lacks) {
     ADD_FAILURE() << "taken up";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::bad_data);
-    EXPECT_EQ(error.what(), request_.output + ": data set /checkpoint/integers/phase is missing, without " +
-                                "which the run cannot go on");
+    EXPECT_EQ(error.what(),
+              request_.output +
+                  ": data set /checkpoint/integers/phase is missing; without it the run cannot go on");
   }
 }
 

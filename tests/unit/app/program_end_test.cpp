@@ -42,6 +42,13 @@ TEST(ProgramEnd, of_an_exception_is_its_exit_code) {
   EXPECT_EQ(code_of(std::runtime_error("a defect")), 70);
 }
 
+TEST(ProgramEnd, on_request_is_a_plain_sentence) {
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(code_of(Error(ExitCode::stopped, "stopped at 12.250 deg; talus run --resume a.h5 goes on")), 75);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(),
+            "Stopped at 12.250 deg; talus run --resume a.h5 goes on.\n");
+}
+
 TEST(ProgramEnd, of_another_thread_is_that_of_its_exception) {
   const auto in_thread = [] { std::thread([] { throw Error(ExitCode::io_error, "no space"); }).join(); };
   EXPECT_EXIT(in_thread(), testing::ExitedWithCode(74), "talus: error: no space");

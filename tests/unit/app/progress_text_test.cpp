@@ -11,10 +11,10 @@ bool has(const std::string& line, const std::string& part) { return line.find(pa
 
 RunShown tilting() {
   RunShown shown;
-  shown.stage = RunShown::Stage::tilt;
+  shown.phase = Phase::tilt;
   shown.tilt = 12.345;
-  shown.tilt_end = 20.0;
-  shown.end_expected = true;
+  shown.share = 12.345 / 20.0;
+  shown.repose_assumed = 20.0;
   shown.remaining = 11000.0;
   shown.residual = 2.9e-7;
   shown.kinetic_energy = 1.2e-12;
@@ -31,9 +31,8 @@ TEST(Durations, AreTextsOfTwoUnitsAtMost) {
 
 TEST(ProgressText, FitsEveryWidth) {
   RunShown shown = tilting();
-  for (const RunShown::Stage stage :
-       {RunShown::Stage::deposition, RunShown::Stage::tilt, RunShown::Stage::flow}) {
-    shown.stage = stage;
+  for (const Phase phase : {Phase::deposition, Phase::tilt, Phase::flow}) {
+    shown.phase = phase;
     for (int width = 0; width <= 250; ++width)
       EXPECT_LE(run_progress_text(shown, width).size(), static_cast<std::size_t>(width));
   }
@@ -41,44 +40,55 @@ TEST(ProgressText, FitsEveryWidth) {
 
 TEST(ProgressText, KeepsWhatMattersMost) {
   const auto line = [](int width) { return run_progress_text(tilting(), width); };
-  EXPECT_EQ(line(60), "tilt 12.345 deg  61 %  ETA 3 h 03 min  (1 h 02 min)");
-  EXPECT_EQ(line(80), "tilt 12.345 deg  [############--------]  61 %  ETA 3 h 03 min  (1 h 02 min)");
-  EXPECT_EQ(line(110),
-            "tilt 12.345 deg  [############--------]  61 %  ETA 3 h 03 min  (1 h 02 min)  residual 2.9e-07");
+  EXPECT_EQ(line(60), "tilt 12.345 deg  61 %  elapsed 1 h 02 min  ETA 3 h 03 min");
+  EXPECT_EQ(line(79), "tilt 12.345 deg  [########------]  61 %  elapsed 1 h 02 min  ETA 3 h 03 min");
+  EXPECT_EQ(line(109),
+            "tilt 12.345 deg  [########------]  61 %  elapsed 1 h 02 min  ETA 3 h 03 min  residual 2.9e-07");
   EXPECT_EQ(line(200),
-            "tilt 12.345 deg  [############--------]  61 %  ETA 3 h 03 min  if it fails at 20 deg  "
-            "(1 h 02 min)  residual 2.9e-07  E_kin 1.2e-12 J  v = 1.23e-03 g h");
+            "tilt 12.345 deg  [########------]  61 %  elapsed 1 h 02 min  ETA 3 h 03 min  "
+            "if it fails at 20 deg  residual 2.9e-07  E_kin 1.2e-12 J  v = 1.23e-03 g h");
   EXPECT_EQ(line(10), "tilt 12.34");
 }
 
 TEST(ProgressText, OfALogHasAllButTheBar) {
   EXPECT_EQ(run_progress_text(tilting(), std::nullopt),
-            "tilt 12.345 deg  61 %  ETA 3 h 03 min  if it fails at 20 deg  (1 h 02 min)  residual 2.9e-07  "
-            "E_kin 1.2e-12 J  v = 1.23e-03 g h");
+            "tilt 12.345 deg  61 %  elapsed 1 h 02 min  ETA 3 h 03 min  if it fails at 20 deg  "
+            "residual 2.9e-07  E_kin 1.2e-12 J  v = 1.23e-03 g h");
 }
 
 TEST(ProgressText, PromisesNothingBeyondTheExpectedEnd) {
   RunShown shown = tilting();
-  shown.tilt = 21.0;
+  shown.share = 1.05;
   const std::string line = run_progress_text(shown, 200);
   EXPECT_FALSE(has(line, "%") || has(line, "ETA") || has(line, "[")) << line;
 }
 
-TEST(ProgressText, OfOtherPhasesHasNoShare) {
+TEST(ProgressText, OfOtherStages) {
   RunShown shown = tilting();
-  shown.stage = RunShown::Stage::deposition;
+  shown.repose_assumed.reset();
+  shown.phase = Phase::deposition;
   shown.time = 0.25;
   shown.contacts = 2000;
-  EXPECT_EQ(run_progress_text(shown, 120),
-            "deposition  t = 0.250 s  (1 h 02 min)  residual 2.9e-07  contacts 2000  v = 1.23e-03 g h");
-  shown.stage = RunShown::Stage::flow;
-  EXPECT_TRUE(run_progress_text(shown, 120).starts_with("flow at 12.345 deg  (1 h 02 min)  residual"));
+  EXPECT_EQ(run_progress_text(shown, 79),
+            "deposition 0.250 s  [########------]  61 %  elapsed 1 h 02 min  ETA 3 h 03 min");
+  shown.phase = Phase::flow;
+  shown.share.reset();
+  EXPECT_EQ(run_progress_text(shown, 60), "flow at 12.345 deg  elapsed 1 h 02 min  residual 2.9e-07");
+}
+
+TEST(ProgressText, OfThingsThatAreCounted) {
+  EXPECT_EQ(count_progress_text("rendering", 0, 48, 1.0, 79),
+            "rendering 0/48  [--------------]  0 %  elapsed 1 s");
+  EXPECT_EQ(count_progress_text("rendering", 12, 48, 10.0, 79),
+            "rendering 12/48  [###-----------]  25 %  elapsed 10 s  ETA 30 s");
+  EXPECT_EQ(count_progress_text("rendering", 48, 48, 40.0, std::nullopt),
+            "rendering 48/48  100 %  elapsed 40 s");
 }
 
 TEST(ProgressBar, IsFullAtTheEnd) {
-  EXPECT_EQ(progress_bar(0.0), "[--------------------]");
-  EXPECT_EQ(progress_bar(0.5), "[##########----------]");
-  EXPECT_EQ(progress_bar(1.0), "[####################]");
+  EXPECT_EQ(progress_bar(0.0), "[--------------]");
+  EXPECT_EQ(progress_bar(0.5), "[#######-------]");
+  EXPECT_EQ(progress_bar(1.0), "[##############]");
   EXPECT_EQ(progress_bar(7.0), progress_bar(1.0));
 }
 

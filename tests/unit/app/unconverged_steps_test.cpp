@@ -13,13 +13,13 @@ SolverRecord record_of(std::int64_t tilt) {
   return record;
 }
 
-TEST(UnconvergedSteps, AreANoteWhereTheyAreFew) {
+TEST(UnconvergedSteps, AreStatedWhereTheyAreFew) {
   const StepRemark remark = remark_on(record_of(163), 18041);
   EXPECT_TRUE(remark.usual);
   EXPECT_EQ(
       remark.text,
       "0.9 % of the steps did not reach their tolerance (largest residual 6.6e-06 at rest, 0.00021 while "
-      "moving); so few are usual, see docs/solver.md");
+      "moving); that is usual (docs/solver.md).");
 }
 
 TEST(UnconvergedSteps, AreAWarningWhereTheyAreMany) {

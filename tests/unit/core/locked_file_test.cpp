@@ -1,7 +1,7 @@
 #include "core/locked_file.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 #include <fstream>
@@ -44,6 +44,40 @@ TEST(LockedFile, is_free_again_under_its_name_once_it_has_another) {
   EXPECT_FALSE(is_named(path, *file));
   EXPECT_TRUE(create_locked(path));
   EXPECT_TRUE(is_named(folder.path("final"), *file));
+}
+
+TEST(LockedFile, waits_for_nothing_and_removes_nothing_that_is_no_file) {
+  const test::TemporaryFolder folder;
+  const auto code_of = [](const auto& make) {
+    try {
+      make();
+    } catch (const Error& error) {
+      return error.code();
+    }
+    return ExitCode::done;
+  };
+  fs::create_symlink("/nowhere/x", folder.path("nowhere"));
+  fs::create_symlink("loop", folder.path("loop"));
+  fs::create_directory(folder.path("folder"));
+  ASSERT_EQ(mkfifo(folder.path("fifo").c_str(), 0600), 0);
+  for (const char* name : {"nowhere", "loop", "folder", "fifo"}) {
+    EXPECT_EQ(code_of([&] { create_locked(folder.path(name)); }), ExitCode::cannot_create) << name;
+    EXPECT_TRUE(fs::exists(fs::symlink_status(folder.path(name)))) << name;
+  }
+  for (const char* name : {"nowhere", "loop", "fifo"})
+    EXPECT_EQ(code_of([&] { create_locked_folder(folder.path(name)); }), ExitCode::cannot_create) << name;
+}
+
+TEST(LockedFile, a_folder_is_made_by_one_at_a_time_and_empty) {
+  const test::TemporaryFolder folder;
+  const std::string path = folder.path("work");
+  std::optional<Descriptor> first = create_locked_folder(path);
+  ASSERT_TRUE(first);
+  EXPECT_FALSE(create_locked_folder(path));
+  std::ofstream(path + "/left") << "by a kill";
+  first->close();
+  EXPECT_TRUE(create_locked_folder(path));
+  EXPECT_TRUE(fs::is_empty(path));
 }
 
 TEST(LockedFile, says_why_it_cannot_be_made) {

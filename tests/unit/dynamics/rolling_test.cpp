@@ -14,13 +14,13 @@ constexpr double length = 20.0;
 constexpr double exact = 1e-14;
 
 /// Discs on or above the plane y = 0, in a box whose ends are joined or walls.
-DiscGrid box(bool periodic, const std::vector<Disc>& discs) {
+DiscGrid box(bool periodic, const std::vector<PlacedDisc>& discs) {
   Boundary boundary{.periodic = periodic, .length = length, .planes = {}};
   if (!periodic)
     boundary.planes = {{.normal = {1.0, 0.0}, .offset = 0.0}, {.normal = {-1.0, 0.0}, .offset = -length}};
   boundary.planes.push_back({.normal = {0.0, 1.0}, .offset = 0.0, .wall = false});
   DiscGrid grid(boundary, 2.0);
-  for (const Disc& disc : discs) grid.add(disc);
+  for (const PlacedDisc& disc : discs) grid.add(disc);
   return grid;
 }
 

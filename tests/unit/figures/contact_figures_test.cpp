@@ -12,19 +12,18 @@ namespace talus {
 namespace {
 
 constexpr std::size_t bins = 2;
-constexpr const char* density = "contacts/direction_density";
+constexpr auto density = &FrameRecord::direction_density;
 
 /// A run that fails at theta_c (deg), with two bins of directions, all of density `level` in its first frame
 /// and of 3 `level` in the others.
 FigureRun run_with(const std::string& folder, double theta_c, double level) {
   FigureRun run{folder, RunFile::open(folder), {}, {}};
-  const std::size_t frames = run.file.frame_count();
-  run.analysis = make_analysis({{'T', frames}, {'N', 1}, {'F', 1}, {'X', 1}, {'B', bins}});
-  values<double>(run.analysis, "theta_c")[0] = radians(theta_c);
-  for (std::size_t k = 0; k < frames; ++k)
-    for (double& value : row<double>(run.analysis, density, k)) value = k == 0 ? level : 3.0 * level;
-  const double edges[] = {0.0, 0.5 * pi, pi};
-  std::ranges::copy(edges, values<double>(run.analysis, "contacts/direction_edge").begin());
+  run.analysis.theta_c = radians(theta_c);
+  run.analysis.frames.resize(run.file.frame_count());
+  for (FrameRecord& frame : run.analysis.frames)
+    frame.*density = std::vector<double>(bins, &frame == run.analysis.frames.data() ? level : 3.0 * level);
+  run.analysis.direction_edge = {0.0, 0.5 * pi, pi};
+  for (FrameRecord& frame : run.analysis.frames) frame.direction_density_by_force = std::vector<double>(bins);
   return run;
 }
 

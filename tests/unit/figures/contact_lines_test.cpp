@@ -34,7 +34,7 @@ test::Packing across_the_edge() {
 
 TEST(ContactLines, AreCutAtThePeriodicEdge) {
   const test::Packing packing = across_the_edge();
-  const std::vector<ContactLine> lines = contact_lines(packing.frame, packing.statics);
+  const std::vector<ContactLine> lines = contact_lines({packing.frame, packing.statics});
   ASSERT_EQ(lines.size(), 6u);
   expect_line(lines[0], 0, 7.5, 1.0, 8.0, 1.5);
   expect_line(lines[1], 0, 0.0, 1.5, 1.5, 3.0);
@@ -52,7 +52,7 @@ TEST(ContactLines, EndAtAWall) {
   FrameContacts& contacts = packing.frame.contacts;
   contacts.b[0] = 2;  // the first plane
   contacts.px[0] = 0.0;
-  const std::vector<ContactLine> lines = contact_lines(packing.frame, packing.statics);
+  const std::vector<ContactLine> lines = contact_lines({packing.frame, packing.statics});
   ASSERT_EQ(lines.size(), 1u);
   expect_line(lines[0], 0, 0.5, 1.0, 0.0, 1.0);
 }
@@ -60,7 +60,7 @@ TEST(ContactLines, EndAtAWall) {
 TEST(SurfaceLine, IsTheUpperEnvelope) {
   test::Packing packing = test::empty_packing(2.0, false);
   test::add_grain(packing, 0.625, 1.0, 0.5);
-  const SurfaceLine line = surface_line(packing.frame, packing.statics);
+  const SurfaceLine line = surface_line({packing.frame, packing.statics});
   ASSERT_EQ(line.x.size(), 8u);
   EXPECT_DOUBLE_EQ(line.x[2], 0.625);
   EXPECT_DOUBLE_EQ(line.y[2], 1.5);
@@ -69,7 +69,7 @@ TEST(SurfaceLine, IsTheUpperEnvelope) {
 
 TEST(ForceTable, HasForcesOverTheirMeanTheStrongestLast) {
   const test::Packing packing = across_the_edge();
-  const Table table = force_table(packing.frame, packing.statics);
+  const Table table = force_table({packing.frame, packing.statics});
   const double mean = (2.0 + 4.0 + 1.0 + 5.0) / 4.0;  // a contact that is cut counts once
   const auto rounded = [](double value) { return std::round(1e4 * value) / 1e4; };
   EXPECT_EQ(table.columns[4].values,
@@ -82,7 +82,7 @@ TEST(ForceTable, HasForcesOverTheirMeanTheStrongestLast) {
 TEST(ForceTable, MeasuresInMeanDiameters) {
   test::Packing packing = across_the_edge();
   packing.statics.mean_diameter = 0.5;
-  const Table table = force_table(packing.frame, packing.statics);
+  const Table table = force_table({packing.frame, packing.statics});
   EXPECT_EQ(table.columns[2].values.front(), 5.0);
   EXPECT_EQ(table.columns[3].values.front(), 6.0);
 }

@@ -6,10 +6,12 @@
 #include <stdexcept>
 
 #include "analysis/coarse_graining.h"
+#include "ensemble/wall_fit.h"
 #include "figures/catalogue.h"
 #include "figures/group_table.h"
 #include "figures/overload_figures.h"
 #include "figures/packing_stress_figures.h"
+#include "figures/run_means.h"
 #include "figures/volume_strain_figure.h"
 #include "figures/wall_figures.h"
 #include "stress/overload.h"
@@ -42,13 +44,15 @@ class Curves : public ::testing::Test {
   }
 
   /// Run r has r + 1 times `first`, growing by `step` from element to element.
-  void fill(const char* name, double first, double step) {
+  void fill(const QuantityMember& member, double first, double step) {
+    const Quantity& quantity = quantity_of(member);
     for (std::size_t r = 0; r < groups_[0].runs.size(); ++r) {
       Analysis& analysis = groups_[0].runs[r].analysis;
-      if (!analysis.data_sets.contains(std::string_view(name))) continue;
-      const auto all = values<double>(analysis, name);
+      if (!is_present(quantity, analysis)) continue;
+      auto all = std::get<std::vector<double>>(values_of(quantity, analysis));
       for (std::size_t k = 0; k < all.size(); ++k)
         all[k] = static_cast<double>(r + 1) * first + static_cast<double>(k) * step;
+      set_values(quantity, all, analysis);
     }
   }
 
@@ -58,7 +62,7 @@ class Curves : public ::testing::Test {
 };
 
 TEST_F(Curves, OfThePackingAreMeansOverAllRuns) {
-  fill("packing/stress_ratio", 0.1, 0.01);
+  fill(&FrameRecord::stress_ratio, 0.1, 0.01);
   const auto figure = stress_ratio_figure(groups_);
   ASSERT_TRUE(figure);
   ASSERT_EQ(figure->tables.size(), 1u);
@@ -71,15 +75,27 @@ TEST_F(Curves, OfThePackingAreMeansOverAllRuns) {
   EXPECT_EQ(variable(*figure, "data_1"), "\"fig05-stress-ratio-pbc-a_b.csv\"");
 }
 
+TEST_F(Curves, AreOfAnyQuantityOfFrames) {
+  const Quantity made_up = {&FrameThreshold::lc_max, "lc/made_up", "T F", "m", "made up for this test", ""};
+  fill(made_up.member, 1.0, 0.0);
+  const FrameColumn frame_column = column_of("made_up", made_up, 1);
+  const RunChoice runs = runs_with_threshold(groups_[0]);
+  const Table table = {"", means_over_runs(runs, {&frame_column, 1})};
+  const double diameter = groups_[0].runs[0].file.header().statics.mean_diameter;
+  EXPECT_NEAR(column(table, "made_up")[1], 1.5 / diameter, 1e-9) << "mean of two runs, in D";
+  EXPECT_EQ(table.columns[2].unit, "D");
+  EXPECT_EQ(table.columns[2].meaning, made_up.definition);
+}
+
 TEST_F(Curves, EndAtTheFailureOfEachRun) {
   const std::vector<double> tilts = groups_[0].runs[0].file.frame_tilts();
-  values<double>(groups_[0].runs[0].analysis, "theta_c")[0] = 0.5 * (tilts[1] + tilts[2]);
+  groups_[0].runs[0].analysis.theta_c = 0.5 * (tilts[1] + tilts[2]);
   const auto figure = stress_ratio_figure(groups_);
   EXPECT_EQ(column(figure->tables[0], "n"), (std::vector<double>{3.0, 3.0, 2.0}));
 }
 
 TEST_F(Curves, OfOverloadedGrainsNeedAThreshold) {
-  fill("overloaded/fraction", 0.2, 0.05);  // elements: frame, threshold
+  fill(&FrameThreshold::overloaded_fraction, 0.2, 0.05);  // elements: frame, threshold
   const auto figure = overloaded_fraction_figure(groups_);
   ASSERT_TRUE(figure);
   EXPECT_EQ(figure->runs.size(), 2u) << "the third has none";
@@ -94,10 +110,10 @@ TEST_F(Curves, OfOverloadedGrainsNeedAThreshold) {
 
 TEST_F(Curves, OfLengthsAreInDiameters) {
   const double diameter = groups_[0].runs[0].file.header().statics.mean_diameter;
-  fill("lc/mean", 2.0 * diameter, 0.0);
-  fill("lc/max", 10.0 * diameter, 0.0);
-  fill("lc/cut", 15.0 * diameter, 0.0);
-  values<double>(groups_[0].runs[0].analysis, "lc/cut")[0] = 40.0 * diameter;
+  fill(&FrameThreshold::lc_mean, 2.0 * diameter, 0.0);
+  fill(&FrameThreshold::lc_max, 10.0 * diameter, 0.0);
+  fill(&Analysis::lc_cut, 15.0 * diameter, 0.0);
+  groups_[0].runs[0].analysis.lc_cut = 40.0 * diameter;
   const auto figure = length_figure(groups_);
   EXPECT_NEAR(column(figure->tables[0], "mean_1")[0], 3.0, 1e-12);
   EXPECT_NEAR(column(figure->tables[0], "max_2")[2], 15.0, 1e-12);
@@ -105,10 +121,10 @@ TEST_F(Curves, OfLengthsAreInDiameters) {
 }
 
 TEST_F(Curves, OfGammaAreThoseOfRunsThatStandAtTheAngle) {
-  fill("gamma/density", 1.0, 0.0);
+  fill(&FrameRecord::gamma_density, 1.0, 0.0);
   const auto figure = gamma_density_figure(groups_);
   EXPECT_EQ(column(figure->tables[0], "density_0"), (std::vector<double>{1.5, 1.5}));
-  for (FigureRun& run : groups_[0].runs) values<double>(run.analysis, "theta_c")[0] = radians(5.0);
+  for (FigureRun& run : groups_[0].runs) run.analysis.theta_c = radians(5.0);
   EXPECT_TRUE(std::isnan(column(gamma_density_figure(groups_)->tables[0], "density_10")[0]));
 }
 
@@ -124,13 +140,13 @@ TEST_F(Curves, OverScaleAreOfFailedRunsAtTheAngles) {
   for (std::size_t s = 0; s < scales.size(); ++s) {
     const double l = std::max(scales[s], 1e-9) * statics.mean_diameter;  // of 0 the frame says itself
     const Frame frame = with_gamma_of_neighbourhoods(run.frame(0), statics, l);
-    EXPECT_NEAR(column(table, "p_o_0")[s], count_overloaded(frame, statics, sine(radians(80.0))).fraction(),
+    EXPECT_NEAR(column(table, "p_o_0")[s], count_overloaded({frame, statics}, sine(radians(80.0))).fraction(),
                 1e-12)
         << scales[s];
     EXPECT_EQ(column(table, "p_o_0_error")[s], 0.0) << "both runs are the same";
   }
   EXPECT_EQ(column(table, "p_o_failure").size(), scales.size());
-  for (FigureRun& each : groups_[0].runs) values<double>(each.analysis, "theta_c")[0] = radians(5.0);
+  for (FigureRun& each : groups_[0].runs) each.analysis.theta_c = radians(5.0);
   EXPECT_TRUE(std::isnan(column(overload_scale_figure(groups_)->tables[0], "p_o_15")[0])) << "none stands";
 }
 
@@ -145,8 +161,8 @@ TEST_F(Curves, CaptionsSayWhoseGammaItIs) {
 }
 
 TEST_F(Curves, OfTheVolumeHaveThetaDByEachEstimator) {
-  fill("theta_d/lc_jump", radians(10.0), radians(1.0));
-  fill("theta_d/dilation", radians(5.0), 0.0);
+  fill(&RunThreshold::lc_jump, radians(10.0), radians(1.0));
+  fill(&Analysis::dilation, radians(5.0), 0.0);
   const auto figure = volume_strain_figure(groups_);
   ASSERT_EQ(figure->tables.size(), 2u);
   const Table& table = figure->tables[1];
@@ -182,7 +198,7 @@ TEST_F(Curves, OfPeriodicBedsLeaveOutWalls) {
 TEST_F(Curves, OfWallsAreThoseOfTheShortestBed) {
   EXPECT_FALSE(wall_stress_figure(groups_)) << "a periodic bed";
   groups_[0].runs[0].scenario.bed.boundary = BedBoundary::walls;
-  fill("sections/sigma_xx", 100.0, 0.0);
+  fill(&FrameRecord::section_sigma_xx, 100.0, 0.0);
   const RunStatics& statics = groups_[0].runs[0].file.header().statics;
   double mass = 0.0;
   for (Index i = 0; i < statics.free_count; ++i) mass += statics.mass[i];

@@ -32,20 +32,14 @@ FigureRun run_with(const std::string& path, double rest, std::uint64_t seed) {
   store.commit(segment, checkpoint);
   FigureRun run{path, RunFile::open(path), {}, {}};
   run.scenario.seed = seed;
-  run.analysis = make_analysis({{'T', 1}, {'N', 1}, {'F', 2}, {'X', 1}, {'B', 1}});
-  const auto set = [&run](const char* name, std::vector<double> numbers, double unit) {
-    for (double& number : numbers) number *= unit;
-    std::ranges::copy(numbers, values<double>(run.analysis, name).begin());
-  };
-  set("theta_c", {19.9}, radians(1.0));
-  set("threshold_factor", {1.0, 2.0}, 1.0);
-  set("theta_d/lc_jump", {12.0, 13.0}, radians(1.0));
-  set("theta_d/lc_jump_error", {0.25, 0.5}, radians(1.0));
-  set("theta_d/percolation", {0.0, nan}, radians(1.0));
-  set("theta_d/percolation_error", {nan, nan}, radians(1.0));
-  set("theta_d/dilation", {14.0, 15.0}, radians(1.0));
-  set("theta_d/dilation_low", {11.0, 14.5}, radians(1.0));
-  set("theta_d/dilation_high", {16.0, 17.0}, radians(1.0));
+  Analysis& analysis = run.analysis;
+  analysis.theta_c = radians(19.9);
+  analysis.thresholds = {
+      {.factor = 1.0, .lc_jump = radians(12.0), .lc_jump_error = radians(0.25), .percolation = radians(0.0)},
+      {.factor = 2.0, .lc_jump = radians(13.0), .lc_jump_error = radians(0.5)}};
+  analysis.dilation = {radians(14.0), radians(15.0)};
+  analysis.dilation_low = {radians(11.0), radians(14.5)};
+  analysis.dilation_high = {radians(16.0), radians(17.0)};
   return run;
 }
 

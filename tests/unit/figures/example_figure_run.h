@@ -6,6 +6,7 @@
 
 #include "core/trigonometry.h"
 #include "figures/run_group.h"
+#include "support/blank_analysis.h"
 #include "unit/io/example_run.h"
 
 namespace talus::example {
@@ -16,13 +17,15 @@ inline FigureRun figure_run(const std::string& path, std::uint64_t seed, double 
   FigureRun run{path, RunFile::open(path), {}, {}};
   run.scenario.seed = seed;
   const std::uint64_t thresholds = std::isnan(theta_c) ? 0 : 2;
-  run.analysis =
-      make_analysis({{'T', run.file.frame_count()}, {'N', 1}, {'F', thresholds}, {'X', 2}, {'B', 2}});
-  values<double>(run.analysis, "theta_c")[0] = radians(theta_c);
+  run.analysis = test::blank_analysis(
+      {.frames = run.file.frame_count(), .thresholds = thresholds, .sections = 2, .bins = 2});
+  for (std::size_t k = 0; k < run.file.frame_count(); ++k)
+    run.analysis.frames[k].tilt = run.file.frame_tilts()[k];
+  run.analysis.theta_c = radians(theta_c);
   if (thresholds > 0) {
-    values<double>(run.analysis, "threshold_factor")[0] = 1.0;
-    values<double>(run.analysis, "threshold_factor")[1] = 2.0;
-    values<double>(run.analysis, "gamma_c")[0] = sine(radians(theta_c));
+    run.analysis.thresholds[0].factor = 1.0;
+    run.analysis.thresholds[1].factor = 2.0;
+    run.analysis.gamma_c = sine(radians(theta_c));
   }
   return run;
 }

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "core/trigonometry.h"
-#include "unit/analysis/packings.h"
 
 namespace talus {
 namespace {
@@ -44,17 +43,6 @@ TEST(PanelFrames, TakeTheFramesThatThereAre) {
   for (int k = 0; k <= 40; ++k) tilts.push_back(radians(7.0 + 0.25 * k));
   EXPECT_EQ(chosen(tilts, 16.3), (std::vector<double>{10, 15, 16.25}));
   EXPECT_EQ(chosen({radians(12.0)}, 12.1), (std::vector<double>{12}));
-}
-
-TEST(PanelShades, AreThoseOfTheFreeGrains) {
-  test::Packing packing = test::empty_packing(10.0, true);
-  for (int i = 0; i < 4; ++i) test::add_grain(packing, 1.0 + i, 0.5);
-  test::add_floor_grain(packing, 1.0, -0.5);
-  packing.frame.gamma = {0.04, 0.25, 0.6, std::nan(""), 0.9};
-  EXPECT_EQ(overload_shades(packing.frame, packing.statics, 0.25), (std::vector<double>{0, 1, 1, 0}));
-  EXPECT_EQ(overload_shades(packing.frame, packing.statics, 0.5), (std::vector<double>{0, 0, 1, 0}));
-  EXPECT_EQ(gamma_shades(packing.frame, packing.statics, 0.25),
-            (std::vector<double>{0, (0.25 - 0.05) / (0.5 - 0.05), 1, 0}));
 }
 
 }  // namespace

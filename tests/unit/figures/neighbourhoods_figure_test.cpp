@@ -23,31 +23,30 @@ test::Packing column_of_grains() {
 
 TEST(TypicalGrain, IsNearestToTheMeansAtAllThresholds) {
   const test::Packing packing = column_of_grains();
-  const std::vector<float> lengths = {4, 4, 4, 5, 4.4f, 3, 4, 4, none, none,   // first threshold, mean 4
-                                      2, 2, 4, 2, 2.1f, 2, 2, 2, none, none};  // second, mean 2
-  const std::vector<double> means = {4.0, 2.0};
-  EXPECT_EQ(typical_grain(packing.frame, packing.statics, lengths, means), 4);
-  const std::vector<float> first(lengths.begin(), lengths.begin() + 10);
-  EXPECT_EQ(typical_grain(packing.frame, packing.statics, first, std::vector<double>{4.0}), 2);
+  const FrameThreshold first{.lc = {4, 4, 4, 5, 4.4f, 3, 4, 4, none, none}, .lc_mean = 4.0};
+  const FrameThreshold second{.lc = {2, 2, 4, 2, 2.1f, 2, 2, 2, none, none}, .lc_mean = 2.0};
+  EXPECT_EQ(typical_grain(packing, std::vector{first, second}), 4);
+  EXPECT_EQ(typical_grain(packing, std::vector{first}), 2);
 }
 
 TEST(TypicalGrain, IsOverloadedAndOfEqualOnesTheFirst) {
   const test::Packing packing = column_of_grains();
-  const std::vector<double> means = {4.0};
-  const std::vector<float> lengths = {4, 4, none, 5, 3, none, 4, 4, none, none};
-  EXPECT_EQ(typical_grain(packing.frame, packing.statics, lengths, means), 3);
-  const std::vector<float> nobody = {4, 4, none, none, none, none, 4, 4, none, none};
-  EXPECT_EQ(typical_grain(packing.frame, packing.statics, nobody, means), std::nullopt);
+  const std::vector lengths = {
+      FrameThreshold{.lc = {4, 4, none, 5, 3, none, 4, 4, none, none}, .lc_mean = 4.0}};
+  EXPECT_EQ(typical_grain(packing, lengths), 3);
+  const std::vector nobody = {
+      FrameThreshold{.lc = {4, 4, none, none, none, none, 4, 4, none, none}, .lc_mean = 4.0}};
+  EXPECT_EQ(typical_grain(packing, nobody), std::nullopt);
 }
 
 TEST(TypicalGrain, IsAwayFromWalls) {
   test::Packing packing = column_of_grains();
   packing.frame.x[3] = 9.0;
-  const std::vector<double> means = {4.0};
-  const std::vector<float> lengths = {none, none, none, 4, 5, none, none, none, none, none};
-  EXPECT_EQ(typical_grain(packing.frame, packing.statics, lengths, means), 3) << "periodic";
+  const std::vector lengths = {
+      FrameThreshold{.lc = {none, none, none, 4, 5, none, none, none, none, none}, .lc_mean = 4.0}};
+  EXPECT_EQ(typical_grain(packing, lengths), 3) << "periodic";
   packing.statics.periodic = false;
-  EXPECT_EQ(typical_grain(packing.frame, packing.statics, lengths, means), 4);
+  EXPECT_EQ(typical_grain(packing, lengths), 4);
 }
 
 TEST(GrainsAround, AreSeenFromTheGrainAcrossThePeriodicEdge) {
@@ -59,7 +58,7 @@ TEST(GrainsAround, AreSeenFromTheGrainAcrossThePeriodicEdge) {
   test::add_grain(packing, 15.0, 8.1, 1.0);
   test::add_floor_grain(packing, 19.0, 4.0);
   packing.frame.gamma = {0.1, 0.2, 0.3, 0.4, 0.5};
-  const Table table = grains_around(packing.frame, packing.statics, 0, 5.0);
+  const Table table = grains_around(packing, 0, 5.0);
   EXPECT_EQ(table.columns[0].values, (std::vector<double>{0, 1, -2}));
   EXPECT_EQ(table.columns[1].values, (std::vector<double>{0, 0.5, 1.5}));
   EXPECT_EQ(table.columns[2].values, (std::vector<double>{0.45, 0.55, 0.5}));

@@ -30,6 +30,7 @@ const std::vector<std::string> of_a_run = {
     "src/session/guards",
     "src/session/measure",
     "src/session/perturbation.",
+    "src/session/schedule",
     "src/session/session",
 };
 

@@ -45,8 +45,8 @@ std::vector<TextFile> read_texts(const std::vector<std::string>& folders) {
 
 bool is_source(const TextFile& file) {
   const std::string extension = fs::path(file.path).extension().string();
-  return extension == ".cpp" || extension == ".h" || extension == ".vert" || extension == ".frag" ||
-         extension == ".glsl";
+  return extension == ".cpp" || extension == ".h" || extension == ".inc" || extension == ".vert" ||
+         extension == ".frag" || extension == ".glsl";
 }
 
 bool has_word(std::string_view line, std::string_view word) {

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <sstream>
@@ -11,9 +12,11 @@
 #include "core/errors.h"
 #include "core/hash.h"
 #include "io/durable_file.h"
+#include "io/hdf5_reader.h"
 #include "io/hdf5_writer.h"
 #include "io/packed_file.h"
 #include "io/run_file.h"
+#include "support/blank_analysis.h"
 #include "unit/io/example_analysis.h"
 
 namespace talus {
@@ -21,20 +24,20 @@ namespace {
 
 template <typename T>
 bool same_bits(const std::vector<T>& one, const std::vector<T>& other) {
-  return one.size() == other.size() && std::memcmp(one.data(), other.data(), one.size() * sizeof(T)) == 0;
+  if (one.size() != other.size()) return false;
+  return one.empty() || std::memcmp(one.data(), other.data(), one.size() * sizeof(T)) == 0;
 }
 
 void expect_same(const Analysis& read, const Analysis& written) {
   EXPECT_EQ(read.key, written.key);
   EXPECT_EQ(read.parameters, written.parameters);
-  EXPECT_EQ(read.sizes, written.sizes);
-  ASSERT_EQ(read.data_sets.size(), written.data_sets.size());
-  for (const auto& [name, array] : written.data_sets) {
-    const AnalysisValues& other = find_data_set(read, name);
-    const auto is_same = [&other](const auto& expected) {
-      return same_bits(std::get<std::decay_t<decltype(expected)>>(other), expected);
+  EXPECT_EQ(sizes_of(read), sizes_of(written));
+  for (const Quantity& quantity : quantities()) {
+    const Values other = values_of(quantity, read);
+    const auto is_same = [&other]<typename T>(const std::vector<T>& expected) {
+      return same_bits(std::get<std::vector<T>>(other), expected);
     };
-    EXPECT_TRUE(std::visit(is_same, array)) << name;
+    EXPECT_TRUE(std::visit(is_same, values_of(quantity, written))) << quantity.name;
   }
 }
 
@@ -61,14 +64,15 @@ TEST_F(AnalysisFile, leaves_out_what_needs_a_threshold_where_there_is_none) {
   store_analysis(path_, example::analysis(0, 1), state_);
   const Analysis read = read_analysis(path_).value();
   expect_same(read, example::analysis(0, 1));
-  EXPECT_FALSE(read.data_sets.contains("overloaded/fraction"));
-  EXPECT_TRUE(read.data_sets.contains("packing/stress"));
+  EXPECT_TRUE(read.thresholds.empty());
+  EXPECT_FALSE(is_present(quantity_of(&FrameThreshold::overloaded_fraction), read));
+  EXPECT_TRUE(is_present(quantity_of(&FrameRecord::stress), read));
 }
 
 TEST_F(AnalysisFile, keeps_the_run_to_the_last_bit) {
   store_analysis(path_, example::analysis(2, 1), state_);
   const RunFile run = RunFile::open(path_);
-  const std::vector<std::byte> bare = packed_bytes(run);
+  const std::vector<std::byte> bare = packed_bytes(content_of(run));
   ASSERT_EQ(bare.size(), original_.size());
   EXPECT_EQ(std::memcmp(bare.data(), original_.data(), bare.size()), 0);
 }
@@ -91,7 +95,7 @@ std::vector<std::byte> with_another_version(const std::string& path) {
 }
 
 TEST_F(AnalysisFile, of_another_version_is_none) {
-  write_durably(path_, with_another_version(path_), path_ + ".tmp");
+  write_durably(path_, with_another_version(path_));
   EXPECT_FALSE(read_analysis(path_).has_value());
   store_analysis(path_, example::analysis(2, 1), state_);
   expect_same(read_analysis(path_).value(), example::analysis(2, 1));
@@ -109,7 +113,8 @@ TEST_F(AnalysisFile, of_another_run_is_left_alone) {
 }
 
 TEST_F(AnalysisFile, of_another_number_of_frames_is_refused) {
-  Analysis shorter = make_analysis({{'T', 2}, {'N', example::grain_count}, {'F', 1}, {'X', 5}, {'B', 4}});
+  Analysis shorter = test::blank_analysis(
+      {.frames = 2, .thresholds = 1, .grains = example::grain_count, .sections = 5, .bins = 4});
   shorter.parameters = {{"bins", "4"}};
   store_analysis(path_, shorter, state_);
   try {
@@ -143,15 +148,34 @@ TEST_F(AnalysisFile, tells_other_readers_what_it_holds) {
   EXPECT_EQ(std::system((python + script + path_).c_str()), 0) << "see the message above";
 }
 
-TEST(AnalysisRecord, has_rows_in_the_shape_of_the_table) {
-  Analysis analysis = example::analysis(2, 1);
+TEST(Quantities, have_their_values_in_the_order_of_their_shape) {
+  const Analysis analysis = example::analysis(2, 1);
   const std::size_t grains = example::grain_count;
-  EXPECT_EQ(row<float>(analysis, "lc/length", 1).data(),
-            values<float>(analysis, "lc/length").data() + 2 * grains);
-  EXPECT_EQ(row<float>(analysis, "lc/length", 1).size(), 2 * grains);
-  EXPECT_EQ(row<double>(analysis, "packing/stress", 2).size(), 4u);
-  EXPECT_EQ(row<double>(analysis, "packing/volume", 2).size(), 1u);
-  EXPECT_THROW(find_data_set(analysis, "packing/colour"), Error);
+  const auto lengths = std::get<std::vector<float>>(values_of(quantity_of(&FrameThreshold::lc), analysis));
+  EXPECT_EQ(lengths.size(), 3 * 2 * grains);
+  EXPECT_EQ(lengths[3 * grains + 1], analysis.frames[1].thresholds[1].lc[1]);
+  const Quantity& mean = quantity_of(&FrameThreshold::lc_mean);
+  EXPECT_EQ(number_of(mean, analysis, 3), analysis.frames[1].thresholds[1].lc_mean);
+  EXPECT_EQ(number_of(mean, analysis.frames[1], 1), analysis.frames[1].thresholds[1].lc_mean);
+}
+
+/// The table with a row more: a quantity is known to a file by its row alone.
+std::vector<Quantity> with_made_up_quantity() {
+  std::vector<Quantity> table = quantities();
+  table.push_back({&FrameRecord::volume, "packing/made_up", "T", "m", "made up for this test", "bins"});
+  return table;
+}
+
+TEST_F(AnalysisFile, has_each_quantity_of_its_table) {
+  const std::vector<Quantity> table = with_made_up_quantity();
+  const Analysis written = example::analysis(2, 1);
+  store_analysis(path_, written, state_, table);
+  hdf5::Reader reader = hdf5::Reader::from_file(path_);
+  const auto stored = reader.read<double>(data_set_of(table.back()));
+  EXPECT_TRUE(same_bits(stored, std::get<std::vector<double>>(values_of(table.back(), written))));
+  Analysis read = read_analysis(path_, std::span(&table.back(), 1)).value();
+  EXPECT_EQ(read.frames[1].volume, written.frames[1].volume);
+  EXPECT_TRUE(std::isnan(read.frames[1].stress_ratio)) << "not in that table";
 }
 
 std::string row_text(const DataSetField& field) {
@@ -163,7 +187,7 @@ std::string row_text(const DataSetField& field) {
 
 TEST(AnalysisSchema, is_documented_as_it_is) {
   std::string expected, found;
-  for (const AnalysisField& field : analysis_schema()) expected += row_text(field.data_set);
+  for (const DataSetField& field : analysis_schema()) expected += row_text(field);
   std::istringstream page(example::file_text(std::string(TALUS_SOURCE_DIR) + "/docs/analysis.md"));
   for (std::string line; std::getline(page, line);)
     if (line.starts_with("| `/analysis/")) found += line + "\n";
@@ -172,8 +196,7 @@ TEST(AnalysisSchema, is_documented_as_it_is) {
 
 TEST(AnalysisSchema, every_path_stands_once) {
   std::map<std::string, int> times;
-  for (const AnalysisField& field : analysis_schema())
-    EXPECT_EQ(++times[field.data_set.path], 1) << field.data_set.path;
+  for (const DataSetField& field : analysis_schema()) EXPECT_EQ(++times[field.path], 1) << field.path;
 }
 
 }  // namespace

@@ -46,14 +46,6 @@ Place place_of(const std::string& run, const std::string& path, unsigned row) {
   return place;
 }
 
-herr_t strip_hash(hid_t file, const char* name, const H5O_info_t* info, void*) {
-  if (info->type != H5O_TYPE_DATASET) return 0;
-  const hid_t set = H5Dopen2(file, name, H5P_DEFAULT);
-  if (H5Aexists(set, "hash") > 0) H5Adelete(set, "hash");
-  H5Dclose(set);
-  return 0;
-}
-
 }  // namespace
 
 void spoil_data_set(const std::string& run, const std::string& path, unsigned row) {
@@ -73,26 +65,21 @@ void swap_data_sets(const std::string& run, const std::string& one, const std::s
   H5Fclose(file);
 }
 
-void set_version(const std::string& run, std::int32_t version) {
-  const hid_t file = H5Fopen(run.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
-  const hid_t set = H5Dopen2(file, "/parameters/schema_version", H5P_DEFAULT);
-  EXPECT_GE(H5Dwrite(set, H5T_NATIVE_INT32, H5S_ALL, H5S_ALL, H5P_DEFAULT, &version), 0);
-  H5Dclose(set);
-  H5Fclose(file);
+void seal_again(const std::string& run) {
   const std::string text = file_text(run);
-  if (!text.starts_with("talus run file")) return;
   const auto* bytes = reinterpret_cast<const std::byte*>(text.data());
   std::vector<std::byte> sealed(bytes, bytes + text.size());
   seal(sealed);
   write_text(run, {reinterpret_cast<const char*>(sealed.data()), sealed.size()});
 }
 
-void make_of_version_2(const std::string& run) {
+void set_version(const std::string& run, std::int32_t version) {
   const hid_t file = H5Fopen(run.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
-  H5Ovisit(file, H5_INDEX_NAME, H5_ITER_INC, strip_hash, nullptr);
-  for (const char* path : {"/contents", "/frames/hash"}) H5Ldelete(file, path, H5P_DEFAULT);
+  const hid_t set = H5Dopen2(file, "/parameters/schema_version", H5P_DEFAULT);
+  EXPECT_GE(H5Dwrite(set, H5T_NATIVE_INT32, H5S_ALL, H5S_ALL, H5P_DEFAULT, &version), 0);
+  H5Dclose(set);
   H5Fclose(file);
-  set_version(run, 2);
+  if (file_text(run).starts_with("talus run file")) seal_again(run);
 }
 
 }  // namespace talus::example

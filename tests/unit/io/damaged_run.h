@@ -9,13 +9,13 @@ namespace talus::example {
 /// Fills the first stored bytes of a data set with 0x55: of all of it, or of the chunk that begins at a row.
 void spoil_data_set(const std::string& run, const std::string& path, unsigned row = 0);
 
+/// Puts the seal of a file right.
+void seal_again(const std::string& run);
+
 /// Puts another schema version into a file, and its seal right where it has one.
 void set_version(const std::string& run, std::int32_t version);
 
 /// Lets each of two names lead to the data set of the other.
 void swap_data_sets(const std::string& run, const std::string& one, const std::string& other);
-
-/// Makes of a file of today one of schema version 2, without hashes, with its seal right.
-void make_of_version_2(const std::string& run);
 
 }  // namespace talus::example

@@ -1,13 +1,15 @@
 #include "unit/io/example_analysis.h"
 
 #include "core/hash.h"
+#include "support/blank_analysis.h"
 
 namespace talus::example {
 
 std::string analysed_state() { return hash_text(state_hash(checkpoint(analysis_commits - 1).world)); }
 
 Analysis analysis(std::uint64_t thresholds, int serial) {
-  Analysis analysis = make_analysis({{'T', 3}, {'N', grain_count}, {'F', thresholds}, {'X', 5}, {'B', 4}});
+  Analysis analysis = test::blank_analysis(
+      {.frames = 3, .thresholds = thresholds, .grains = grain_count, .sections = 5, .bins = 4});
   analysis.key = hash_text(static_cast<std::uint64_t>(serial));
   analysis.parameters = {{"threshold_factors", "1,2"},
                          {"gamma_c", "run"},
@@ -15,14 +17,17 @@ Analysis analysis(std::uint64_t thresholds, int serial) {
                          {"averaging", "0"},
                          {"bins", "4"}};
   int next = 1000 * serial;
-  for (auto& [name, array] : analysis.data_sets)
+  for (const Quantity& quantity : quantities()) {
+    if (!is_present(quantity, analysis)) continue;
+    Values values = values_of(quantity, analysis);
     std::visit(
-        [&](auto& numbers) {
+        [&]<typename T>(std::vector<T>& numbers) {
           // The first element keeps what it was made with: NaN, of a number that may be none.
-          for (std::size_t i = 1; i < numbers.size(); ++i)
-            numbers[i] = static_cast<std::decay_t<decltype(numbers[i])>>(next++);
+          for (std::size_t i = 1; i < numbers.size(); ++i) numbers[i] = static_cast<T>(next++);
         },
-        array);
+        values);
+    set_values(quantity, values, analysis);
+  }
   return analysis;
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 /// An analysis with a value of its own in every element, for the example run.
 
-#include "io/analysis_record.h"
+#include "analysis/record.h"
 #include "unit/io/example_run.h"
 
 namespace talus::example {

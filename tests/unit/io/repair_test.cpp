@@ -7,6 +7,7 @@
 
 #include "core/errors.h"
 #include "io/manifest.h"
+#include "io/run_file.h"
 #include "io/run_repair.h"
 #include "unit/io/damaged_run.h"
 #include "unit/io/example_run.h"
@@ -56,7 +57,7 @@ class RepairFile : public testing::Test {
     fs::copy_file(good_, bad_);
   }
 
-  RepairReport repair() { return repair_run({bad_, out_, false, {}}); }
+  RepairReport repair() { return repair_run({bad_, out_, false}); }
 
   example::TemporaryFolder folder_;
   std::string good_ = folder_.path("good.h5"), bad_ = folder_.path("bad.h5"), out_ = folder_.path("out.h5");
@@ -73,7 +74,6 @@ TEST_F(RepairFile, keeps_all_frames_but_the_damaged_one) {
   const std::string before = example::file_text(bad_);
   const RepairReport report = repair();
   EXPECT_EQ(example::file_text(bad_), before);
-  EXPECT_TRUE(report.verified);
   EXPECT_TRUE(mention(report.kept, "2 of 3 frames"));
   EXPECT_TRUE(mention(report.lost, "frame 1, at 1.500 deg"));
   const RunFile good = RunFile::open(good_), run = RunFile::open(out_);
@@ -96,31 +96,61 @@ TEST_F(RepairFile, sees_a_value_that_is_another_and_could_be) {
   EXPECT_EQ(RunFile::open(out_).all_frame_tilts().size(), 2U);
 }
 
-TEST_F(RepairFile, keeps_the_other_columns_of_a_table) {
-  example::spoil_data_set(bad_, "/steps/residual");
-  EXPECT_TRUE(mention(repair().lost, "/steps/residual: "));
+TEST_F(RepairFile, leaves_out_a_table_of_which_a_column_is_damaged) {
+  for (const char* column : {"/steps/residual", "/steps/step"}) {
+    fs::copy_file(good_, bad_, fs::copy_options::overwrite_existing);
+    example::spoil_data_set(bad_, column);
+    const RepairReport report = repair_run({bad_, out_, true});
+    EXPECT_TRUE(mention(report.kept, "0 steps"));
+    EXPECT_TRUE(mention(report.lost,
+                        std::string(column) + ": is not as it was written, so all of /steps is left out"));
+    const RunFile good = RunFile::open(good_), run = RunFile::open(out_);
+    EXPECT_TRUE(run.steps().empty());
+    EXPECT_EQ(run.all_observables(), good.all_observables());
+    EXPECT_EQ(run.all_frame_tilts(), good.all_frame_tilts());
+  }
+}
+
+TEST_F(RepairFile, leaves_out_a_fact_of_the_provenance_alone) {
+  example::spoil_data_set(bad_, "/provenance/author");
+  const RepairReport report = repair();
+  EXPECT_EQ(report.lost, std::vector<std::string>{"/provenance/author: is not as it was written"});
+  const RunFile run = RunFile::open(out_);
+  EXPECT_FALSE(find_value(run.header().provenance, "author"));
+  EXPECT_EQ(find_value(run.header().provenance, "version"), "0.1.0");
+}
+
+TEST_F(RepairFile, sees_what_was_changed_before_the_file_was_sealed_again) {
+  for (const char* data_set :
+       {"/provenance/author", "/results/theta_c", "/checkpoint/vx", "/frames/time", "/contents"}) {
+    fs::copy_file(good_, bad_, fs::copy_options::overwrite_existing);
+    example::spoil_data_set(bad_, data_set);
+    example::seal_again(bad_);
+    EXPECT_FALSE(repair_run({bad_, out_, true}).was_whole) << data_set;
+    EXPECT_TRUE(damaged_pieces(out_).empty()) << data_set;
+  }
+}
+
+TEST_F(RepairFile, without_its_contents_keeps_frames_and_series) {
+  example::spoil_data_set(bad_, "/contents");
+  EXPECT_TRUE(mention(repair().lost, "/contents: is not as it was written"));
   const RunFile good = RunFile::open(good_), run = RunFile::open(out_);
-  ASSERT_EQ(run.steps().size(), good.steps().size());
-  EXPECT_TRUE(std::isnan(at(run.steps()[3], StepField::residual)));
-  EXPECT_EQ(at(run.steps()[3], StepField::contacts), at(good.steps()[3], StepField::contacts));
+  EXPECT_EQ(run.all_frame_tilts(), good.all_frame_tilts());
+  EXPECT_EQ(run.steps(), good.steps());
+  EXPECT_FALSE(run.has_state());
 }
 
 TEST_F(RepairFile, sees_two_data_sets_that_have_changed_places) {
   example::swap_data_sets(bad_, "/checkpoint/vx", "/checkpoint/vy");
   const RepairReport report = repair();
-  EXPECT_TRUE(mention(report.lost, "/checkpoint: /checkpoint/vx is not as it was written"));
-}
-
-TEST_F(RepairFile, leaves_out_a_table_without_its_steps) {
-  example::spoil_data_set(bad_, "/observables/step");
-  EXPECT_TRUE(mention(repair().lost, "/observables: "));
-  EXPECT_TRUE(RunFile::open(out_).all_observables().empty());
-  EXPECT_EQ(RunFile::open(out_).steps().size(), 10U);
+  EXPECT_TRUE(
+      mention(report.lost, "/checkpoint/vx: is not as it was written, so all of /checkpoint is left out"));
+  EXPECT_TRUE(mention(report.lost, "/checkpoint/vy: "));
 }
 
 TEST_F(RepairFile, keeps_the_rest_without_the_last_state) {
   example::spoil_data_set(bad_, "/checkpoint/vx");
-  EXPECT_TRUE(mention(repair().lost, "/checkpoint: /checkpoint/vx is not as it was written"));
+  EXPECT_TRUE(mention(repair().lost, "/checkpoint/vx: is not as it was written"));
   const RunFile run = RunFile::open(out_);
   EXPECT_FALSE(run.has_state());
   EXPECT_EQ(run.all_frame_tilts().size(), 3U);
@@ -131,8 +161,9 @@ TEST_F(RepairFile, keeps_the_rest_without_the_last_state) {
 TEST_F(RepairFile, keeps_nothing_without_the_statics) {
   example::spoil_data_set(bad_, "/particles/grains/radius");
   std::string message;
-  EXPECT_EQ(code_of({bad_, out_, false, {}}, &message), ExitCode::bad_data);
-  EXPECT_NE(message.find("nothing can be kept: data set /particles/grains/radius is lost"), std::string::npos)
+  EXPECT_EQ(code_of({bad_, out_, false}, &message), ExitCode::bad_data);
+  EXPECT_NE(message.find("nothing can be saved: /particles/grains/radius: is not as it was written"),
+            std::string::npos)
       << message;
   EXPECT_FALSE(fs::exists(out_));
 }
@@ -144,47 +175,29 @@ TEST_F(RepairFile, reads_past_a_cut_and_a_lost_seal) {
   EXPECT_EQ(RunFile::open(out_).all_frame_tilts().size(), 3U);
   std::fill_n(text.begin(), 512, '\0');
   example::write_text(bad_, text);
-  EXPECT_TRUE(repair_run({bad_, out_, true, {}}).lost.empty());
+  EXPECT_TRUE(repair_run({bad_, out_, true}).lost.empty());
   EXPECT_EQ(RunFile::open(out_).lost(), "");
 }
 
-TEST_F(RepairFile, of_before_there_were_hashes_is_said_to_be_unverified) {
-  example::make_of_version_2(bad_);
-  EXPECT_EQ(RunFile::open(bad_).all_frame_tilts().size(), 3U);
-  EXPECT_TRUE(damaged_pieces(bad_).empty());
+TEST_F(RepairFile, of_another_version_is_refused) {
   std::string text = example::file_text(bad_);
   text[100] = 'x';  // the seal
   example::write_text(bad_, text);
-  example::spoil_data_set(bad_, "/particles/grains/gamma/value", 0);
-  const RepairReport report = repair_run({bad_, out_, false, [](const RunFile& run) {
-                                            EXPECT_EQ(run.all_frame_tilts().size(), 2U);
-                                            return std::vector<std::size_t>{1};
-                                          }});
-  EXPECT_FALSE(report.verified);
-  EXPECT_TRUE(mention(report.lost, "frame 0, at 0.750 deg"));
-  EXPECT_TRUE(mention(report.lost, "frame 2, at 1.750 deg"));
-  const RunFile good = RunFile::open(good_), run = RunFile::open(out_);
-  ASSERT_EQ(run.all_frame_tilts().size(), 1U);
-  EXPECT_TRUE(same(run.frame(0), good.frame(1)));
-}
-
-TEST_F(RepairFile, of_a_version_that_is_not_known_is_refused) {
-  example::make_of_version_2(bad_);
-  example::set_version(bad_, 9);
+  EXPECT_TRUE(damaged_pieces(bad_).empty());
+  example::set_version(bad_, 3);
   std::string message;
-  EXPECT_EQ(code_of({bad_, out_, false, {}}, &message), ExitCode::bad_data);
-  EXPECT_NE(message.find("schema_version is 9, this Talus reads versions 1 to 3"), std::string::npos)
-      << message;
+  EXPECT_EQ(code_of({bad_, out_, false}, &message), ExitCode::bad_data);
+  EXPECT_NE(message.find("schema_version is 3, expected 4"), std::string::npos) << message;
 }
 
 TEST_F(RepairFile, replaces_nothing_unasked) {
   example::spoil_data_set(bad_, "/steps/residual");
   example::write_text(out_, "mine");
-  EXPECT_EQ(code_of({bad_, out_, false, {}}), ExitCode::cannot_create);
+  EXPECT_EQ(code_of({bad_, out_, false}), ExitCode::cannot_create);
   EXPECT_EQ(example::file_text(out_), "mine");
-  EXPECT_EQ(code_of({bad_, out_, true, {}}), ExitCode::done);
-  EXPECT_EQ(code_of({bad_, bad_, true, {}}), ExitCode::usage);
-  EXPECT_EQ(code_of({folder_.path("none.h5"), out_, true, {}}), ExitCode::missing_input);
+  EXPECT_EQ(code_of({bad_, out_, true}), ExitCode::done);
+  EXPECT_EQ(code_of({bad_, bad_, true}), ExitCode::usage);
+  EXPECT_EQ(code_of({folder_.path("none.h5"), out_, true}), ExitCode::missing_input);
 }
 
 /// A run of four commits of 5 steps each, still in its folder.
@@ -211,63 +224,55 @@ class RepairFolder : public testing::Test {
     const std::string text = example::file_text(file(name));
     example::write_text(file(name), text.substr(0, text.size() / 4));
   }
-  RepairReport repair() { return repair_run({run_, out_, false, {}}); }
-  void expect_goes_on_after(int commits) {
-    RunHeader header;
-    Checkpoint state;
-    const RunStore store = RunStore::resume(out_, header, state);
-    EXPECT_EQ(state_hash(state.world), state_hash(checkpoint(commits - 1).world));
-    EXPECT_EQ(state.integers, checkpoint(commits - 1).integers);
+  RepairReport repair() { return repair_run({run_, out_, false}); }
+  /// The frames of these commits, and nothing else.
+  void expect_frames_of(const std::vector<int>& commits) {
     const RunFile run = RunFile::open(out_);
-    EXPECT_EQ(run.steps().size(), 5U * static_cast<std::size_t>(commits));
+    EXPECT_TRUE(run.complete());
     std::size_t number = 0;
-    for (int k = 0; k < commits; ++k)
-      for (const Frame& frame : segment(k).frames) EXPECT_TRUE(same(run.frame(number++), as_stored(frame)));
+    for (const int k : commits)
+      for (const Frame& frame : segment(k).frames) {
+        ASSERT_LT(number, run.all_frame_tilts().size());
+        EXPECT_TRUE(same(run.frame(number++), as_stored(frame)));
+      }
     EXPECT_EQ(run.all_frame_tilts().size(), number);
-    EXPECT_EQ(run.lost(), "");
+    EXPECT_EQ(run.steps().size(), 5U * commits.size());
   }
 
   example::TemporaryFolder folder_;
   std::string run_ = folder_.path("run.h5"), out_ = folder_.path("out.h5");
 };
 
-TEST_F(RepairFolder, keeps_the_checkpoint_of_the_commit_before) {
-  EXPECT_TRUE(repair().was_whole);
-  EXPECT_TRUE(fs::exists(file("checkpoint_000003.h5")));
-  EXPECT_FALSE(fs::exists(file("checkpoint_000002.h5")));
-  break_file("checkpoint_000003.h5");
-  EXPECT_TRUE(repair().was_whole);  // it is no part of the run
-}
-
-TEST_F(RepairFolder, goes_on_from_the_commit_before_a_broken_state) {
-  break_file("checkpoint_000004.h5");
+TEST_F(RepairFolder, that_is_whole_is_left_alone) {
   const RepairReport report = repair();
-  EXPECT_TRUE(report.goes_on);
-  EXPECT_TRUE(mention(report.lost, "checkpoint_000004.h5"));
-  expect_goes_on_after(3);
+  EXPECT_TRUE(report.was_whole && report.of_folder);
+  EXPECT_FALSE(fs::exists(out_));
 }
 
-TEST_F(RepairFolder, goes_on_from_the_commit_before_a_broken_segment) {
-  fs::remove(file("segment_000004.h5"));
-  EXPECT_TRUE(repair().goes_on);
-  expect_goes_on_after(3);
+TEST_F(RepairFolder, keeps_the_frames_without_the_last_state) {
+  break_file("checkpoint_000004.h5");
+  EXPECT_TRUE(mention(repair().lost, "checkpoint_000004.h5: "));
+  expect_frames_of({0, 1, 2, 3});
+  EXPECT_FALSE(RunFile::open(out_).has_state());
 }
 
-TEST_F(RepairFolder, makes_the_manifest_again) {
+TEST_F(RepairFolder, needs_no_manifest) {
   for (const char* text : {"", "talus run folder 1\nheader"}) {
     example::write_text(file(Manifest::file_name), text);
-    EXPECT_TRUE(repair_run({run_, out_, true, {}}).goes_on);
-    expect_goes_on_after(4);
+    EXPECT_EQ(repair_run({run_, out_, true}).lost,
+              std::vector<std::string>{"manifest: is not as it was written"});
+    expect_frames_of({0, 1, 2, 3});
+    EXPECT_EQ(state_hash(RunFile::open(out_).checkpoint().world), state_hash(checkpoint(3).world));
   }
   fs::remove(file(Manifest::file_name));
-  EXPECT_TRUE(repair_run({run_, out_, true, {}}).goes_on);
-  expect_goes_on_after(4);
+  repair_run({run_, out_, true});
+  expect_frames_of({0, 1, 2, 3});
 }
 
-TEST_F(RepairFolder, goes_on_over_no_gap_that_no_manifest_tells_of) {
-  fs::remove(file(Manifest::file_name));
-  fs::remove(file("segment_000002.h5"));
-  EXPECT_FALSE(repair().goes_on);
+TEST_F(RepairFolder, keeps_the_frames_beside_a_missing_segment) {
+  fs::remove(file("segment_000003.h5"));
+  EXPECT_TRUE(mention(repair().lost, "segment_000003.h5: is missing"));
+  expect_frames_of({0, 1, 3});
 }
 
 TEST_F(RepairFolder, waits_for_the_process_that_writes_it) {
@@ -275,30 +280,26 @@ TEST_F(RepairFolder, waits_for_the_process_that_writes_it) {
   Checkpoint state;
   const RunStore store = RunStore::resume(run_, header, state);
   break_file("checkpoint_000004.h5");
-  EXPECT_EQ(code_of({run_, out_, false, {}}), ExitCode::cannot_create);
+  EXPECT_EQ(code_of({run_, out_, false}), ExitCode::cannot_create);
 }
 
-TEST_F(RepairFolder, of_a_run_with_a_gap_is_packed) {
+TEST_F(RepairFolder, keeps_the_frames_beside_a_broken_segment) {
   break_file("segment_000002.h5");
-  const RepairReport report = repair();
-  EXPECT_FALSE(report.goes_on);
-  const RunFile run = RunFile::open(out_);
-  EXPECT_TRUE(run.complete());
-  EXPECT_EQ(run.steps().size(), 15U);
-  ASSERT_EQ(run.all_frame_tilts().size(), 2U);  // of commit 2, counted from 0
-  EXPECT_TRUE(same(run.frame(0), as_stored(segment(2).frames[0])));
-  EXPECT_NE(run.lost().find("segment_000002.h5"), std::string::npos) << run.lost();
+  repair();
+  expect_frames_of({0, 2, 3});
+  const std::string lost = RunFile::open(out_).lost();
+  EXPECT_NE(lost.find("segment_000002.h5"), std::string::npos) << lost;
 }
 
-TEST_F(RepairFolder, goes_on_over_no_damaged_frame) {
+TEST_F(RepairFolder, keeps_the_frames_beside_a_damaged_one) {
   example::spoil_data_set(file("segment_000003.h5"), "/particles/grains/angle/value", 1);
-  EXPECT_FALSE(repair().goes_on);
+  EXPECT_TRUE(mention(repair().lost, "segment_000003.h5: frame 1, at 1.750 deg"));
   EXPECT_EQ(RunFile::open(out_).all_frame_tilts().size(), 2U);  // of commits 1 and 2
 }
 
 TEST_F(RepairFolder, without_its_header_is_refused) {
   break_file("header.h5");
-  EXPECT_EQ(code_of({run_, out_, false, {}}), ExitCode::bad_data);
+  EXPECT_EQ(code_of({run_, out_, false}), ExitCode::bad_data);
   EXPECT_FALSE(fs::exists(out_) || fs::exists(run_folder(out_)));
 }
 

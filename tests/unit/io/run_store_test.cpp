@@ -94,13 +94,15 @@ TEST(RunStore, overwrite_replaces_a_run_but_never_a_folder_or_a_foreign_file_in_
   const example::TemporaryFolder folder;
   const std::string path = folder.path("run.h5");
   example::store_with_commits(path, 2).pack();
+  const std::string before = example::file_text(path);
   fs::create_directory(run_folder(path));
   example::write_text(run_folder(path) + "/notes.txt", "mine");
   {
     RunStore store = RunStore::create(path, example::header(), true);
-    EXPECT_EQ(run_presence(path), RunPresence::none);
+    EXPECT_EQ(run_presence(path), RunPresence::packed) << "the old one, until the new one has begun";
     store.commit(example::segment(1), example::checkpoint(1));
     EXPECT_EQ(run_presence(path), RunPresence::folder);
+    EXPECT_TRUE(example::file_text(path) == before) << "it stays until the new one is whole";
     store.pack();
   }
   EXPECT_EQ(RunFile::open(path).frame_count(), 1u);
@@ -109,6 +111,18 @@ TEST(RunStore, overwrite_replaces_a_run_but_never_a_folder_or_a_foreign_file_in_
   fs::create_directory(folder.path("folder.h5"));
   EXPECT_EQ(error_of([&] { RunStore::create(folder.path("folder.h5"), example::header(), true); }).code(),
             ExitCode::cannot_create);
+}
+
+TEST(RunStore, a_run_that_has_not_ended_stays_until_the_one_that_replaces_it_begins) {
+  const example::TemporaryFolder folder;
+  const std::string path = folder.path("run.h5");
+  { const RunStore old = example::store_with_commits(path, 2); }
+  const std::size_t frames = RunFile::open(path).frame_count();
+  RunStore store = RunStore::create(path, example::header(), true);
+  EXPECT_EQ(RunFile::open(path).frame_count(), frames);
+  store.commit(example::segment(1), example::checkpoint(1));
+  EXPECT_EQ(RunFile::open(path).frame_count(), 1u);
+  EXPECT_EQ(names_in(run_folder(path)).size(), 5u) << "header, lock, manifest, segment, checkpoint";
 }
 
 TEST(RunStore, what_was_never_committed_does_not_exist) {
@@ -130,14 +144,14 @@ TEST(RunStore, resume_clears_leftovers_away_and_keeps_what_is_committed) {
   { const RunStore store = example::store_with_commits(path, 2); }
   const std::vector<std::string> before = names_in(run_folder(path));
   for (const char* name :
-       {"segment_000003.h5", "checkpoint_000003.h5", "manifest.tmp", "segment_000004.h5.tmp"})
+       {"segment_000003.h5", "checkpoint_000003.h5", "manifest.talus.part", "segment_000004.h5.talus.part"})
     example::write_text(run_folder(path) + "/" + name, "half");
   RunHeader header;
   Checkpoint checkpoint;
   const RunStore resumed = RunStore::resume(path, header, checkpoint);
   EXPECT_EQ(names_in(run_folder(path)), before);
-  EXPECT_EQ(before, (std::vector<std::string>{"checkpoint_000001.h5", "checkpoint_000002.h5", "header.h5",
-                                              "lock", "manifest", "segment_000001.h5", "segment_000002.h5"}));
+  EXPECT_EQ(before, (std::vector<std::string>{"checkpoint_000002.h5", "header.h5", "lock", "manifest",
+                                              "segment_000001.h5", "segment_000002.h5"}));
 }
 
 TEST(RunStore, a_missing_parent_folder_is_named) {

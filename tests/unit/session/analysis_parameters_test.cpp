@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
-
 #include "core/errors.h"
+#include "scenario/text.h"
+#include "support/key_rows.h"
 
 namespace talus {
 namespace {
@@ -49,7 +49,9 @@ TEST(AnalysisParameters, are_taken_from_settings) {
 
 TEST(AnalysisParameters, admit_their_defaults_as_text) {
   EXPECT_EQ(as_facts(from_facts(as_facts(AnalysisParameters{}))), as_facts(AnalysisParameters{}));
-  EXPECT_FALSE(parse_analysis_settings({"gamma_c=0.3", "gamma_c=run"}).gamma_c.has_value());
+  EXPECT_FALSE(parse_analysis_settings({"gamma_c=run"}).gamma_c.has_value());
+  EXPECT_EQ(parse_analysis_settings({"threshold_factors=[1, 2.5]"}).threshold_factors,
+            (std::vector{1.0, 2.5}));
 }
 
 TEST(AnalysisParameters, out_of_range_are_refused) {
@@ -83,22 +85,35 @@ TEST(AnalysisParameters, out_of_range_are_refused) {
 
 TEST(AnalysisParameters, are_refused_all_at_once_and_say_what_was_expected) {
   EXPECT_EQ(
-      refusal({"lc_cut=-3", "colour=red", "bins"}),
-      "--set lc_cut=-3: error: key 'lc_cut' = -3: expected a number in (0, 10000], or depth, in D\n"
+      refusal({"lc_cut=-3", "colour=red", "bins", "gamma_c=0.3", "gamma_c=run"}),
+      "--set lc_cut=-3: error: key 'lc_cut' = -3: expected a number in (0, 10000] or \"depth\", in D\n"
       "--set colour=red: error: unknown key 'colour'; expected one of threshold_factors, gamma_c, l_min, "
       "lc_factor, lc_cut, joining, averaging, min_contacts, sections, bins\n"
-      "--set bins: error: expected key=value, such as --set lc_cut=30");
+      "--set bins: error: key 'bins' has no value: expected key=value, such as --set lc_cut=30\n"
+      "--set gamma_c=run: error: key 'gamma_c' is set twice on the command line; expected it once");
+  EXPECT_EQ(refusal({"threshold_factors=2,1"}),
+            "--set threshold_factors=2,1: error: key 'threshold_factors': expected 1 ... 4 ascending numbers "
+            "in (0, 10], with commas between, in Gamma_c");
+  EXPECT_EQ(refusal({"sections=2.5"}),
+            "--set sections=2.5: error: key 'sections' = 2.5: expected an integer in 1 ... 1000, found a "
+            "float");
+}
+
+TEST(AnalysisParameters, that_are_mistyped_are_recognised) {
+  const std::pair<std::string, std::string> slips[] = {{"gama_c=0.3", "gamma_c"},
+                                                       {"overload.thresold=1", "threshold_factors"},
+                                                       {"overload.lc_cut=1", "lc_cut"},
+                                                       {"contacts=3", "min_contacts"}};
+  for (const auto& [setting, meant] : slips)
+    EXPECT_NE(refusal({setting}).find("; did you mean '" + meant + "'?"), std::string::npos)
+        << refusal({setting});
 }
 
 TEST(AnalysisParameters, are_documented_as_they_are) {
-  std::string expected, found;
+  std::string expected;
   for (const AnalysisKey& key : analysis_keys())
-    expected += "| `" + key.name + "` | " + (key.unit.empty() ? "-" : key.unit) + " | `" +
-                key.get(AnalysisParameters{}) + "` | " + key.range + " | " + key.help + " |\n";
-  std::ifstream page(std::string(TALUS_SOURCE_DIR) + "/docs/analysis.md");
-  for (std::string line; std::getline(page, line);)
-    if (line.starts_with("| `") && !line.starts_with("| `/")) found += line + "\n";
-  EXPECT_EQ(found, expected) << "the table of docs/analysis.md must be:\n" << expected;
+    expected += row_text(key, plain_text(key.get(AnalysisParameters{})));
+  EXPECT_EQ(rows_of("docs/analysis.md"), expected) << "the table of docs/analysis.md must be:\n" << expected;
 }
 
 }  // namespace

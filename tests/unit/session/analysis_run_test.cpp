@@ -4,12 +4,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
 
+#include "analysis/quantities.h"
 #include "core/errors.h"
 #include "core/trigonometry.h"
+#include "session/analysis_parameters.h"
 #include "support/temporary_folder.h"
 
 namespace talus {
@@ -89,7 +92,8 @@ class AnalysisRun : public testing::Test {
   Analysis analyse(const std::vector<Index>& soft, double theta_c, std::vector<std::string> settings = {},
                    int threads = 1) const {
     write_run(path_, soft, theta_c);
-    settings.insert(settings.begin(), "l_min=0");
+    if (std::ranges::none_of(settings, [](const auto& setting) { return setting.starts_with("l_min="); }))
+      settings.emplace_back("l_min=0");
     return analyse_run(RunFile::open(path_), parse_analysis_settings(settings), threads, {});
   }
 
@@ -97,70 +101,70 @@ class AnalysisRun : public testing::Test {
   std::string path_ = folder_.path("run.h5");
 };
 
-double number(const Analysis& analysis, const char* name, std::size_t k, std::size_t f = 0) {
-  return row<double>(analysis, name, k)[f];
-}
-Index integer(const Analysis& analysis, const char* name, std::size_t k, std::size_t f = 0) {
-  return row<Index>(analysis, name, k)[f];
+double number(const Analysis& analysis, const QuantityMember& member, std::size_t k, std::size_t f = 0) {
+  return number_of(quantity_of(member), analysis.frames.at(k), f);
 }
 
 TEST_F(AnalysisRun, counts_overloaded_grains_at_each_threshold) {
   const Analysis a = analyse({-1, 1}, 30.0, {"threshold_factors=0.5,1"});
-  EXPECT_NEAR(values<double>(a, "gamma_c")[0], 0.5, 1e-12);
-  EXPECT_EQ(number(a, "overloaded/fraction", 0, 0), 1.0);
-  EXPECT_EQ(number(a, "overloaded/fraction", 1, 0), 1.0) << "1/3 >= 0.25";
-  EXPECT_EQ(number(a, "overloaded/fraction", 1, 1), 0.75) << "1/3 < 0.5";
+  EXPECT_NEAR(a.gamma_c, 0.5, 1e-12);
+  EXPECT_EQ(number(a, &FrameThreshold::overloaded_fraction, 0, 0), 1.0);
+  EXPECT_EQ(number(a, &FrameThreshold::overloaded_fraction, 1, 0), 1.0) << "1/3 >= 0.25";
+  EXPECT_EQ(number(a, &FrameThreshold::overloaded_fraction, 1, 1), 0.75) << "1/3 < 0.5";
 }
 
 TEST_F(AnalysisRun, averages_moments_over_the_frames_around) {
   // Grain 1 has M_xx = 0.5 in the frame at 1 deg alone: 1/4 as a mean of two frames, 1/6 as one of three.
   const Analysis a = analyse({-1, 1, -1, -1}, 30.0, {"threshold_factors=1,1.3", "averaging=2"});
-  EXPECT_EQ(number(a, "overloaded/fraction", 0, 0), 1.0) << "0.6 >= 0.5";
-  EXPECT_EQ(number(a, "overloaded/fraction", 0, 1), 0.75) << "0.6 < 0.65";
-  EXPECT_EQ(number(a, "overloaded/fraction", 1, 1), 1.0) << "5/7 >= 0.65";
-  EXPECT_EQ(number(a, "overloaded/fraction", 3, 0), 1.0);
-  EXPECT_NEAR(number(a, "gamma/mean", 1), (3.0 + 5.0 / 7.0) / 4.0, 1e-12);
-  EXPECT_NEAR(number(a, "gamma/mean", 3), 1.0, 1e-12) << "1 deg is farther than half of the window";
-  EXPECT_EQ(number(analyse({-1, 1, -1}, 30.0, {"averaging=1.9"}), "overloaded/fraction", 1), 0.75)
+  EXPECT_EQ(number(a, &FrameThreshold::overloaded_fraction, 0, 0), 1.0) << "0.6 >= 0.5";
+  EXPECT_EQ(number(a, &FrameThreshold::overloaded_fraction, 0, 1), 0.75) << "0.6 < 0.65";
+  EXPECT_EQ(number(a, &FrameThreshold::overloaded_fraction, 1, 1), 1.0) << "5/7 >= 0.65";
+  EXPECT_EQ(number(a, &FrameThreshold::overloaded_fraction, 3, 0), 1.0);
+  EXPECT_NEAR(number(a, &FrameRecord::gamma_mean, 1), (3.0 + 5.0 / 7.0) / 4.0, 1e-12);
+  EXPECT_NEAR(number(a, &FrameRecord::gamma_mean, 3), 1.0, 1e-12)
+      << "1 deg is farther than half of the window";
+  EXPECT_EQ(number(analyse({-1, 1, -1}, 30.0, {"averaging=1.9"}), &FrameThreshold::overloaded_fraction, 1),
+            0.75)
       << "a window that reaches no other frame";
 }
 
 TEST_F(AnalysisRun, leaves_grains_with_few_contacts_out) {
   // The highest grain has one contact, the others two.
   const Analysis a = analyse({-1, 1}, 30.0, {"min_contacts=2"});
-  EXPECT_EQ(number(a, "overloaded/fraction", 0), 1.0);
-  EXPECT_EQ(number(a, "overloaded/fraction_of_all", 0), 0.75);
-  EXPECT_EQ(number(a, "overloaded/fraction", 1), 2.0 / 3.0);
-  EXPECT_EQ(integer(a, "clusters/largest", 0), 3);
-  EXPECT_EQ(integer(a, "clusters/spans_depth", 0), 0) << "the highest grain is the surface";
-  EXPECT_EQ(number(a, "packing/stress_ratio", 0), 1.0) << "its moment counts";
-  EXPECT_EQ(number(analyse({-1, 1}, 30.0, {"min_contacts=3"}), "overloaded/fraction_of_all", 0), 0.0);
+  EXPECT_EQ(number(a, &FrameThreshold::overloaded_fraction, 0), 1.0);
+  EXPECT_EQ(number(a, &FrameThreshold::overloaded_fraction_of_all, 0), 0.75);
+  EXPECT_EQ(number(a, &FrameThreshold::overloaded_fraction, 1), 2.0 / 3.0);
+  EXPECT_EQ(number(a, &FrameThreshold::largest_cluster, 0), 3);
+  EXPECT_EQ(number(a, &FrameThreshold::spans_depth, 0), 0) << "the highest grain is the surface";
+  EXPECT_EQ(number(a, &FrameRecord::stress_ratio, 0), 1.0) << "its moment counts";
+  EXPECT_EQ(
+      number(analyse({-1, 1}, 30.0, {"min_contacts=3"}), &FrameThreshold::overloaded_fraction_of_all, 0),
+      0.0);
 }
 
 TEST_F(AnalysisRun, finds_clusters_and_labels_grains) {
   const Analysis a = analyse({-1, 1}, 30.0);
-  EXPECT_EQ(integer(a, "clusters/spans_depth", 0), 1);
-  EXPECT_EQ(integer(a, "clusters/spans_depth", 1), 0);
-  EXPECT_EQ(integer(a, "clusters/spans_length", 0), 0);
-  EXPECT_EQ(integer(a, "clusters/largest", 0), 4);
-  EXPECT_EQ(integer(a, "clusters/count", 1), 2);
-  EXPECT_DOUBLE_EQ(number(a, "clusters/mean", 1), 1.5);
-  EXPECT_DOUBLE_EQ(number(a, "clusters/second_moment", 1), 5.0 / 3.0);
-  const auto labels = row<Index>(a, "clusters/label", 1).subspan(0, free_grains + 1);
-  EXPECT_EQ(std::vector<Index>(labels.begin(), labels.end()), (std::vector<Index>{1, -1, 0, 0, -1}));
+  EXPECT_EQ(number(a, &FrameThreshold::spans_depth, 0), 1);
+  EXPECT_EQ(number(a, &FrameThreshold::spans_depth, 1), 0);
+  EXPECT_EQ(number(a, &FrameThreshold::spans_length, 0), 0);
+  EXPECT_EQ(number(a, &FrameThreshold::largest_cluster, 0), 4);
+  EXPECT_EQ(number(a, &FrameThreshold::cluster_count, 1), 2);
+  EXPECT_DOUBLE_EQ(number(a, &FrameThreshold::mean_cluster, 1), 1.5);
+  EXPECT_DOUBLE_EQ(number(a, &FrameThreshold::second_moment, 1), 5.0 / 3.0);
+  EXPECT_EQ(a.frames[1].thresholds[0].cluster, (std::vector<Index>{1, -1, 0, 0, -1}));
 }
 
 TEST_F(AnalysisRun, coarse_grains_up_to_the_cut) {
   // From grain 0: alone its moment is (0, 1), gamma 1; with grain 1 (0.5, 2), 3/5; with grain 2 (0.5, 3),
   // 5/7.
   const Analysis a = analyse({-1, 1}, 30.0, {"threshold_factors=0.5,1.3", "lc_cut=3"});
-  EXPECT_DOUBLE_EQ(values<double>(a, "lc/cut")[0], 3 * diameter);
-  EXPECT_DOUBLE_EQ(number(a, "lc/mean", 0, 1), 3 * diameter) << "gamma is 1 everywhere";
-  EXPECT_DOUBLE_EQ(number(a, "lc/share_cut", 0, 1), 1.0);
-  const auto lengths = row<float>(a, "lc/length", 1);
+  EXPECT_DOUBLE_EQ(a.lc_cut, 3 * diameter);
+  EXPECT_DOUBLE_EQ(number(a, &FrameThreshold::lc_mean, 0, 1), 3 * diameter) << "gamma is 1 everywhere";
+  EXPECT_DOUBLE_EQ(number(a, &FrameThreshold::lc_share_cut, 0, 1), 1.0);
+  const std::vector<float>& lengths = a.frames[1].thresholds[0].lc;
   EXPECT_FLOAT_EQ(lengths[0], 3 * diameter) << "0.6 > 0.25";
   EXPECT_FLOAT_EQ(lengths[1], 3 * diameter) << "1/3 > 0.25: overloaded at the first threshold";
-  const auto second = lengths.subspan(free_grains + 1);
+  const std::vector<float>& second = a.frames[1].thresholds[1].lc;
   EXPECT_FLOAT_EQ(second[0], 2 * diameter) << "0.6 <= 0.65";
   EXPECT_TRUE(std::isnan(second[1])) << "not overloaded";
   EXPECT_TRUE(std::isnan(second[4])) << "floor";
@@ -169,11 +173,11 @@ TEST_F(AnalysisRun, coarse_grains_up_to_the_cut) {
 TEST_F(AnalysisRun, ends_the_search_where_it_is_told_to) {
   // Of the grains above 1.3 Gamma_c = 0.65, grain 0 has gamma 1, 3/5, 5/7 with its neighbours.
   const Analysis a = analyse({-1, 1}, 30.0, {"threshold_factors=0.5,1.3", "lc_factor=1.1", "lc_cut=3"});
-  EXPECT_NEAR(values<double>(a, "lc/end_ratio")[1], 0.55, 1e-12);
-  const auto second = row<float>(a, "lc/length", 1).subspan(free_grains + 1);
+  EXPECT_NEAR(a.thresholds[1].end_ratio, 0.55, 1e-12);
+  const std::vector<float>& second = a.frames[1].thresholds[1].lc;
   EXPECT_FLOAT_EQ(second[0], 3 * diameter) << "0.6 > 0.55";
   EXPECT_TRUE(std::isnan(second[1])) << "1/3 < 0.65: not overloaded";
-  const auto first = row<float>(a, "lc/length", 1);
+  const std::vector<float>& first = a.frames[1].thresholds[0].lc;
   EXPECT_FLOAT_EQ(first[1], 0.0) << "1/3 >= 0.25, and within 0.55 by itself";
 }
 
@@ -181,10 +185,10 @@ TEST_F(AnalysisRun, takes_each_grain_with_its_first_neighbours) {
   // The moments of grains 0 to 3, each with those above and below it, sum up to gamma 3/5, 5/7, 5/7, 1.
   const Analysis a =
       analyse({-1, 1}, 30.0, {"l_min=3", "threshold_factors=1.3", "lc_factor=1.45", "lc_cut=3.5"});
-  EXPECT_EQ(number(a, "overloaded/fraction", 1), 0.75);
-  EXPECT_DOUBLE_EQ(number(a, "gamma/mean", 1), (0.6 + 10.0 / 7.0 + 1.0) / 4.0);
-  EXPECT_EQ(integer(a, "clusters/largest", 1), 3);
-  const auto length = row<float>(a, "lc/length", 1);
+  EXPECT_EQ(number(a, &FrameThreshold::overloaded_fraction, 1), 0.75);
+  EXPECT_DOUBLE_EQ(number(a, &FrameRecord::gamma_mean, 1), (0.6 + 10.0 / 7.0 + 1.0) / 4.0);
+  EXPECT_EQ(number(a, &FrameThreshold::largest_cluster, 1), 3);
+  const std::vector<float>& length = a.frames[1].thresholds[0].lc;
   EXPECT_TRUE(std::isnan(length[0])) << "0.6 < 0.65: not overloaded";
   EXPECT_FLOAT_EQ(length[1], 3 * diameter) << "5/7 <= 0.725 where the search begins";
   EXPECT_FLOAT_EQ(length[3], 3.5 * diameter) << "1 > 0.725 up to the cut";
@@ -193,44 +197,45 @@ TEST_F(AnalysisRun, takes_each_grain_with_its_first_neighbours) {
 TEST_F(AnalysisRun, takes_first_neighbours_unless_it_is_told_otherwise) {
   write_run(path_, {-1, 1}, 30.0);
   const RunFile run = RunFile::open(path_);
-  EXPECT_DOUBLE_EQ(number(analyse_run(run, {}, 1, {}), "gamma/mean", 1), (0.6 + 10.0 / 7.0 + 1.0) / 4.0);
+  EXPECT_DOUBLE_EQ(number(analyse_run(run, {}, 1, {}), &FrameRecord::gamma_mean, 1),
+                   (0.6 + 10.0 / 7.0 + 1.0) / 4.0);
 }
 
 TEST_F(AnalysisRun, search_does_not_end_before_it_begins) {
   const Analysis a = analyse({-1, 1}, 30.0, {"l_min=3", "lc_cut=2"});
-  EXPECT_DOUBLE_EQ(values<double>(a, "lc/cut")[0], 3 * diameter);
+  EXPECT_DOUBLE_EQ(a.lc_cut, 3 * diameter);
 }
 
 TEST_F(AnalysisRun, takes_from_the_observables_what_they_have) {
   const Analysis a = analyse({-1, 1, -1}, 30.0);
-  EXPECT_EQ(number(a, "packing/volume_strain", 2), 4.0) << "of the row at 2 deg";
-  EXPECT_DOUBLE_EQ(number(a, "packing/solid_fraction", 1), 0.2);
-  EXPECT_NEAR(values<double>(a, "theta_d/dilation")[0], radians(4.0), 1e-12);
-  EXPECT_TRUE(std::isnan(values<double>(a, "theta_d/dilation")[1])) << "that strain is constant";
+  EXPECT_EQ(number(a, &FrameRecord::volume_strain, 2), 4.0) << "of the row at 2 deg";
+  EXPECT_DOUBLE_EQ(number(a, &FrameRecord::solid_fraction, 1), 0.2);
+  EXPECT_NEAR(a.dilation[0], radians(4.0), 1e-12);
+  EXPECT_TRUE(std::isnan(a.dilation[1])) << "that strain is constant";
 }
 
 TEST_F(AnalysisRun, finds_the_percolation_angle_and_its_error) {
   const Analysis a = analyse({1, 1, -1, -1, -1}, 30.0);
-  EXPECT_NEAR(values<double>(a, "theta_d/percolation")[0], radians(2.0), 1e-12);
-  EXPECT_NEAR(values<double>(a, "theta_d/percolation_error")[0], radians(1.0), 1e-12);
+  EXPECT_NEAR(a.thresholds[0].percolation, radians(2.0), 1e-12);
+  EXPECT_NEAR(a.thresholds[0].percolation_error, radians(1.0), 1e-12);
 }
 
 TEST_F(AnalysisRun, finds_the_jump_of_the_largest_length) {
   // With a soft grain 1 the moments about grain 3 sum up to gamma 5/7 when the second neighbour is in.
   const Analysis a = analyse({1, 1, -1, -1}, 30.0, {"threshold_factors=1.6", "lc_cut=6"});
-  EXPECT_DOUBLE_EQ(number(a, "lc/max", 1), 4 * diameter);
-  EXPECT_NEAR(values<double>(a, "theta_d/lc_jump")[0], radians(2.0), 1e-12);
-  EXPECT_NEAR(values<double>(a, "theta_d/lc_jump_error")[0], radians(1.0), 1e-12);
-  EXPECT_DOUBLE_EQ(values<double>(a, "theta_d/lc_jump_size")[0], 2 * diameter);
+  EXPECT_DOUBLE_EQ(number(a, &FrameThreshold::lc_max, 1), 4 * diameter);
+  EXPECT_NEAR(a.thresholds[0].lc_jump, radians(2.0), 1e-12);
+  EXPECT_NEAR(a.thresholds[0].lc_jump_error, radians(1.0), 1e-12);
+  EXPECT_DOUBLE_EQ(a.thresholds[0].lc_jump_size, 2 * diameter);
 }
 
 TEST_F(AnalysisRun, leaves_out_thresholds_where_the_slope_stands) {
   const Analysis a = analyse({-1, 1}, none);
-  EXPECT_EQ(a.sizes.at('F'), 0u);
-  EXPECT_FALSE(a.data_sets.contains("overloaded/fraction"));
-  EXPECT_EQ(number(a, "contacts/coordination_number", 0), 7.0 / 4.0);
-  EXPECT_TRUE(std::isnan(values<double>(a, "gamma_c")[0]));
-  EXPECT_EQ(number(analyse({-1, 1}, none, {"gamma_c=0.5"}), "overloaded/fraction", 1), 0.75);
+  EXPECT_TRUE(a.thresholds.empty());
+  EXPECT_TRUE(a.frames[0].thresholds.empty());
+  EXPECT_EQ(number(a, &FrameRecord::coordination_number, 0), 7.0 / 4.0);
+  EXPECT_TRUE(std::isnan(a.gamma_c));
+  EXPECT_EQ(number(analyse({-1, 1}, none, {"gamma_c=0.5"}), &FrameThreshold::overloaded_fraction, 1), 0.75);
 }
 
 TEST_F(AnalysisRun, is_the_same_on_any_number_of_threads) {
@@ -238,15 +243,17 @@ TEST_F(AnalysisRun, is_the_same_on_any_number_of_threads) {
   for (Index k = 0; k < 12; ++k) soft.push_back(k % 5 - 1);
   const std::vector<std::string> long_work = {"bins=1000", "sections=1000"};  // so that threads overlap
   const Analysis one = analyse(soft, 30.0, long_work), three = analyse(soft, 30.0, long_work, 3);
-  ASSERT_EQ(one.data_sets.size(), three.data_sets.size());
-  for (const auto& [name, array] : one.data_sets)
+  for (const Quantity& quantity : quantities()) {
+    const Values other = values_of(quantity, three);
     std::visit(
-        [&, &its_name = name](const auto& numbers) {
-          const auto& other = std::get<std::decay_t<decltype(numbers)>>(find_data_set(three, its_name));
-          EXPECT_EQ(std::memcmp(numbers.data(), other.data(), numbers.size() * sizeof numbers[0]), 0)
-              << its_name;
+        [&]<typename T>(const std::vector<T>& numbers) {
+          EXPECT_EQ(
+              std::memcmp(numbers.data(), std::get<std::vector<T>>(other).data(), numbers.size() * sizeof(T)),
+              0)
+              << quantity.name;
         },
-        array);
+        values_of(quantity, one));
+  }
 }
 
 TEST_F(AnalysisRun, tells_its_progress) {
@@ -273,8 +280,9 @@ TEST_F(AnalysisRun, of_a_folder_is_that_of_its_file) {
   write_run(folder_.path("part.h5"), {-1, 1}, 30.0, false);
   const RunFile run = RunFile::open(folder_.path("part.h5"));
   EXPECT_FALSE(run.complete());
-  EXPECT_EQ(analyse_run(run, parse_analysis_settings({"l_min=0"}), 1, {}).data_sets.at("lc/max"),
-            packed.data_sets.at("lc/max"));
+  const Quantity& lc_max = quantity_of(&FrameThreshold::lc_max);
+  EXPECT_EQ(values_of(lc_max, analyse_run(run, parse_analysis_settings({"l_min=0"}), 1, {})),
+            values_of(lc_max, packed));
 }
 
 TEST_F(AnalysisRun, without_frames_is_refused) {

@@ -188,7 +188,7 @@ TEST(Command, that_cannot_be_done_is_refused_and_leaves_no_trace) {
     EXPECT_EQ(state_hash(session.world()), before);
     EXPECT_TRUE(session.segment().commands.empty());
     EXPECT_EQ(session.law().friction, 0.5);
-    EXPECT_EQ(session.tilt_rate(), 1.0);
+    EXPECT_EQ(session.tilt_rate(), radians(1.0));
   }
 }
 

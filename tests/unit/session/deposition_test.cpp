@@ -122,18 +122,13 @@ TEST(Deposition, has_the_friction_of_the_run_unless_it_has_its_own) {
   EXPECT_EQ(session.law().wall_friction, 0.2);
 }
 
-TEST(StoredScenario, of_before_there_were_methods_is_a_collapse_with_one_friction) {
+TEST(StoredScenario, is_that_of_the_run) {
   Scenario scenario = poured_bed();
   scenario.deposition.friction = 0.4;
   scenario.deposition.wall_friction = 0.1;
   RunHeader header;
   header.scenario_resolved = resolved_toml(scenario);
   EXPECT_EQ(stored_scenario(header, "run"), scenario);
-  header.scenario_resolved = "[contact]\nwall_friction = 0.2\n[deposition]\nfriction = 0.3\n";
-  const Scenario old = stored_scenario(header, "run");
-  EXPECT_EQ(old.deposition.method, DepositionMethod::collapse);
-  EXPECT_EQ(old.deposition.friction, 0.3);
-  EXPECT_EQ(old.deposition.wall_friction, 0.3);
 }
 
 }  // namespace

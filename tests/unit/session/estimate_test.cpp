@@ -25,6 +25,25 @@ TEST(Estimate, counts_what_the_scenario_says) {
   EXPECT_EQ(expected.observable_rows, 101);
 }
 
+TEST(Estimate, counts_the_flow_after_failure_as_what_it_may_be) {
+  Scenario scenario;
+  scenario.tilt.after_failure = AfterFailure::lower;
+  const Estimate expected = estimate(scenario), without = estimate({});
+  EXPECT_GT(expected.flow_steps, 0);
+  EXPECT_NEAR(static_cast<double>(expected.frames - without.frames),
+              static_cast<double>(expected.flow_steps) * scenario.tilt.step / scenario.output.frame_every,
+              1.0);
+  EXPECT_GT(expected.disk, without.disk);
+}
+
+TEST(Estimate, a_long_flow_that_may_end_soon_needs_no_memory) {
+  Scenario scenario;
+  scenario.tilt.after_failure = AfterFailure::lower;
+  scenario.tilt.lowering_rate = 1e-4;
+  EXPECT_GT(estimate(scenario).memory, 1e11);
+  EXPECT_NO_THROW(require_memory(scenario));
+}
+
 TEST(Estimate, a_smooth_floor_has_no_grains) {
   Scenario scenario;
   scenario.bed.floor = BedFloor::smooth;

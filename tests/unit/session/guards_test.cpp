@@ -26,7 +26,7 @@ std::pair<std::string, std::int64_t> stopped_by(const Scenario& scenario) {
   try {
     while (session.phase() != Phase::done) session.advance();
   } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ExitCode::internal);
+    EXPECT_EQ(error.code(), ExitCode::bad_data);
     return {error.what(), session.world().step};
   }
   return {"", session.world().step};
@@ -34,7 +34,7 @@ std::pair<std::string, std::int64_t> stopped_by(const Scenario& scenario) {
 
 TEST(Guards, sound_runs_break_none) {
   const Session session = run_to_end(small_bed());
-  for (const std::int64_t steps : session.guard_warnings().steps) EXPECT_EQ(steps, 0);
+  for (const std::int64_t steps : session.schedule().warnings.steps) EXPECT_EQ(steps, 0);
 }
 
 TEST(Guards, each_stops_the_run_with_its_limit) {
@@ -72,7 +72,7 @@ TEST(Guards, warn_counts_what_they_let_pass) {
   scenario.guards.action = GuardAction::warn;
   scenario.guards.velocity = 0.5;
   const Session session = run_to_end(scenario);
-  const GuardWarnings& warnings = session.guard_warnings();
+  const GuardWarnings& warnings = session.schedule().warnings;
   const auto velocity = static_cast<std::size_t>(Guard::velocity);
   EXPECT_GT(warnings.steps[velocity], 5);
   EXPECT_LT(warnings.steps[velocity], session.world().step);
@@ -84,8 +84,8 @@ TEST(Guards, warn_counts_what_they_let_pass) {
 
   const Checkpoint checkpoint = session.checkpoint(0.0);
   const Session again(scenario, checkpoint);
-  EXPECT_EQ(again.guard_warnings().steps, warnings.steps);
-  EXPECT_EQ(again.guard_warnings().first, warnings.first);
+  EXPECT_EQ(again.schedule().warnings.steps, warnings.steps);
+  EXPECT_EQ(again.schedule().warnings.first, warnings.first);
   double recorded = 0.0;
   for (const auto& [name, value] : checkpoint.results)
     if (name == "warnings_velocity") recorded = value;

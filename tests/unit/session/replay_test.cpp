@@ -8,9 +8,9 @@
 #include "core/errors.h"
 #include "core/trigonometry.h"
 #include "io/run_file.h"
+#include "problems/step_problem.h"
 #include "session/run.h"
 #include "session/run_header.h"
-#include "session/step_problem.h"
 #include "support/small_bed.h"
 #include "support/temporary_folder.h"
 
@@ -190,10 +190,10 @@ TEST(Checkpoint, has_what_commands_changed_and_only_that) {
   session.apply({0, CommandKind::tilt_rate, -1, 7.0, 0.0});
   const Session taken_up(small_bed(), session.checkpoint(0.0));
   EXPECT_EQ(taken_up.law().friction, 0.3);
-  EXPECT_EQ(taken_up.tilt_rate(), 7.0);
+  EXPECT_EQ(taken_up.tilt_rate(), radians(7.0));
   const Session plainly(small_bed(), Session(small_bed()).checkpoint(0.0));
   EXPECT_EQ(plainly.law().friction, 0.5);
-  EXPECT_EQ(plainly.tilt_rate(), 20.0);
+  EXPECT_EQ(plainly.tilt_rate(), radians(20.0));
 }
 
 }  // namespace

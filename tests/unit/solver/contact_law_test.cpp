@@ -43,10 +43,10 @@ TEST(ContactLaw, is_a_projection) {
 }
 
 // P' = admissible(P - U / W): U_n = -1 m/s at w_n = 2 kg asks for 2 N s more.
-TEST(ContactLaw, the_local_solution_stops_the_relative_velocity) {
-  expect_impulse(local_solution(1.0, 0.25, -1.0, -0.5, 2.0, 0.5, 0.5), 3.0, 0.5);
-  expect_impulse(local_solution(1.0, 0.25, 1.0, -0.5, 2.0, 0.5, 0.5), 0.0, 0.0);
-  expect_impulse(local_solution(1.0, 0.0, 0.0, 4.0, 2.0, 0.5, 0.5), 1.0, -0.5);
+TEST(ContactLaw, solving_a_contact_stops_the_relative_velocity) {
+  expect_impulse(solve_contact(1.0, 0.25, -1.0, -0.5, 2.0, 0.5, 0.5), 3.0, 0.5);
+  expect_impulse(solve_contact(1.0, 0.25, 1.0, -0.5, 2.0, 0.5, 0.5), 0.0, 0.0);
+  expect_impulse(solve_contact(1.0, 0.0, 0.0, 4.0, 2.0, 0.5, 0.5), 1.0, -0.5);
 }
 
 }  // namespace

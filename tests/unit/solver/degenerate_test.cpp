@@ -135,7 +135,7 @@ SolverReport solve_honestly(SolverKind kind, const ContactProblem& problem, Cont
   EXPECT_TRUE(std::isfinite(report.residual.eta));
   EXPECT_NEAR(report.residual.eta, eta, 1e-5 * eta + 1e-12);
   EXPECT_EQ(report.converged, report.residual.eta <= tolerance * (1.0 + 1e-9));
-  testing::Test::RecordProperty(test::name_of(kind), std::to_string(report.iterations) + " passes, eta " +
+  testing::Test::RecordProperty(test::name_of(kind), std::to_string(report.iterations) + " iterations, eta " +
                                                          std::to_string(report.residual.eta * 1e9) + "e-9");
   return report;
 }

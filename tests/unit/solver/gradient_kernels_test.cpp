@@ -21,15 +21,15 @@ struct Scene {
   std::vector<Row> velocity, mobility;
   std::vector<Index> first_a, first_b;
   std::vector<std::uint32_t> b_force;
-  PassSums sums;
+  IterationSums sums;
 
   Row& force_of(Index c) { return force[c / lane_count].rows[c % lane_count]; }
   Index groups() const { return static_cast<Index>(contacts.size()); }
   Index bodies() const { return static_cast<Index>(velocity.size()); }
-  ContactPassArrays contact_arrays() {
+  ContactArrays contact_arrays() {
     return {contacts.data(), increment.data(), ahead.data(), velocity.data(), force.data()};
   }
-  BodyPassArrays body_arrays() {
+  BodyArrays body_arrays() {
     return {mobility.data(), force.data(), first_a.data(), first_b.data(), b_force.data(), velocity.data()};
   }
 };
@@ -90,11 +90,11 @@ Scene random_scene(Index groups, Index bodies) {
   return scene;
 }
 
-/// Contacts, then bodies, some passes long, in two shares each.
+/// Contacts, then bodies, some iterations long, in two shares each.
 void run(Scene& scene, const GradientKernels& kernels) {
-  for (int pass = 0; pass < 5; ++pass) {
+  for (int k = 0; k < 5; ++k) {
     const Index half = scene.groups() / 2;
-    PassSums first, second;
+    IterationSums first, second;
     kernels.contacts(scene.contact_arrays(), 0, half, step, beta, first);
     kernels.contacts(scene.contact_arrays(), half, scene.groups(), step, beta, second);
     scene.sums = {first.change + second.change, first.ascent + second.ascent};
@@ -103,7 +103,7 @@ void run(Scene& scene, const GradientKernels& kernels) {
   }
 }
 
-void plain_contact(const Scene& from, Scene& to, Index c, PassSums& sums) {
+void plain_contact(const Scene& from, Scene& to, Index c, IterationSums& sums) {
   const ContactGroup& group = from.contacts[c / lane_count];
   const int k = lane_of(c);
   const Row& va = from.velocity[group.a[k] / sizeof(Row)];
@@ -148,7 +148,7 @@ TEST(GradientKernels, contacts_do_what_the_plain_arithmetic_does) {
   const Scene before = random_scene(20, 40);
   Scene scene = before;
   Scene plain = before;
-  PassSums sums;
+  IterationSums sums;
   gradient_kernels().contacts(scene.contact_arrays(), 0, scene.groups(), step, beta, scene.sums);
   for (Index c = 0; c < scene.groups() * lane_count; ++c) plain_contact(before, plain, c, sums);
   int open = 0, sliding = 0;

@@ -32,7 +32,7 @@ void expect_lawful(Impulse p, RelativeVelocity u, double mu) {
 TEST(LocalLaw, coupled_cases_by_hand) {
   const LocalContact contact = local_contact({2.0, 1.0, 1.0, 3.0}, 0.5);
   ASSERT_TRUE(contact.coupled);
-  const auto solved = [&contact](RelativeVelocity b) { return local_solution(contact, {}, b); };
+  const auto solved = [&contact](RelativeVelocity b) { return solve_local_contact(contact, {}, b); };
   const Impulse open = solved({0.5, -4.0});
   EXPECT_EQ(open.normal, 0.0);
   EXPECT_EQ(open.tangential, 0.0);
@@ -60,10 +60,10 @@ TEST(LocalLaw, random_coupled_contacts_obey_the_law) {
     const double mu = random.uniform(0.0, 1.0);
     const RelativeVelocity b{random.uniform(-1.0, 0.5), random.uniform(-1.0, 1.0)};
     const LocalContact contact = local_contact(w, mu);
-    const Impulse p = local_solution(contact, {}, b);
+    const Impulse p = solve_local_contact(contact, {}, b);
     expect_lawful(p, after(w, p, b), mu);
     const Impulse before{random.uniform(0.0, 1.0), random.uniform(-1.0, 1.0)};
-    const Impulse again = local_solution(contact, before, after(w, before, b));
+    const Impulse again = solve_local_contact(contact, before, after(w, before, b));
     EXPECT_NEAR(again.normal, p.normal, 1e-12);
     EXPECT_NEAR(again.tangential, p.tangential, 1e-12);
     if (p.normal > 0.0) ++carrying;
@@ -78,7 +78,7 @@ TEST(LocalLaw, coupling_of_round_off_counts_as_none) {
 
 // Between two bodies that do not move any impulse is a solution: it stays.
 TEST(LocalLaw, a_contact_that_nothing_moves_keeps_its_impulse) {
-  const Impulse p = local_solution(local_contact({}, 0.5), {2.0, 0.5}, {-1.0, 1.0});
+  const Impulse p = solve_local_contact(local_contact({}, 0.5), {2.0, 0.5}, {-1.0, 1.0});
   EXPECT_EQ(p.normal, 2.0);
   EXPECT_EQ(p.tangential, 0.5);
 }
@@ -87,7 +87,7 @@ TEST(LocalLaw, a_contact_that_nothing_moves_keeps_its_impulse) {
 TEST(LocalLaw, without_a_solution_the_impulse_is_admissible) {
   const LocalContact contact = local_contact({1.0, -2.0, -2.0, 1.0}, 3.0);
   for (double bt : {-1.0, 0.0, 1.0}) {
-    const Impulse p = local_solution(contact, {}, {-1.0, bt});
+    const Impulse p = solve_local_contact(contact, {}, {-1.0, bt});
     EXPECT_TRUE(std::isfinite(p.normal) && std::isfinite(p.tangential));
     EXPECT_GE(p.normal, 0.0);
     EXPECT_LE(std::fabs(p.tangential), 3.0 * p.normal);
@@ -102,7 +102,7 @@ TEST(LocalLaw, residual_is_that_of_the_bodies) {
     for (double& pn : solution.pn) pn = random.uniform(0.0, 1.0);
     velocities_from_impulses(problem, solution);
     const Residual expected = natural_map_residual(problem, solution);
-    const Residual found = natural_map_residual(local_problem(problem), local_solution(problem, solution));
+    const Residual found = natural_map_residual(local_problem(problem), local_form(problem, solution));
     EXPECT_GT(expected.eta, 0.01);
     EXPECT_NEAR(found.eta, expected.eta, 1e-13);
     EXPECT_NEAR(found.largest, expected.largest, 1e-13);

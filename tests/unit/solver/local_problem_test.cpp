@@ -9,7 +9,7 @@ namespace talus {
 namespace {
 
 /// Column d of W by its meaning: the velocities that a unit impulse gives, over those without it. The bodies
-/// are moved one by one, no product H M^-1 H^T is formed.
+/// are moved one by one, no product H^T M^-1 H is formed.
 std::vector<RelativeVelocity> column_of_W(const ContactProblem& problem, Index d, bool tangential) {
   ContactSolution push = test::no_guess(problem);
   (tangential ? push.pt : push.pn)[d] = 1.0;
@@ -67,7 +67,7 @@ TEST(LocalProblem, relative_velocities_are_those_of_the_bodies) {
   for (double& pn : solution.pn) pn = random.uniform(0.0, 1.0);
   for (double& pt : solution.pt) pt = random.uniform(-1.0, 1.0);
   velocities_from_impulses(problem, solution);
-  const LocalSolution of_bodies = local_solution(problem, solution);
+  const LocalSolution of_bodies = local_form(problem, solution);
   LocalSolution of_W{of_bodies.p, {}};
   velocities_from_impulses(local_problem(problem), of_W);
   for (Index c = 0; c < problem.contact_count(); ++c) {

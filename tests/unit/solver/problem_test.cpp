@@ -10,10 +10,10 @@
 namespace talus {
 namespace {
 
-/// The problem in dense form, written down from the definitions: U = W P + b, W = H M^-1 H^T,
-/// b = H v_free + c. Row 2 c of H is the normal, row 2 c + 1 the tangent; columns 3 i + (x, y, rotation).
+/// The problem in dense form, written down from the definitions: U = W P + b, W = H^T M^-1 H,
+/// b = H^T v_free + c. Row 2 c of H^T is the normal, row 2 c + 1 the tangent; columns 3 i + (x, y, rotation).
 struct DenseProblem {
-  Eigen::MatrixXd H, W;
+  Eigen::MatrixXd Ht, W;
   Eigen::VectorXd inverse_mass, free_velocity, c, b;
 };
 
@@ -36,17 +36,17 @@ DenseProblem dense(const ContactProblem& problem) {
     const Index b = problem.b[k];
     const Eigen::RowVector2d n(problem.nx[k], problem.ny[k]);
     const Eigen::RowVector2d t(-n.y(), n.x());
-    d.H.block(2 * k, 3 * a, 1, 2) = -n;
-    d.H.block(2 * k, 3 * b, 1, 2) = n;
-    d.H.block(2 * k + 1, 3 * a, 1, 2) = -t;
-    d.H.block(2 * k + 1, 3 * b, 1, 2) = t;
+    d.Ht.block(2 * k, 3 * a, 1, 2) = -n;
+    d.Ht.block(2 * k, 3 * b, 1, 2) = n;
+    d.Ht.block(2 * k + 1, 3 * a, 1, 2) = -t;
+    d.Ht.block(2 * k + 1, 3 * b, 1, 2) = t;
     // The contact point of a disk sits at +r n on a and at -r n on b: both rim velocities go with -r omega.
-    d.H(2 * k + 1, 3 * a + 2) = -problem.lever[a];
-    d.H(2 * k + 1, 3 * b + 2) = -problem.lever[b];
+    d.Ht(2 * k + 1, 3 * a + 2) = -problem.lever[a];
+    d.Ht(2 * k + 1, 3 * b + 2) = -problem.lever[b];
     d.c.segment(2 * k, 2) << problem.cn[k], problem.ct[k];
   }
-  d.W = d.H * d.inverse_mass.asDiagonal() * d.H.transpose();
-  d.b = d.H * d.free_velocity + d.c;
+  d.W = d.Ht * d.inverse_mass.asDiagonal() * d.Ht.transpose();
+  d.b = d.Ht * d.free_velocity + d.c;
   return d;
 }
 

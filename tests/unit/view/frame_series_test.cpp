@@ -10,7 +10,7 @@
 #include <stdexcept>
 
 #include "core/trigonometry.h"
-#include "maps/cluster_frame.h"
+#include "pictures/overload_rule.h"
 #include "unit/view/example_bed.h"
 #include "view/landmarks.h"
 
@@ -45,19 +45,19 @@ TEST(FrameSeries, has_the_values_of_each_frame) {
   ASSERT_EQ(series.values().size(), 6u);
   EXPECT_TRUE(series.has_all_values());
   for (std::size_t k = 0; k < 6; ++k) {
-    const FrameValues& values = series.values()[k];
+    const FrameRecord& values = series.values()[k];
     EXPECT_NEAR(values.tilt, radians(5.0 * static_cast<double>(k)), 1e-12);
-    EXPECT_NEAR(values.overloaded, example::overloaded_of_frames[k] / 40.0, 1e-12);
-    EXPECT_EQ(values.spans, k >= 3) << k;
+    EXPECT_NEAR(values.thresholds[0].overloaded_fraction, example::overloaded_of_frames[k] / 40.0, 1e-12);
+    EXPECT_EQ(values.thresholds[0].spans_depth, k >= 3 ? 1 : 0) << k;
   }
-  EXPECT_TRUE(std::isnan(series.values()[0].largest_share));
-  EXPECT_TRUE(std::isnan(series.values()[0].largest_length));
-  EXPECT_EQ(series.values()[2].largest_share, 1.0);
+  EXPECT_TRUE(std::isnan(series.values()[0].thresholds[0].largest_share));
+  EXPECT_TRUE(std::isnan(series.values()[0].thresholds[0].lc_max));
+  EXPECT_EQ(series.values()[2].thresholds[0].largest_share, 1.0);
   // One overloaded grain and the three beside it have Q/P = 1/7, below sin 20 deg; from the middle of a
   // column of four it takes those across its corners.
-  EXPECT_NEAR(series.values()[1].largest_length, 2.0, 1e-12);
-  EXPECT_NEAR(series.values()[3].largest_length, std::sqrt(8.0), 1e-12);
-  EXPECT_NEAR(series.values()[3].mean_length, 1.0 + std::sqrt(2.0), 1e-12);
+  EXPECT_NEAR(series.values()[1].thresholds[0].lc_max, 2.0, 1e-12);
+  EXPECT_NEAR(series.values()[3].thresholds[0].lc_max, std::sqrt(8.0), 1e-12);
+  EXPECT_NEAR(series.values()[3].thresholds[0].lc_mean, 1.0 + std::sqrt(2.0), 1e-12);
   EXPECT_EQ(series.extent().y_min, -1.0);
   EXPECT_EQ(series.extent().y_max, 4.0);
 }
@@ -77,11 +77,12 @@ TEST(FrameSeries, has_values_of_the_tilt_and_colours_of_all_frames) {
 TEST(FrameSeries, does_not_work_out_what_is_known) {
   FrameSeries series(example::bed_statics(), read_bed);
   series.set_counts(6, 6);
-  series.begin(rule, std::vector(6, FrameValues{.tilt = 1.0, .overloaded = 0.125}));
+  series.begin(rule,
+               std::vector(6, FrameRecord{.tilt = 1.0, .thresholds = {{.overloaded_fraction = 0.125}}}));
   EXPECT_TRUE(series.has_all_values());
   wait_for(series, 6);
   ASSERT_EQ(series.values().size(), 6u);
-  EXPECT_EQ(series.values()[5].overloaded, 0.125);
+  EXPECT_EQ(series.values()[5].thresholds[0].overloaded_fraction, 0.125);
   EXPECT_EQ(series.colours().size(), 6u);
 }
 
@@ -97,7 +98,7 @@ TEST(FrameSeries, begins_anew_with_another_rule) {
   EXPECT_TRUE(series.colours().empty());
   wait_for(series, 6);
   ASSERT_EQ(series.values().size(), 6u);
-  EXPECT_EQ(series.values()[5].overloaded, 0.0);
+  EXPECT_EQ(series.values()[5].thresholds[0].overloaded_fraction, 0.0);
   EXPECT_EQ(series.rule(), other);
 }
 
@@ -112,12 +113,13 @@ TEST(FrameSeries, takes_grains_with_their_neighbours) {
   // With four of them the lowest and the highest have 2 of 6 (Q/P = 2/10), below sin 20 deg; those between 3
   // of 9.
   ASSERT_EQ(series.values().size(), 6u);
-  EXPECT_EQ(series.values()[3].overloaded, 0.0);
+  EXPECT_EQ(series.values()[3].thresholds[0].overloaded_fraction, 0.0);
   with_neighbours.threshold_factor = 0.18 / sine(radians(20.0));
   series.begin(with_neighbours, {});
   wait_for(series, 6);
-  EXPECT_NEAR(series.values()[3].overloaded, 12.0 / 40.0, 1e-12) << "the column and those beside it";
-  EXPECT_GE(series.values()[3].mean_length, 3.0);
+  EXPECT_NEAR(series.values()[3].thresholds[0].overloaded_fraction, 12.0 / 40.0, 1e-12)
+      << "the column and those beside it";
+  EXPECT_GE(series.values()[3].thresholds[0].lc_mean, 3.0);
 }
 
 TEST(FrameSeries, goes_on_with_frames_that_come_later) {
@@ -140,11 +142,10 @@ TEST(FrameSeries, has_a_tracker_that_has_met_its_frames) {
   series.set_counts(3, 3);
   series.begin(rule, {});
   wait_for(series, 3);
-  MapSettings settings;
-  settings.theta_c = rule.theta_c;
   ClusterColours tracker = series.tracker();
   const RunStatics statics = example::bed_statics();
-  const auto next = tracker.next(overloaded_clusters(example::bed_frame(3.0, 2), statics, settings));
+  const Frame frame = example::bed_frame(3.0, 2);
+  const auto next = tracker.next(overloaded_clusters({frame, statics}, {.theta_c = rule.theta_c}));
   EXPECT_EQ(next.at(0).track, 1);
 }
 
@@ -164,7 +165,7 @@ TEST(FrameSeries, leaves_out_what_was_begun_by_another_rule) {
   go_on = true;
   wait_for(series, 2);
   ASSERT_EQ(series.values().size(), 2u);
-  EXPECT_EQ(series.values()[0].overloaded, 0.0);
+  EXPECT_EQ(series.values()[0].thresholds[0].overloaded_fraction, 0.0);
 }
 
 TEST(FrameSeries, says_why_a_frame_cannot_be_read) {
@@ -219,13 +220,6 @@ TEST(Landmarks, dilation_begins_where_the_volume_is_smallest) {
   EXPECT_EQ(dilation_frame(rows, tilts, radians(20.0)), 3u);
   EXPECT_FALSE(dilation_frame(rows, tilts, radians(11.0)).has_value()) << "up to 11 deg it contracts";
   EXPECT_FALSE(dilation_frame({}, tilts, radians(20.0)).has_value());
-}
-
-TEST(Landmarks, nearest_frame_is_by_tilt) {
-  EXPECT_EQ(nearest_frame({0.0, 1.0, 2.0}, 1.6), 2u);
-  EXPECT_EQ(nearest_frame({0.0, 1.0, 2.0}, -3.0), 0u);
-  EXPECT_FALSE(nearest_frame({0.0, 1.0}, std::nan("")).has_value());
-  EXPECT_FALSE(nearest_frame({}, 1.0).has_value());
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ Clusters clusters_of(const test::Packing& packing, double threshold) {
   std::vector<bool> overloaded;
   for (Index i = 0; i < packing.statics.free_count; ++i)
     overloaded.push_back(packing.frame.gamma[i] >= threshold);
-  return find_clusters(overloaded, force_links(packing.frame, packing.statics), packing.frame.x,
+  return find_clusters(overloaded, force_links(packing), packing.frame.x,
                        packing.statics.periodic ? packing.statics.length : 0.0);
 }
 
@@ -59,8 +59,7 @@ InspectionRule rule_of(double threshold, double cut, double neighbourhood) {
 
 TEST(Inspection, has_the_contacts_of_the_grain_seen_from_it) {
   const test::Packing packing = corner();
-  const Inspection of =
-      inspect(packing.frame, packing.statics, clusters_of(packing, 2.0), rule_of(2.0, 1.0, 1.0), 1);
+  const Inspection of = inspect(packing, clusters_of(packing, 2.0), rule_of(2.0, 1.0, 1.0), 1);
   ASSERT_EQ(of.contacts.size(), 3u);
   const GrainContact& left = of.contacts[0];
   EXPECT_EQ(left.other, 0);
@@ -83,9 +82,7 @@ TEST(Inspection, names_planes_by_where_they_are) {
   test::Packing packing = corner();
   packing.frame.contacts.nx.back() = -1.0;
   const auto name = [&packing] {
-    return inspect(packing.frame, packing.statics, clusters_of(packing, 2.0), rule_of(2.0, 1.0, 1.0), 1)
-        .contacts.back()
-        .other_name;
+    return inspect(packing, clusters_of(packing, 2.0), rule_of(2.0, 1.0, 1.0), 1).contacts.back().other_name;
   };
   EXPECT_EQ(name(), "left wall");
   packing.frame.contacts.nx.back() = 0.0;
@@ -104,8 +101,7 @@ TEST(Inspection, of_a_pressed_grain_has_its_stress) {
   }
   test::moments_from_contacts(packing);
   packing = whole(packing);
-  const Inspection of =
-      inspect(packing.frame, packing.statics, clusters_of(packing, 0.5), rule_of(0.5, 5.0, 0.0), 0);
+  const Inspection of = inspect(packing, clusters_of(packing, 0.5), rule_of(0.5, 5.0, 0.0), 0);
   EXPECT_NEAR(of.internal_moment.xx, 4.0, 1e-15);
   EXPECT_NEAR(of.internal_moment.yy, 1.0, 1e-15);
   EXPECT_NEAR(of.state.ratio, 0.6, 1e-15);
@@ -124,8 +120,7 @@ TEST(Inspection, of_a_pressed_grain_has_its_stress) {
 
 TEST(Inspection, of_a_grain_that_is_not_overloaded_has_no_length) {
   const test::Packing packing = whole(test::random_packing(1, 50, 10.0, 6.0, true));
-  const Inspection of =
-      inspect(packing.frame, packing.statics, clusters_of(packing, 1.5), rule_of(1.5, 3.0, 3.0), 4);
+  const Inspection of = inspect(packing, clusters_of(packing, 1.5), rule_of(1.5, 3.0, 3.0), 4);
   EXPECT_FALSE(of.overloaded);
   EXPECT_FALSE(of.coarse_graining_length.has_value());
   EXPECT_EQ(of.cluster, -1);
@@ -137,17 +132,15 @@ TEST(Inspection, agrees_with_coarse_graining_of_the_whole_bed) {
     const double threshold = l_min > 0.0 ? 0.2 : 0.4, cut = l_min > 0.0 ? 4.0 : 2.5;
     test::Packing packing = whole(test::random_packing(2, 150, 20.0, 8.0, true));
     packing.frame = with_gamma_of_neighbourhoods(packing.frame, packing.statics, l_min);
-    const CoarseGraining all =
-        coarse_graining(packing.frame, packing.statics,
-                        {.threshold = threshold, .end_ratio = threshold, .l_min = l_min, .cut = cut});
-    const std::vector<double> gamma = coarse_stress_ratio(packing.frame, packing.statics, wide);
+    const CoarseGraining all = coarse_graining(
+        packing, {.threshold = threshold, .end_ratio = threshold, .l_min = l_min, .cut = cut});
+    const std::vector<double> gamma = coarse_stress_ratio(packing, wide);
     const Clusters clusters = clusters_of(packing, threshold);
     ASSERT_GT(all.cut_off, 5);
     ASSERT_GT(all.overloaded - all.cut_off, 5);
     for (Index i = 0; i < packing.statics.free_count; ++i) {
-      const Inspection of =
-          inspect(packing.frame, packing.statics, clusters,
-                  {.threshold = threshold, .l_min = l_min, .cut = cut, .neighbourhood = wide}, i);
+      const Inspection of = inspect(
+          packing, clusters, {.threshold = threshold, .l_min = l_min, .cut = cut, .neighbourhood = wide}, i);
       EXPECT_EQ(of.coarse_graining_length.has_value(), !std::isnan(all.length[i]));
       if (of.coarse_graining_length) {
         EXPECT_EQ(*of.coarse_graining_length, all.length[i]) << "grain " << i;
@@ -161,8 +154,7 @@ TEST(Inspection, agrees_with_coarse_graining_of_the_whole_bed) {
 
 TEST(Inspection, of_a_floor_grain_has_contacts_only) {
   const test::Packing packing = corner();
-  const Inspection of =
-      inspect(packing.frame, packing.statics, clusters_of(packing, 0.1), rule_of(0.1, 1.0, 1.0), 2);
+  const Inspection of = inspect(packing, clusters_of(packing, 0.1), rule_of(0.1, 1.0, 1.0), 2);
   EXPECT_FALSE(of.free);
   ASSERT_EQ(of.contacts.size(), 1u);
   EXPECT_EQ(of.contacts[0].other, 1);
@@ -173,28 +165,28 @@ TEST(Inspection, of_a_floor_grain_has_contacts_only) {
 
 TEST(GrainAt, is_the_grain_whose_disc_holds_the_place) {
   const test::Packing packing = corner();
-  EXPECT_EQ(find_grain(packing.frame, packing.statics, 0.1, 0.5), 0);
-  EXPECT_EQ(find_grain(packing.frame, packing.statics, 1.1, 0.5), 1);
-  EXPECT_EQ(find_grain(packing.frame, packing.statics, 1.5, -0.7), 2);
-  EXPECT_EQ(find_grain(packing.frame, packing.statics, 0.4, 1.9), 0) << "within a D of its edge";
-  EXPECT_FALSE(find_grain(packing.frame, packing.statics, 0.5, 2.1).has_value());
+  EXPECT_EQ(find_grain(packing, 0.1, 0.5), 0);
+  EXPECT_EQ(find_grain(packing, 1.1, 0.5), 1);
+  EXPECT_EQ(find_grain(packing, 1.5, -0.7), 2);
+  EXPECT_EQ(find_grain(packing, 0.4, 1.9), 0) << "within a D of its edge";
+  EXPECT_FALSE(find_grain(packing, 0.5, 2.1).has_value());
 }
 
 TEST(GrainAt, looks_through_the_periodic_edge) {
   test::Packing packing = test::empty_packing(10.0, true);
   test::add_grain(packing, 0.2, 0.5);
   test::add_grain(packing, 5.0, 0.5);
-  EXPECT_EQ(find_grain(packing.frame, packing.statics, 9.9, 0.5), 0);
-  EXPECT_EQ(find_grain(packing.frame, packing.statics, 20.3, 0.5), 0);
+  EXPECT_EQ(find_grain(packing, 9.9, 0.5), 0);
+  EXPECT_EQ(find_grain(packing, 20.3, 0.5), 0);
   packing.statics.periodic = false;
-  EXPECT_FALSE(find_grain(packing.frame, packing.statics, 9.9, 0.5).has_value());
+  EXPECT_FALSE(find_grain(packing, 9.9, 0.5).has_value());
 }
 
 TEST(GrainAt, prefers_a_disc_to_a_near_centre) {
   test::Packing packing = test::empty_packing(10.0, false);
   test::add_grain(packing, 2.0, 2.0, 2.0);
   test::add_grain(packing, 4.6, 2.0, 0.5);
-  EXPECT_EQ(find_grain(packing.frame, packing.statics, 3.9, 2.0), 0);
+  EXPECT_EQ(find_grain(packing, 3.9, 2.0), 0);
 }
 
 }  // namespace

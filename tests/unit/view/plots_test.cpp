@@ -69,9 +69,11 @@ TEST(Plots, leave_out_what_a_logarithm_cannot_show) {
 
 TEST(Plots, of_frames_are_over_degrees) {
   std::vector<Plot> plots = empty_plots();
-  const FrameValues frame{radians(10.0), 0.25, 0.5, 3.0, 7.0, false};
-  plot_frames(std::vector{frame, frame}, plots);
-  plot_frames(std::vector{frame}, plots);  // instead of those before
+  const FrameRecord frame{
+      .tilt = radians(10.0),
+      .thresholds = {{.overloaded_fraction = 0.25, .lc_mean = 1.5, .lc_max = 3.5, .largest_share = 0.5}}};
+  plot_frames(std::vector{frame, frame}, 0.5, plots);
+  plot_frames(std::vector{frame}, 0.5, plots);  // instead of those before
   ASSERT_EQ(plot(plots, "overloaded").series[0].x.size(), 1u);
   EXPECT_NEAR(plot(plots, "overloaded").series[0].x[0], 10.0, 1e-12);
   EXPECT_EQ(plot(plots, "overloaded").series[0].y[0], 0.25);
@@ -80,9 +82,19 @@ TEST(Plots, of_frames_are_over_degrees) {
   EXPECT_EQ(plot(plots, "lengths").series[1].y[0], 7.0);
 }
 
+TEST(Plots, are_of_any_quantity) {
+  const Quantity made_up = {
+      &FrameRecord::critical_largest, "made_up", "T", "1", "made up", "", {"M", "Made up"}};
+  std::vector<Plot> plots = {plot_over_tilt("made_up", shown_title(made_up), {series_of(made_up)})};
+  plot_frames(std::vector{FrameRecord{.tilt = radians(10.0), .critical_largest = 7}}, 0.5, plots);
+  EXPECT_EQ(plots[0].title, "Made up");
+  EXPECT_EQ(plots[0].series[0].name, "M");
+  EXPECT_EQ(plots[0].series[0].y, std::vector{7.0});
+}
+
 TEST(Plots, of_gamma_are_a_density_of_the_frame) {
   std::vector<Plot> plots = empty_plots();
-  plot_gamma(example::bed_frame(0.0, 4), example::bed_statics(), plots);
+  plot_gamma({example::bed_frame(0.0, 4), example::bed_statics()}, plots);
   const Plot& gamma = plot(plots, "gamma");
   const PlotSeries& density = gamma.series[0];
   EXPECT_FALSE(gamma.over_tilt);
@@ -106,9 +118,9 @@ TEST(Plots, of_many_steps_keep_the_largest_of_neighbours) {
   EXPECT_EQ(std::ranges::count(residual.y, 0.5), 1);
   const auto highest = std::ranges::max_element(residual.y) - residual.y.begin();
   EXPECT_NEAR(residual.x[static_cast<std::size_t>(highest)], 7003.0, 5.0);
-  EXPECT_EQ(std::ranges::max(plot(plots, "passes").series[0].y), 999.0);
+  EXPECT_EQ(std::ranges::max(plot(plots, "iterations").series[0].y), 999.0);
   plot_steps({}, plots);
-  EXPECT_TRUE(plot(plots, "passes").series[0].x.empty());
+  EXPECT_TRUE(plot(plots, "iterations").series[0].x.empty());
 }
 
 }  // namespace

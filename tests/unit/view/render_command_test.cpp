@@ -90,10 +90,6 @@ TEST(RenderCommand, crops_in_diameters_and_never_beyond_the_part) {
 }
 
 TEST(RenderCommand, quotes_for_the_shell) {
-  EXPECT_EQ(shell_quoted("runs/a-1_b.h5"), "runs/a-1_b.h5");
-  EXPECT_EQ(shell_quoted("my run.h5"), "'my run.h5'");
-  EXPECT_EQ(shell_quoted("it's $HOME"), "'it'\\''s $HOME'");
-  EXPECT_EQ(shell_quoted(""), "''");
   RenderRequest of = shown("gamma");
   of.run = "my run.h5";
   EXPECT_EQ(render_command_line(of), "talus render 'my run.h5' --map gamma --at 12.25");

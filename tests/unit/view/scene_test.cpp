@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "core/trigonometry.h"
-#include "maps/cluster_frame.h"
+#include "pictures/overload_rule.h"
 #include "unit/view/example_bed.h"
 
 namespace talus {
@@ -25,12 +25,12 @@ struct Drawn {
     source.settings.layers = {MapKind::gamma};
     source.settings.theta_c = radians(20.0);
     source.extent = bed_extent(statics);
-    extend(source.extent, *source.frame, statics);
-    clusters = overloaded_clusters(*source.frame, statics, source.settings);
+    extend(source.extent, {*source.frame, statics});
+    clusters = overloaded_clusters({*source.frame, statics}, source.settings);
     map = draw_map(source, statics);
   }
   FrameView shown(const Overlay& overlay, const MapExtent& part) const {
-    return shown_map(map, part, *source.frame, overlay, clusters, statics);
+    return shown_map(map, part, {*source.frame, statics}, overlay, clusters);
   }
   FrameView shown(const Overlay& overlay) const { return shown(overlay, source.extent); }
 };
@@ -154,18 +154,18 @@ TEST(Scene, draws_walls_where_they_are) {
 TEST(Scene, knows_when_a_map_is_another) {
   const Drawn drawn;
   MapSource other = drawn.source;
-  EXPECT_TRUE(is_same(drawn.source, other));
+  EXPECT_EQ(drawn.source, other);
   other.settings.threshold_factor = 2.0;
-  EXPECT_FALSE(is_same(drawn.source, other));
+  EXPECT_NE(drawn.source, other);
   other = drawn.source;
   other.extent.y_max += 1.0;
-  EXPECT_FALSE(is_same(drawn.source, other));
+  EXPECT_NE(drawn.source, other);
   other = drawn.source;
   other.colours.resize(1);
-  EXPECT_FALSE(is_same(drawn.source, other));
+  EXPECT_NE(drawn.source, other);
   other = drawn.source;
   other.reference = other.frame;
-  EXPECT_FALSE(is_same(drawn.source, other));
+  EXPECT_NE(drawn.source, other);
 }
 
 TEST(Scene, gives_the_reason_where_a_map_cannot_be_drawn) {

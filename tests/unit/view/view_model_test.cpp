@@ -14,6 +14,7 @@
 #include "core/trigonometry.h"
 #include "io/analysis_file.h"
 #include "io/run_file.h"
+#include "session/analysis_parameters.h"
 #include "session/analysis_run.h"
 #include "support/temporary_folder.h"
 #include "unit/view/example_bed.h"
@@ -117,7 +118,7 @@ TEST_F(ViewOfRun, takes_curves_from_a_stored_analysis) {
   model_.reset();
   const RunFile run = RunFile::open(path_);
   Analysis analysis = analyse_run(run, parse_analysis_settings(single_grains), 1, {});
-  values<double>(analysis, "overloaded/fraction")[2 * 3] = 0.75;  // frame 3, first threshold: told apart
+  analysis.frames[3].thresholds[0].overloaded_fraction = 0.75;  // frame 3, first threshold: told apart
   store_analysis(path_, analysis, hash_text(state_hash(run.checkpoint().world)));
   model_.emplace(opened(path_));
   model_->update(0.0);  // at once

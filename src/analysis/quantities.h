@@ -1,0 +1,81 @@
+#pragma once
+/// All quantities of an analysis in one table: the member that holds each, how it is stored, what it means
+/// and how it is shown. The file of a run, JSON, plots, traces and figures go by it; docs/analysis.md is
+/// compared with it by a test. Whoever wants a quantity names its member; strings are for files and users.
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "analysis/record.h"
+#include "core/observables.h"
+
+namespace talus {
+
+/// Where a quantity is found in an Analysis. The type of the record says what it is one of: a run, a
+/// threshold, a frame, or a frame at a threshold.
+using QuantityMember =
+    std::variant<double Analysis::*, std::array<double, 2> Analysis::*, std::vector<double> Analysis::*,
+                 double RunThreshold::*, double FrameRecord::*, Index FrameRecord::*,
+                 std::array<double, 2> FrameRecord::*, std::array<double, 3> FrameRecord::*,
+                 std::array<double, 4> FrameRecord::*, std::vector<double> FrameRecord::*,
+                 double FrameThreshold::*, Index FrameThreshold::*, std::array<Index, 2> FrameThreshold::*,
+                 std::array<double, 2> FrameThreshold::*, std::vector<float> FrameThreshold::*,
+                 std::vector<Index> FrameThreshold::*>;
+
+/// How a quantity is shown beside others; empty for one that no curve shows.
+struct Display {
+  std::string symbol;  ///< "p_o": short, for a legend
+  std::string title;   ///< "p_o, share of overloaded grains"
+  bool percent = false;
+  std::optional<Observable> observable =
+      std::nullopt;  ///< where a run records it as well, more often than in frames
+};
+
+struct Quantity {
+  QuantityMember member;
+  std::string name;        ///< "lc/mean": below /analysis in a file, and in JSON
+  std::string shape;       ///< "T F": letters are sizes (docs/analysis.md); empty for a single number
+  std::string unit;        ///< SI, or "1"
+  std::string definition;  ///< one sentence
+  std::string parameters;  ///< names of those that it depends on, with blanks between; may be empty
+  Display display{};
+};
+
+/// In the order in which they are stored.
+const std::vector<Quantity>& quantities();
+
+/// The row of a member. Throws Error(internal) where the table has none.
+const Quantity& quantity_of(const QuantityMember& member);
+
+/// All values of a quantity in the order of its shape: by frame, then by threshold, then within.
+using Values = std::variant<std::vector<double>, std::vector<float>, std::vector<Index>>;
+Values values_of(const Quantity& quantity, const Analysis& analysis);
+
+/// Sets them, each frame and threshold to an equal part; these must be there.
+void set_values(const Quantity& quantity, const Values& values, Analysis& analysis);
+
+/// A single number of a frame, at threshold f where it depends on one; NaN for a quantity that is no such
+/// number.
+double number_of(const Quantity& quantity, const FrameRecord& frame, std::size_t f = 0);
+
+/// Element k of a quantity in doubles, among all its values; NaN where there are fewer.
+double number_of(const Quantity& quantity, const Analysis& analysis, std::size_t k);
+
+/// Whether it depends on the threshold: there is none of it in an analysis without thresholds.
+bool needs_threshold(const Quantity& quantity);
+
+/// In the unit of tables: lengths in mean diameters (m), angles in degrees, all else as it is.
+double scaled(const Quantity& quantity, double value, double mean_diameter);
+/// "D", "deg", or the unit of the table of quantities.
+std::string scaled_unit(const Quantity& quantity);
+
+/// In the unit of curves, which is that of tables but for small shares, in percent; and its title with the
+/// unit: "Volume strain ΔV/V in %".
+double shown(const Quantity& quantity, double value, double mean_diameter);
+std::string shown_title(const Quantity& quantity);
+
+}  // namespace talus

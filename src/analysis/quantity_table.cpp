@@ -1,0 +1,270 @@
+#include "analysis/quantities.h"
+
+namespace talus {
+namespace {
+
+using QuantityRows = std::vector<Quantity>;
+
+/// How a curve is called, in a legend and by itself, and where a run records it as well.
+Display curve(const std::string& symbol, const std::string& title, std::optional<Observable> recorded = {}) {
+  return {symbol, title, false, recorded};
+}
+Display percent(const std::string& symbol, const std::string& title,
+                std::optional<Observable> recorded = {}) {
+  return {symbol, title, true, recorded};
+}
+
+const std::string moments = "averaging";
+const std::string thresholds = "threshold_factors gamma_c";
+const std::string ratios = moments + " min_contacts l_min";
+const std::string overload = thresholds + " " + ratios;
+const std::string graining = overload + " lc_factor lc_cut";
+const std::string clusters = overload + " joining";
+
+QuantityRows general_rows() {
+  return {
+      {&Analysis::theta_c, "theta_c", "", "rad",
+       "angle of repose, as in /results; NaN if the slope has not failed", "",
+       curve("θ_c", "Angle of repose θ_c")},
+      {&Analysis::first_slide, "first_slide", "", "rad",
+       "first tilt after which the surface layer moves downslope by 0.5 D within 0.5 deg: it may stop again; "
+       "NaN if it never does",
+       ""},
+      {&Analysis::gamma_c, "gamma_c", "", "1",
+       "Gamma_c, the threshold of the packing: sin(theta_c), or as given; NaN where there is neither",
+       "gamma_c"},
+      {&RunThreshold::factor, "threshold_factor", "F", "1", "thresholds over Gamma_c", "threshold_factors"},
+      {&RunThreshold::gamma, "threshold", "F", "1",
+       "stress ratio from which on a grain counts as overloaded, factor * Gamma_c", thresholds},
+  };
+}
+
+QuantityRows packing_rows() {
+  return {
+      {&FrameRecord::volume, "packing/volume", "T", "m^2", "V, area below the free surface", ""},
+      {&FrameRecord::stress, "packing/stress", "T 2 2", "Pa",
+       "mean stress of the packing, the sum of the internal moments of the free grains over V (paper, Eq. "
+       "6); compression positive, y away from the floor",
+       moments},
+      {&FrameRecord::sigma_t_over_n, "packing/sigma_t_over_n", "T", "1",
+       "sigma_T / sigma_N = -sigma_yx / sigma_yy; tan(theta) for a periodic bed in equilibrium (paper, Eq. "
+       "10)",
+       moments, curve("σ_T/σ_N", "σ_T/σ_N of the packing", Observable::sigma_t_over_n)},
+      {&FrameRecord::stress_ratio, "packing/stress_ratio", "T", "1",
+       "Gamma = Q/P of the packing (paper, Eq. 7); sin(theta) for a periodic bed in equilibrium (paper, Eq. "
+       "11)",
+       moments, curve("Γ = Q/P", "Γ = Q/P of the packing", Observable::stress_ratio)},
+      {&FrameRecord::volume_strain, "packing/volume_strain", "T", "1",
+       "(V - V0)/V0, V0 at the start of the tilt; negative = contraction; from /observables", "",
+       percent("ΔV/V", "Volume strain ΔV/V", Observable::volume_strain)},
+      {&FrameRecord::centre_of_mass_strain, "packing/centre_of_mass_strain", "T", "1",
+       "(y - y0)/y0 of the centre of mass, a quieter estimate of the volume strain; from /observables", "",
+       percent("Δy/y", "Strain of the centre of mass Δy/y", Observable::centre_of_mass_strain)},
+      {&FrameRecord::bulk_solid_fraction, "packing/bulk_solid_fraction", "T", "1",
+       "share of the area that the free grains cover from 5 D above the floor to 5 D below the mean free "
+       "surface; NaN where the bed is not deep enough",
+       ""},
+      {&FrameRecord::solid_fraction, "packing/solid_fraction", "T", "1",
+       "area of the free grains over V; from /observables", ""},
+      {&Analysis::section_edge, "sections/edge", "X+1", "m",
+       "edges of equal sections along the bed; a grain belongs to the section of its centre", "sections"},
+      {&FrameRecord::section_sigma_xx, "sections/sigma_xx", "T X", "Pa",
+       "mean stress sigma_xx of a section, the sum of M_xx of its grains over V / sections (paper, Fig. 6)",
+       moments + " sections"},
+  };
+}
+
+QuantityRows overload_rows() {
+  return {
+      {&Analysis::gamma_edge, "gamma/edge", "B+1", "1", "edges of the bins of gamma", "bins"},
+      {&FrameRecord::gamma_density, "gamma/density", "T B", "1",
+       "probability density of gamma over the free grains that carry something (paper, Fig. 8); gamma of a "
+       "grain is the stress ratio of its neighbourhood of diameter l_min, here and in all that follows",
+       ratios + " bins"},
+      {&FrameRecord::gamma_error, "gamma/error", "T B", "1",
+       "standard error of the density, from the number of grains in each bin", ratios + " bins"},
+      {&FrameRecord::gamma_mean, "gamma/mean", "T", "1", "mean gamma of the free grains that carry something",
+       ratios},
+      {&FrameRecord::gamma_share_above_one, "gamma/share_above_one", "T", "1",
+       "share of these grains with gamma above 1: the weight of a grain, small beside its contact forces, "
+       "can make one principal value negative; they count in the density outside of its bins",
+       ratios},
+      {&FrameThreshold::overloaded_fraction, "overloaded/fraction", "T F", "1",
+       "p_o: overloaded grains over the free grains that carry something", overload,
+       curve("p_o", "p_o, share of overloaded grains")},
+      {&FrameThreshold::overloaded_fraction_of_all, "overloaded/fraction_of_all", "T F", "1",
+       "overloaded grains over all free grains", overload},
+      {&Analysis::lc_cut, "lc/cut", "", "m",
+       "diameter at which the search for l_c ends, in a periodic bed not above L; not below l_min",
+       "lc_cut l_min"},
+      {&RunThreshold::end_ratio, "lc/end_ratio", "F", "1",
+       "stress ratio of a neighbourhood at which l_c is found", thresholds + " lc_factor"},
+      {&FrameThreshold::lc, "lc/length", "T F N", "m",
+       "l_c of an overloaded grain, a diameter: that of the smallest circle about its centre, from l_min on, "
+       "in which the summed internal moments have a stress ratio not above lc/end_ratio; the cut where there "
+       "is none; NaN for other grains",
+       graining},
+      {&FrameThreshold::lc_mean, "lc/mean", "T F", "m", "mean l_c of the overloaded grains", graining,
+       curve("mean", "Mean ℓ_c of the overloaded grains")},
+      {&FrameThreshold::lc_error, "lc/error", "T F", "m",
+       "standard error of that mean, as if grains were independent", graining},
+      {&FrameThreshold::lc_max, "lc/max", "T F", "m", "largest l_c", graining,
+       curve("largest", "Largest ℓ_c")},
+      {&FrameThreshold::lc_share_cut, "lc/share_cut", "T F", "1",
+       "share of the overloaded grains whose l_c is cut off", graining},
+  };
+}
+
+QuantityRows cluster_rows() {
+  return {
+      {&FrameThreshold::cluster, "clusters/label", "T F N", "1",
+       "cluster of an overloaded grain, 0 the largest; -1 for other grains; sizes are the counts of each "
+       "label",
+       clusters},
+      {&FrameThreshold::cluster_count, "clusters/count", "T F", "1", "clusters of overloaded grains",
+       clusters},
+      {&FrameThreshold::largest_cluster, "clusters/largest", "T F", "1", "grains in the largest cluster",
+       clusters},
+      {&FrameThreshold::largest_share, "clusters/largest_share", "T F", "1",
+       "share of the overloaded grains in their largest cluster", clusters,
+       curve("largest cluster", "Share of overloaded grains in their largest cluster")},
+      {&FrameThreshold::mean_cluster, "clusters/mean", "T F", "1", "mean size of the clusters, in grains",
+       clusters},
+      {&FrameThreshold::second_moment, "clusters/second_moment", "T F", "1",
+       "sum of s^2 / sum of s over the sizes s of all clusters", clusters},
+      {&FrameThreshold::second_moment_of_others, "clusters/second_moment_of_others", "T F", "1",
+       "the same without the largest cluster", clusters},
+      {&FrameThreshold::spans_depth, "clusters/spans_depth", "T F", "1",
+       "1 where a cluster reaches from the floor to the surface, else 0", clusters},
+      {&FrameThreshold::spans_length, "clusters/spans_length", "T F", "1",
+       "1 where a cluster reaches from wall to wall, or around the period, else 0", clusters},
+      {&Analysis::direction, "clusters/direction", "2", "rad", "directions of directed paths, to the bed",
+       ""},
+      {&FrameThreshold::directed_spans, "clusters/directed_spans", "T F 2", "1",
+       "1 where a path through overloaded grains leads from the floor to the surface, each of its steps "
+       "within 30 deg of a direction (the paper's directed percolation), else 0",
+       clusters},
+      {&FrameThreshold::directed_height, "clusters/directed_height", "T F 2", "1",
+       "largest rise of such a path, from centre to centre, over the mean height V / L of the bed", clusters},
+  };
+}
+
+QuantityRows contact_rows() {
+  return {
+      {&FrameRecord::coordination_number, "contacts/coordination_number", "T", "1",
+       "z: force-carrying contacts per free grain that carries force, each counted for each free grain it "
+       "touches",
+       "", curve("z", "z, coordination number", Observable::coordination_number)},
+      {&FrameRecord::coordination_number_of_all, "contacts/coordination_number_of_all", "T", "1",
+       "the same per free grain", ""},
+      {&FrameRecord::coordination_number_without_rattlers, "contacts/coordination_number_without_rattlers",
+       "T", "1", "z without rattlers: grains with fewer than two contacts are taken away, again and again",
+       ""},
+      {&FrameRecord::rattler_fraction, "contacts/rattler_fraction", "T", "1",
+       "share of the free grains that are rattlers", ""},
+      {&Analysis::direction_edge, "contacts/direction_edge", "B+1", "rad",
+       "edges of the bins of the direction of contact normals to the bed", "bins"},
+      {&FrameRecord::direction_density, "contacts/direction_density", "T B", "1/rad",
+       "probability density of the direction of contact normals", "bins"},
+      {&FrameRecord::direction_density_by_force, "contacts/direction_density_by_force", "T B", "1/rad",
+       "the same, each contact weighted with f_n", "bins"},
+      {&FrameRecord::direction_peak, "contacts/direction_peak", "T 3", "rad",
+       "where the directions concentrate most within 30 deg of 0, 60 and 120 deg (density smoothed over 5 "
+       "deg)",
+       ""},
+      {&FrameRecord::fabric_amplitude, "contacts/fabric_amplitude", "T 2", "1",
+       "amplitude of the Fourier components 2 and 6 of the density of directions, relative to a uniform one",
+       ""},
+      {&FrameRecord::fabric_angle, "contacts/fabric_angle", "T 2", "rad",
+       "first peak of each: at angle + k 180 deg and at angle + k 60 deg the directions concentrate", ""},
+      {&FrameRecord::mean_normal_force, "contacts/mean_normal_force", "T", "N/m",
+       "mean f_n of the force-carrying contacts, per metre of thickness", ""},
+      {&Analysis::force_edge, "contacts/force_edge", "B+1", "1",
+       "edges of the bins of f_n over its mean, of equal ratio", "bins"},
+      {&FrameRecord::force_density, "contacts/force_density", "T B", "1",
+       "probability density of f_n over its mean", "bins"},
+      {&Analysis::mobilisation_edge, "contacts/mobilisation_edge", "B+1", "1",
+       "edges of the bins of the mobilised friction, the size of f_t over mu f_n", "bins"},
+      {&FrameRecord::mobilisation_density, "contacts/mobilisation_density", "T B", "1",
+       "probability density of the mobilised friction", "bins"},
+      {&FrameRecord::strong_share, "contacts/strong_share", "T", "1",
+       "share of the contacts whose f_n is above the mean: the strong network", ""},
+      {&FrameRecord::strong_share_of_mean_stress, "contacts/strong_share_of_mean_stress", "T", "1",
+       "share of the mean stress that the strong network carries", ""},
+      {&FrameRecord::strong_share_of_deviator, "contacts/strong_share_of_deviator", "T", "1",
+       "share of the deviator Q that it carries, along the principal axes of the whole", ""},
+      {&FrameRecord::strong_stress_ratio, "contacts/strong_stress_ratio", "T", "1",
+       "Q/P of the stress of the strong network", ""},
+      {&FrameRecord::weak_stress_ratio, "contacts/weak_stress_ratio", "T", "1",
+       "Q/P of the stress of the weak network", ""},
+      {&FrameRecord::critical_share, "contacts/critical_share", "T", "1",
+       "share of the force-carrying contacts whose friction is fully mobilised", ""},
+      {&FrameRecord::critical_largest, "contacts/critical_largest", "T", "1",
+       "contacts in the largest cluster of critical contacts, joined where they share a free grain", ""},
+      {&FrameRecord::critical_correlation_length, "contacts/critical_correlation_length", "T", "m",
+       "correlation length of these clusters, sqrt(2 sum of s^2 R^2 / sum of s^2), R the radius of gyration "
+       "of a cluster",
+       ""},
+  };
+}
+
+QuantityRows correlation_rows() {
+  return {
+      {&Analysis::correlation_distance, "correlation/distance", "B", "m",
+       "middle of the bins of the distance between two points", "bins"},
+      {&FrameRecord::normal_force_correlation, "correlation/normal_force", "T B", "1",
+       "correlation of the normal forces at two contact points, each over the mean of its layer of 2 D: mean "
+       "of df df over that of df^2",
+       "bins"},
+      {&FrameRecord::gamma_correlation, "correlation/gamma", "T B", "1",
+       "correlation of gamma of two free grains", ratios + " bins"},
+      {&FrameRecord::mean_stress_correlation, "correlation/mean_stress", "T B", "1",
+       "correlation of p / (pi r^2) of two free grains, each over the mean of its layer of 2 D; p is the "
+       "trace of the internal moment",
+       moments + " bins"},
+  };
+}
+
+QuantityRows transition_rows() {
+  return {
+      {&RunThreshold::lc_jump, "theta_d/lc_jump", "F", "rad",
+       "theta_d from l_c: tilt of the frame after the largest increase of lc/max between two frames, up to "
+       "theta_c and to the first frame that reaches the cut; NaN where it never increases",
+       graining},
+      {&RunThreshold::lc_jump_error, "theta_d/lc_jump_error", "F", "rad", "spacing of these two frames",
+       graining},
+      {&RunThreshold::lc_jump_size, "theta_d/lc_jump_size", "F", "m", "that increase", graining},
+      {&RunThreshold::percolation, "theta_d/percolation", "F", "rad",
+       "theta_d from percolation: tilt of the first frame from which on, for 3 frames at least, "
+       "clusters/spans_depth is 1; NaN where there is none",
+       clusters},
+      {&RunThreshold::percolation_error, "theta_d/percolation_error", "F", "rad",
+       "spacing from the frame before; NaN where it is the first frame: then theta_d is not above it",
+       clusters},
+      {&Analysis::dilation, "theta_d/dilation", "2", "rad",
+       "theta_d from the onset of dilation: tilt where the volume strain, and where the centre-of-mass "
+       "strain, is smallest up to theta_c, each a mean over 1 deg; NaN where it does not rise after it by "
+       "more than its noise",
+       ""},
+      {&Analysis::dilation_low, "theta_d/dilation_low", "2", "rad",
+       "lowest tilt of the range around it in which the strain is not above the minimum by more than its "
+       "noise, the rms deviation from the mean over 1 deg",
+       ""},
+      {&Analysis::dilation_high, "theta_d/dilation_high", "2", "rad", "highest tilt of that range", ""},
+  };
+}
+
+}  // namespace
+
+const std::vector<Quantity>& quantities() {
+  static const QuantityRows table = [] {
+    QuantityRows all;
+    for (const QuantityRows& part : {general_rows(), packing_rows(), overload_rows(), cluster_rows(),
+                                     contact_rows(), correlation_rows(), transition_rows()})
+      all.insert(all.end(), part.begin(), part.end());
+    return all;
+  }();
+  return table;
+}
+
+}  // namespace talus

@@ -1,0 +1,115 @@
+#pragma once
+/// What the analysis of a run finds. Each number is defined in one place, the table of quantities.h; here it
+/// only has its name and its type. SI units; NaN where a quantity is not known, or does not exist.
+
+#include <array>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "core/snapshot.h"
+
+namespace talus {
+
+inline constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
+inline constexpr std::array<double, 2> two_not_known = {not_known, not_known};
+
+/// The overloaded grains of one frame, at one threshold. Arrays over grains are in the order of their ids.
+struct FrameThreshold {
+  double overloaded_fraction = not_known;
+  double overloaded_fraction_of_all = not_known;
+  std::vector<float> lc{};
+  double lc_mean = not_known;
+  double lc_error = not_known;
+  double lc_max = not_known;
+  double lc_share_cut = not_known;
+  std::vector<Index> cluster{};
+  Index cluster_count = 0;
+  Index largest_cluster = 0;
+  double largest_share = not_known;
+  double mean_cluster = not_known;
+  double second_moment = not_known;
+  double second_moment_of_others = not_known;
+  Index spans_depth = 0;
+  Index spans_length = 0;
+  std::array<Index, 2> directed_spans{};
+  std::array<double, 2> directed_height = two_not_known;
+};
+
+/// One frame.
+struct FrameRecord {
+  double tilt = 0.0;  ///< rad
+  double volume = not_known;
+  std::array<double, 4> stress = {not_known, not_known, not_known, not_known};  ///< xx, xy, yx, yy
+  double sigma_t_over_n = not_known;
+  double stress_ratio = not_known;
+  double volume_strain = not_known;
+  double centre_of_mass_strain = not_known;
+  double bulk_solid_fraction = not_known;
+  double solid_fraction = not_known;
+  std::vector<double> section_sigma_xx{};
+  std::vector<double> gamma_density{};
+  std::vector<double> gamma_error{};
+  double gamma_mean = not_known;
+  double gamma_share_above_one = not_known;
+  double coordination_number = not_known;
+  double coordination_number_of_all = not_known;
+  double coordination_number_without_rattlers = not_known;
+  double rattler_fraction = not_known;
+  std::vector<double> direction_density{};
+  std::vector<double> direction_density_by_force{};
+  std::array<double, 3> direction_peak = {not_known, not_known, not_known};
+  std::array<double, 2> fabric_amplitude = two_not_known;
+  std::array<double, 2> fabric_angle = two_not_known;
+  double mean_normal_force = not_known;
+  std::vector<double> force_density{};
+  std::vector<double> mobilisation_density{};
+  double strong_share = not_known;
+  double strong_share_of_mean_stress = not_known;
+  double strong_share_of_deviator = not_known;
+  double strong_stress_ratio = not_known;
+  double weak_stress_ratio = not_known;
+  double critical_share = not_known;
+  Index critical_largest = 0;
+  double critical_correlation_length = not_known;
+  std::vector<double> normal_force_correlation{};
+  std::vector<double> gamma_correlation{};
+  std::vector<double> mean_stress_correlation{};
+  std::vector<FrameThreshold> thresholds{};  ///< in the order of those of the run
+};
+
+/// A threshold, and where the run changes by it.
+struct RunThreshold {
+  double factor = not_known;
+  double gamma = not_known;
+  double end_ratio = not_known;
+  double lc_jump = not_known;
+  double lc_jump_error = not_known;
+  double lc_jump_size = not_known;
+  double percolation = not_known;
+  double percolation_error = not_known;
+};
+
+/// The analysis of a run. Without theta_c and without a threshold that is given there are no thresholds.
+struct Analysis {
+  std::string key;   ///< the hash of all that it was made from
+  Facts parameters;  ///< name and value as text, in the order of their table
+  double theta_c = not_known;
+  double first_slide = not_known;
+  double gamma_c = not_known;
+  double lc_cut = not_known;
+  std::vector<double> section_edge{};
+  std::vector<double> gamma_edge{};
+  std::array<double, 2> direction = two_not_known;
+  std::vector<double> direction_edge{};
+  std::vector<double> force_edge{};
+  std::vector<double> mobilisation_edge{};
+  std::vector<double> correlation_distance{};
+  std::array<double, 2> dilation = two_not_known;  ///< by the volume, by the centre of mass
+  std::array<double, 2> dilation_low = two_not_known;
+  std::array<double, 2> dilation_high = two_not_known;
+  std::vector<RunThreshold> thresholds{};
+  std::vector<FrameRecord> frames{};
+};
+
+}  // namespace talus

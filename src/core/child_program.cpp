@@ -1,0 +1,108 @@
+#include "core/child_program.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/prctl.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <fmt/core.h>
+
+#include "core/descriptor.h"
+
+namespace talus {
+namespace {
+
+constexpr const char* kept_variables[] = {"PATH", "LD_LIBRARY_PATH", "TMPDIR"};
+
+std::vector<std::string> clean_environment() {
+  std::vector<std::string> variables = {"LC_ALL=C.UTF-8"};
+  for (const char* name : kept_variables)
+    if (const char* value = std::getenv(name)) variables.push_back(fmt::format("{}={}", name, value));
+  return variables;
+}
+
+std::vector<char*> pointers(std::vector<std::string>& texts) {
+  std::vector<char*> result;
+  result.reserve(texts.size() + 1);
+  for (std::string& text : texts) result.push_back(text.data());
+  result.push_back(nullptr);
+  return result;
+}
+
+/// What the child is to become: all that needs memory is made before the fork.
+struct Start {
+  std::vector<char*> words, variables;
+  ProgramStreams streams;
+  const char* folder;
+  pid_t parent;
+};
+
+void give(int stream, int from, int nowhere) { ::dup2(from < 0 ? nowhere : from, stream); }
+
+/// Between fork and exec: only calls that are safe there. Returns where it fails.
+void become(const Start& start) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (::getppid() != start.parent) _exit(1);  // it has ended already
+  sigset_t none;
+  sigemptyset(&none);
+  sigprocmask(SIG_SETMASK, &none, nullptr);
+  const int nowhere = ::open("/dev/null", O_RDWR | O_CLOEXEC);
+  give(STDIN_FILENO, start.streams.in, nowhere);
+  give(STDOUT_FILENO, start.streams.out, nowhere);
+  give(STDERR_FILENO, start.streams.err, nowhere);
+  if (::chdir(start.folder) == 0) ::execvpe(start.words[0], start.words.data(), start.variables.data());
+}
+
+}  // namespace
+
+pid_t start_program(const std::vector<std::string>& words, const ProgramStreams& streams,
+                    const std::string& folder) {
+  std::vector<std::string> arguments = words, environment = clean_environment();
+  const Start start = {pointers(arguments), pointers(environment), streams, folder.c_str(), ::getpid()};
+  int ends[2] = {-1, -1};
+  if (::pipe2(ends, O_CLOEXEC) != 0) return -1;
+  const Descriptor from(ends[0]);
+  Descriptor to(ends[1]);
+  const pid_t child = ::fork();
+  if (child == 0) {
+    become(start);
+    const int reason = errno;
+    [[maybe_unused]] const ssize_t written = ::write(to.get(), &reason, sizeof reason);
+    _exit(1);
+  }
+  if (child < 0) return -1;
+  to.close();
+  int reason = 0;
+  ssize_t count = 0;
+  while ((count = ::read(from.get(), &reason, sizeof reason)) < 0 && errno == EINTR) continue;
+  if (count == 0) return child;  // the pipe was closed by exec
+  wait_for_program(child, {});
+  errno = reason;
+  return -1;
+}
+
+int wait_for_program(pid_t program, const std::function<void()>& meanwhile) {
+  int status = 0;
+  const auto collect = [&] {
+    while (::waitpid(program, &status, 0) < 0 && errno == EINTR) continue;
+  };
+  const Descriptor handle(meanwhile ? static_cast<int>(::syscall(SYS_pidfd_open, program, 0)) : -1);
+  pollfd ended = {handle.get(), POLLIN, 0};
+  constexpr int milliseconds = 100;
+  try {
+    while (handle.get() >= 0 && ::poll(&ended, 1, milliseconds) <= 0) meanwhile();
+  } catch (...) {
+    ::kill(program, SIGKILL);
+    collect();
+    throw;
+  }
+  collect();
+  return status;
+}
+
+}  // namespace talus

@@ -1,0 +1,28 @@
+#pragma once
+/// Other programs that this one starts.
+
+#include <sys/types.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace talus {
+
+/// Descriptors of its standard streams; one that is negative is /dev/null.
+struct ProgramStreams {
+  int in = -1, out = -1, err = -1;
+};
+
+/// Starts words[0], as PATH finds it, with the other words as its arguments, in a folder. It ends when this
+/// process ends, however that is (SIGKILL), and sees of the environment only where programs, libraries and
+/// temporary files are, so that what it writes does not depend on locale or home. Returns its process, or -1
+/// with the reason in errno where it cannot be started.
+pid_t start_program(const std::vector<std::string>& words, const ProgramStreams& streams,
+                    const std::string& folder = ".");
+
+/// Waits until it has ended and returns its status (waitpid). `meanwhile` is called ten times a second, or
+/// may be empty; where it throws, the program is ended.
+int wait_for_program(pid_t program, const std::function<void()>& meanwhile);
+
+}  // namespace talus

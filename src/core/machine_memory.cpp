@@ -1,0 +1,60 @@
+#include "core/machine_memory.h"
+
+#include <sys/resource.h>
+#include <sys/sysinfo.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <string>
+
+namespace talus {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double unlimited = std::numeric_limits<double>::infinity();
+
+double of_machine() {
+  struct sysinfo info = {};
+  if (sysinfo(&info) != 0) return unlimited;
+  return (static_cast<double>(info.totalram) + static_cast<double>(info.totalswap)) * info.mem_unit;
+}
+
+double of_shell() {
+  rlimit limit = {};
+  const bool limited = getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
+  return limited ? static_cast<double>(limit.rlim_cur) : unlimited;
+}
+
+/// The least of the limits of a group and those above it. A file that holds no number ("max") is no limit.
+double least_limit(const fs::path& root, fs::path group, const char* file) {
+  double least = unlimited;
+  for (;; group = group.parent_path()) {
+    double limit = 0.0;
+    if (std::ifstream(root / group.relative_path() / file) >> limit) least = std::min(least, limit);
+    if (!group.has_relative_path()) return least;
+  }
+}
+
+/// Lines "0::/group" (version 2) and "5:memory:/group" (version 1).
+double of_groups() {
+  double least = unlimited;
+  std::ifstream groups("/proc/self/cgroup");
+  for (std::string line; std::getline(groups, line);) {
+    const auto first = line.find(':'), second = line.find(':', first + 1);
+    if (second == std::string::npos) continue;
+    const std::string kinds = line.substr(first + 1, second - first - 1), group = line.substr(second + 1);
+    if (kinds.empty()) least = std::min(least, least_limit("/sys/fs/cgroup", group, "memory.max"));
+    if (kinds == "memory")
+      least = std::min(least, least_limit("/sys/fs/cgroup/memory", group, "memory.limit_in_bytes"));
+  }
+  return least;
+}
+
+}  // namespace
+
+double machine_memory() { return std::min({of_machine(), of_shell(), of_groups()}); }
+
+}  // namespace talus

@@ -1,0 +1,203 @@
+#include "core/output_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <filesystem>
+#include <fmt/core.h>
+
+#include "core/errors.h"
+#include "core/locked_file.h"
+
+namespace talus {
+namespace {
+
+namespace fs = std::filesystem;
+
+const char* kind_of(mode_t mode) {
+  if (S_ISDIR(mode)) return "a folder";
+  if (S_ISFIFO(mode)) return "a FIFO";
+  if (S_ISSOCK(mode)) return "a socket";
+  return "a device";
+}
+
+bool is_same(const struct stat& file, const std::string& path) {
+  struct stat other {};
+  return ::stat(path.c_str(), &other) == 0 && other.st_dev == file.st_dev && other.st_ino == file.st_ino;
+}
+
+/// Whether a file is one of the inputs, or lies in one.
+bool is_input(const struct stat& file, const std::string& target, const OutputRule& rule) {
+  struct stat folder {};
+  const bool has_folder = ::stat(parent_folder(target).c_str(), &folder) == 0;
+  for (const std::string& input : rule.inputs)
+    if (is_same(file, input) || (has_folder && is_same(folder, input))) return true;
+  return false;
+}
+
+[[noreturn]] void refuse(const std::string& path, const std::string& reason) {
+  throw Error(ExitCode::cannot_create, path + reason);
+}
+
+/// Where a path leads that is a link. /dev/stdout and its like lead to what a shell has opened, which is not
+/// to be replaced.
+std::string end_of_link(const std::string& path) {
+  std::error_code error;
+  const fs::path next = fs::read_symlink(path, error), folder = fs::canonical(parent_folder(path), error);
+  if (next.string().starts_with("/proc/") || folder.string().starts_with("/proc/"))
+    refuse(path, " is an open file of a process; choose another output with -o");
+  fs::path target = fs::canonical(path, error);
+  if (error)
+    refuse(path, " is a link that cannot be followed (" + error.message() +
+                     "); remove it, or choose another output with -o");
+  return target.string();
+}
+
+}  // namespace
+
+std::string output_target(const std::string& path, const OutputRule& rule) {
+  if (path.empty()) throw Error(ExitCode::usage, "the output has an empty name; give one with -o");
+  struct stat file {};
+  if (::lstat(path.c_str(), &file) != 0) {
+    if (errno != ENOENT && errno != ENOTDIR) throw creation_error("create", path, errno);
+    if (path.back() == '/') refuse(path, " names a folder; choose a file as the output with -o");
+    return path;
+  }
+  std::string target = S_ISLNK(file.st_mode) ? end_of_link(path) : path;
+  if (::stat(target.c_str(), &file) != 0) throw creation_error("replace", path, errno);
+  if (!S_ISREG(file.st_mode))
+    refuse(path, std::string(" is ") + kind_of(file.st_mode) + "; choose another output with -o");
+  if (is_input(file, target, rule))
+    throw Error(rule.overwrite ? ExitCode::usage : ExitCode::cannot_create,
+                path +
+                    " is read by this command, and is not replaced by what it makes of it; choose another "
+                    "output with -o");
+  if (!rule.overwrite) refuse(path, " exists; give --overwrite to replace it, or another -o");
+  return target;
+}
+
+namespace {
+
+Descriptor create(const std::string& temporary, const std::string& path) {
+  std::optional<Descriptor> file = create_locked(temporary);
+  if (!file)
+    refuse(path, " is being written by another process; wait for it to end, or choose another output");
+  return std::move(*file);
+}
+
+void sync(const Descriptor& file, const std::string& path) {
+  while (::fsync(file.get()) != 0)
+    if (errno != EINTR) throw system_error(ExitCode::io_error, "make durable (fsync)", path, errno);
+}
+
+/// Mode and owner of the file that is replaced. A user may not give files away: then the owner is the user.
+void inherit(const Descriptor& file, const std::string& target, const std::string& path) {
+  struct stat before {};
+  if (::stat(target.c_str(), &before) != 0) return;
+  if (::fchown(file.get(), before.st_uid, before.st_gid) != 0 &&
+      ::fchown(file.get(), static_cast<uid_t>(-1), before.st_gid) != 0 && errno != EPERM)
+    throw system_error(ExitCode::io_error, "keep the owner of", path, errno);
+  if (::fchmod(file.get(), before.st_mode & 0777) != 0 && errno != EPERM)
+    throw system_error(ExitCode::io_error, "keep the mode of", path, errno);
+}
+
+}  // namespace
+
+OutputFile::OutputFile(const std::string& path)
+    : path_(path),
+      target_(output_target(path)),
+      temporary_path_(target_ + temporary_ending),
+      file_(create(temporary_path_, path_)) {}
+
+OutputFile::~OutputFile() {
+  if (!committed_ && is_named(temporary_path_, file_)) ::unlink(temporary_path_.c_str());
+}
+
+void OutputFile::write(std::span<const std::byte> bytes) {
+  written_ += bytes.size();
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(file_.get(), bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) throw system_error(ExitCode::io_error, "write", path_, errno);
+    bytes = bytes.subspan(static_cast<std::size_t>(written));
+  }
+}
+
+void OutputFile::flush() {
+  sync(file_, path_);
+  struct stat file {};
+  if (::fstat(file_.get(), &file) != 0) throw system_error(ExitCode::io_error, "look at", path_, errno);
+  if (const auto size = static_cast<std::uint64_t>(file.st_size); written_ > 0 && size != written_)
+    throw Error(ExitCode::io_error,
+                fmt::format("{}: has {} bytes on the disk after {} were written", path_, size, written_));
+}
+
+void OutputFile::commit(const CheckFile& check) {
+  inherit(file_, target_, path_);
+  flush();
+  if (check) check(temporary_path_);
+  if (!is_named(temporary_path_, file_))
+    refuse(path_, ": its temporary file " + temporary_path_ +
+                      " was removed or replaced while it was written; nothing was changed");
+  if (std::rename(temporary_path_.c_str(), target_.c_str()) != 0)
+    throw creation_error("create", path_, errno);
+  committed_ = true;
+}
+
+std::string parent_folder(const std::string& path) {
+  const std::string folder = fs::path(path).parent_path().string();
+  return folder.empty() ? "." : folder;
+}
+
+void sync_name(const std::string& path) {
+  const Descriptor folder(::open(parent_folder(path).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (folder.get() < 0) throw system_error(ExitCode::io_error, "open the folder of", path, errno);
+  sync(folder, path);
+}
+
+void give_name(const std::string& made, const std::string& path) {
+  const std::string target = output_target(path);
+  const Descriptor file(::open(made.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC));
+  if (file.get() < 0) throw system_error(ExitCode::io_error, "open", made, errno);
+  inherit(file, target, path);
+  sync(file, path);
+  if (std::rename(made.c_str(), target.c_str()) == 0) return;
+  if (errno != EXDEV) throw creation_error("create", path, errno);
+  OutputFile copy(path);
+  std::vector<std::byte> part(std::size_t{1} << 20);
+  while (const std::size_t count = read_at_most(file, part, made)) copy.write(std::span(part).first(count));
+  copy.commit();
+  ::unlink(made.c_str());
+}
+
+namespace {
+
+/// Each folder that is made keeps its name when the power goes.
+void make_with_parents(const std::string& folder) {
+  std::error_code unknown;
+  if (fs::is_directory(folder, unknown)) return;
+  if (const std::string parent = parent_folder(folder); parent != folder) make_with_parents(parent);
+  if (::mkdir(folder.c_str(), 0777) != 0 && (errno != EEXIST || !fs::is_directory(folder, unknown)))
+    throw creation_error("create the folder", folder, errno == EEXIST ? ENOTDIR : errno);
+  const Descriptor above(::open(parent_folder(folder).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (above.get() >= 0) sync(above, folder);
+}
+
+}  // namespace
+
+void create_folder(const std::string& folder) {
+  make_with_parents(folder);
+  if (::access(folder.c_str(), W_OK | X_OK) != 0)
+    throw system_error(ExitCode::cannot_create, "write in the folder", folder, errno);
+}
+
+void create_folder_of(const std::string& path) {
+  const std::string folder = parent_folder(path);
+  std::error_code unknown;
+  if (!fs::is_directory(folder, unknown)) create_folder(folder);
+}
+
+}  // namespace talus

@@ -1,0 +1,22 @@
+#pragma once
+/// Vectors and tensors of the plane as matrices of Eigen, to compute with them as one writes them:
+/// matrix(M) += r * f.transpose().
+
+#include <Eigen/Core>
+
+#include "core/types.h"
+
+namespace talus {
+
+using Vector2 = Eigen::Vector2d;
+
+/// A tensor as a matrix on the same four numbers.
+using Matrix2 = Eigen::Matrix<double, 2, 2, Eigen::RowMajor>;
+static_assert(sizeof(Tensor2) == sizeof(Matrix2));
+inline Eigen::Map<Matrix2> matrix(Tensor2& tensor) { return Eigen::Map<Matrix2>(&tensor.xx); }
+inline Eigen::Map<const Matrix2> matrix(const Tensor2& tensor) {
+  return Eigen::Map<const Matrix2>(&tensor.xx);
+}
+inline Tensor2 tensor(const Matrix2& m) { return {m(0, 0), m(0, 1), m(1, 0), m(1, 1)}; }
+
+}  // namespace talus

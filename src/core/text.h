@@ -1,0 +1,25 @@
+#pragma once
+/// Texts that are made in several places.
+
+#include <fmt/core.h>
+#include <functional>
+#include <iterator>
+#include <string>
+#include <string_view>
+
+namespace talus {
+
+/// The items one after the other, or what `text_of` makes of each, with `between` between them.
+template <typename Items, typename TextOf = std::identity>
+std::string joined(const Items& items, std::string_view between, const TextOf& text_of = {}) {
+  std::string text;
+  const auto begin = std::begin(items);
+  for (auto item = begin; item != std::end(items); ++item)
+    text += fmt::format("{}{}", item == begin ? "" : between, std::invoke(text_of, *item));
+  return text;
+}
+
+/// A word as a shell reads it: in quotes where it has to be.
+std::string shell_quoted(const std::string& word);
+
+}  // namespace talus

@@ -1,0 +1,21 @@
+#pragma once
+/// Text of a file or of a user, shown on a terminal.
+
+#include <string>
+#include <string_view>
+
+namespace talus {
+
+/// The text without anything that a terminal obeys rather than shows: control characters (those of Unicode
+/// among them, and what turns the direction of writing) and bytes that are no UTF-8 become \xNN. Lines stay
+/// lines.
+std::string visible(std::string_view text);
+
+/// The length of the UTF-8 character at the beginning of a text that is not empty, in bytes; 0 where there is
+/// none.
+std::size_t character_length(std::string_view text);
+
+/// Whether a character of UTF-8 is one that a terminal obeys.
+bool is_control(std::string_view character);
+
+}  // namespace talus

@@ -1,0 +1,128 @@
+#include "dynamics/form_problem.h"
+
+#include <algorithm>
+
+namespace talus {
+namespace {
+
+/// Copies without an exact fit: an assignment would allocate for each contact more than ever before.
+template <typename Value>
+void copy(const std::vector<Value>& from, std::vector<Value>& to) {
+  to.resize(from.size());
+  std::copy(from.begin(), from.end(), to.begin());
+}
+
+template <typename Value>
+void fill(std::vector<Value>& values, std::size_t count, Value value) {
+  values.resize(count);
+  std::fill(values.begin(), values.end(), value);
+}
+
+/// Appends what planes have, which never move.
+void append_planes(const World& world, std::vector<double>& values) {
+  values.resize(values.size() + world.boundary.planes.size(), 0.0);
+}
+
+/// What the diagonal of the Delassus operator is made of (T8).
+void take_bodies(const World& world, ContactProblem& problem) {
+  problem.inverse_mass = world.grains.inverse_mass;
+  problem.inverse_inertia = world.grains.inverse_inertia;
+  problem.lever = world.grains.radius;
+  for (auto* field : {&problem.inverse_mass, &problem.inverse_inertia, &problem.lever})
+    append_planes(world, *field);
+}
+
+void take_local_frames(const Contacts& contacts, ContactProblem& problem) {
+  copy(contacts.a, problem.a);
+  copy(contacts.b, problem.b);
+  copy(contacts.nx, problem.nx);
+  copy(contacts.ny, problem.ny);
+}
+
+/// Relative velocity at contact c before the step.
+RelativeVelocity velocity_before(const Grains& grains, const Contacts& contacts, Index c) {
+  const Index a = contacts.a[c];
+  const Index b = contacts.b[c];
+  const bool plane = b >= grains.count();
+  const double dvx = (plane ? 0.0 : grains.vx[b]) - grains.vx[a];
+  const double dvy = (plane ? 0.0 : grains.vy[b]) - grains.vy[a];
+  const double spin = grains.radius[a] * grains.omega[a] + (plane ? 0.0 : grains.radius[b] * grains.omega[b]);
+  return {dvx * contacts.nx[c] + dvy * contacts.ny[c], dvy * contacts.nx[c] - dvx * contacts.ny[c] - spin};
+}
+
+double free_normal_velocity(const ContactProblem& problem, Index c) {
+  const Index a = problem.a[c];
+  const Index b = problem.b[c];
+  return (problem.vx[b] - problem.vx[a]) * problem.nx[c] + (problem.vy[b] - problem.vy[a]) * problem.ny[c];
+}
+
+/// The gap+/h rule, and the share of an overlap that is taken back (T11). To take back every overlap, however
+/// small, would ask closed loops of contacts for velocities that no motion of rigid bodies has: forces would
+/// flicker, and a solve would take twice the iterations.
+void set_gap_velocities(const Contacts& contacts, const ContactLawParameters& law, double h,
+                        ContactProblem& problem) {
+  const auto count = static_cast<std::size_t>(contacts.count());
+  problem.cn.resize(count);
+  for (std::size_t c = 0; c < count; ++c) {
+    const double gap = contacts.gap[c];
+    const double share = law.overlap_correction * std::min(0.0, gap + law.allowed_overlap);
+    problem.cn[c] = (gap > 0.0 ? gap : share) / h;
+  }
+}
+
+/// (T12)
+void set_restitution(const World& world, const Contacts& contacts, const ContactLawParameters& law, double h,
+                     ContactProblem& problem) {
+  for (Index c = 0; c < contacts.count(); ++c) {
+    const bool closes = contacts.gap[c] + h * free_normal_velocity(problem, c) <= 0.0;
+    if (!closes) continue;
+    const RelativeVelocity before = velocity_before(world.grains, contacts, c);
+    if (before.normal < 0.0) problem.cn[c] = std::min(problem.cn[c], law.restitution * before.normal);
+    problem.ct[c] = law.tangential_restitution * before.tangential;
+  }
+}
+
+void set_friction(const World& world, const Contacts& contacts, const ContactLawParameters& law,
+                  ContactProblem& problem) {
+  const auto count = static_cast<std::size_t>(contacts.count());
+  fill(problem.mu, count, law.friction);
+  if (world.boundary.planes.empty()) return;
+  for (std::size_t c = 0; c < count; ++c) {
+    const Index plane = contacts.b[c] - world.grains.count();
+    if (plane >= 0 && world.boundary.planes[static_cast<std::size_t>(plane)].wall)
+      problem.mu[c] = law.wall_friction;
+  }
+}
+
+}  // namespace
+
+void free_velocity(const World& world, double h, ContactProblem& problem) {
+  const Grains& grains = world.grains;
+  const auto count = static_cast<std::size_t>(grains.count());
+  const Vec2 gravity = gravity_vector(world);
+  const Vec2 fall{h * gravity.x, h * gravity.y};
+  problem.vx.resize(count);
+  problem.vy.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const bool moves = grains.inverse_mass[i] > 0.0;
+    const double vx = grains.vx[i] + fall.x;  // (T4)
+    const double vy = grains.vy[i] + fall.y;
+    problem.vx[i] = moves ? vx : 0.0;
+    problem.vy[i] = moves ? vy : 0.0;
+  }
+  problem.omega = grains.omega;
+  for (auto* field : {&problem.vx, &problem.vy, &problem.omega}) append_planes(world, *field);
+}
+
+void form_problem(const World& world, const Contacts& contacts, const ContactLawParameters& law, double h,
+                  ContactProblem& problem) {
+  take_bodies(world, problem);
+  take_local_frames(contacts, problem);
+  set_gap_velocities(contacts, law, h, problem);
+  fill(problem.ct, contacts.gap.size(), 0.0);
+  if (law.restitution != 0.0 || law.tangential_restitution != 0.0)
+    set_restitution(world, contacts, law, h, problem);
+  set_friction(world, contacts, law, problem);
+}
+
+}  // namespace talus

@@ -1,0 +1,24 @@
+#pragma once
+/// From the world and its contacts to the contact problem of one step (docs/theory.md).
+
+#include "core/world.h"
+#include "dynamics/contact_law_parameters.h"
+#include "solver/problem.h"
+
+namespace talus {
+
+/// Free velocity v + h g of every body (T4); bodies that do not move, planes among them, have none.
+void free_velocity(const World& world, double h, ContactProblem& problem);
+
+/// The rest of the problem, once the free velocities are there: the bodies, the local frames of the contacts,
+/// their friction, and the constant c of the relative velocity of each (T5).
+///
+/// Normal part: Signorini's condition on U_n + g/h >= 0 for a gap g >= 0 (T11) keeps bodies apart at the next
+/// midpoint, q_m + h v, where the next gaps are taken. An overlap is taken back by overlap_correction of what
+/// it is above the allowed one. A contact that the free motion would close within the step, with U_n- < 0,
+/// obeys U_n >= -e_n U_n- instead where that is more (T12). Tangential part: c_t = e_t U_t- for a contact
+/// that is or gets closed.
+void form_problem(const World& world, const Contacts& contacts, const ContactLawParameters& law, double h,
+                  ContactProblem& problem);
+
+}  // namespace talus

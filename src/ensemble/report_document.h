@@ -1,0 +1,64 @@
+#pragma once
+/// A report as data: headings, paragraphs, tables and pictures, written as Markdown or as one HTML page that
+/// needs nothing beside it.
+
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace talus {
+
+/// How a cell is marked, beside its words.
+enum class Tone { plain, good, bad, muted };
+
+struct ReportCell {
+  std::string text;
+  std::string note = {};  ///< a second line, smaller
+  Tone tone = Tone::plain;
+};
+
+struct ReportColumn {
+  std::string title;
+  bool numbers = false;  ///< set to the right
+};
+
+struct ReportTable {
+  std::vector<ReportColumn> columns;
+  std::vector<std::vector<ReportCell>> rows;
+};
+
+struct ReportHeading {
+  int level = 2;
+  std::string text;
+};
+struct ReportParagraph {
+  std::string text;
+};
+struct ReportList {
+  std::vector<std::string> items;
+};
+struct ReportCommands {
+  std::vector<std::string> lines;
+};
+struct ReportPicture {
+  std::string file;  ///< a PNG, by its path from the report's folder
+  std::string title;
+  std::string caption;
+  bool wide = false;  ///< over the whole width of the page
+};
+
+using ReportBlock =
+    std::variant<ReportHeading, ReportParagraph, ReportList, ReportCommands, ReportTable, ReportPicture>;
+
+/// Texts are plain; `words between backticks` are set as code.
+struct ReportDocument {
+  std::string title;
+  std::vector<ReportBlock> blocks;
+};
+
+std::string report_markdown(const ReportDocument& document);
+
+/// Pictures are read from `folder` and built in. Throws as read_file does where one cannot be read.
+std::string report_html(const ReportDocument& document, const std::string& folder);
+
+}  // namespace talus

@@ -1,0 +1,187 @@
+#include "ensemble/study_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/core.h>
+#include <set>
+
+#include "core/text.h"
+#include "ensemble/plus_minus.h"
+#include "scenario/text.h"
+
+namespace talus {
+namespace {
+
+using TextTable = std::vector<std::vector<std::string>>;
+
+std::vector<StudyQuantity> quantities_of(std::initializer_list<StudyGroup> groups) {
+  std::vector<StudyQuantity> quantities;
+  for (const StudyGroup group : groups)
+    for (std::size_t k = 0; k < study_quantity_count; ++k)
+      if (study_fields()[k].group == group) quantities.push_back(static_cast<StudyQuantity>(k));
+  return quantities;
+}
+
+const StudyField& field_of(StudyQuantity quantity) {
+  return study_fields()[static_cast<std::size_t>(quantity)];
+}
+
+bool is_known(const StudyResult& result, StudyQuantity quantity) {
+  return std::ranges::any_of(result.outcomes, [&](const StudyOutcome& outcome) {
+    return !std::isnan(at(outcome.figures, quantity));
+  });
+}
+
+/// Mean ± error, or the mean with four digits where it has no error. A count says where seeds are missing.
+std::string mean_text(const Statistics& value, double factor, std::size_t seeds, bool sign = false) {
+  if (value.count == 0) return "-";
+  const double mean = value.mean * factor, error = value.error * factor;
+  const std::string text = error > 0.0 ? plus_minus(mean, error, sign)
+                                       : fmt::format(fmt::runtime(sign ? "{:+.4g}{}" : "{:.4g}{}"), mean,
+                                                     value.count > 1 ? " ± 0" : "");
+  const auto count = static_cast<std::size_t>(value.count);
+  return count == seeds ? text : fmt::format("{} ({} seeds)", text, count);
+}
+
+std::string difference_text(const Statistics& difference, double factor, std::size_t seeds) {
+  std::string text = mean_text(difference, factor, seeds, true);
+  const Verdict found = verdict(difference);
+  if (found == Verdict::within_error) text += ", within error";
+  return found == Verdict::differs ? fmt::format("**differs by {}**", text) : text;
+}
+
+std::string solver_text(const StudyResult& result, std::size_t variation, StudyQuantity quantity) {
+  const std::vector<double> values = values_of(result, variation, quantity);
+  const bool worst =
+      quantity == StudyQuantity::residual_max_rest || quantity == StudyQuantity::residual_max_moving;
+  double value = statistics_of(values).mean;
+  if (std::isnan(value)) return "-";
+  if (worst)
+    for (const double one : values) value = std::fmax(value, one);
+  value *= field_of(quantity).factor;
+  return worst ? fmt::format("{:.1e}", value) : fmt::format("{:.3g}", value);
+}
+
+std::string cell(const StudyResult& result, std::size_t variation, StudyQuantity quantity) {
+  if (field_of(quantity).group == StudyGroup::solver) return solver_text(result, variation, quantity);
+  const Comparison found = compare(result, variation, quantity);
+  return mean_text(found.value, field_of(quantity).factor, result.plan.seeds.size());
+}
+
+/// Characters of UTF-8 text.
+std::size_t width(const std::string& text) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
+}
+
+/// A Markdown table with its columns one below the other; the first row is the head.
+std::string table_text(const TextTable& table) {
+  std::vector<std::size_t> widths(table.front().size(), 3);
+  for (const auto& row : table)
+    for (std::size_t k = 0; k < row.size(); ++k) widths[k] = std::max(widths[k], width(row[k]));
+  std::string text;
+  for (const auto& row : table) {
+    for (std::size_t k = 0; k < row.size(); ++k)
+      text += fmt::format("| {}{:{}}", row[k], "", widths[k] - width(row[k]) + 1);
+    text += "|\n";
+    if (&row != &table.front()) continue;
+    for (const std::size_t w : widths) text += fmt::format("|{:-<{}}", "", w + 2);
+    text += "|\n";
+  }
+  return text + "\n";
+}
+
+/// One row for each variation from `first` on, one column for each quantity that any run has.
+template <typename Cell>
+std::string table_of(const StudyResult& result, const std::vector<StudyQuantity>& quantities,
+                     std::size_t first, const Cell& cell_text) {
+  std::vector<StudyQuantity> known;
+  for (const StudyQuantity quantity : quantities)
+    if (is_known(result, quantity)) known.push_back(quantity);
+  TextTable table = {{"variation"}};
+  for (const StudyQuantity quantity : known) table.front().push_back(field_of(quantity).title);
+  for (std::size_t v = first; v < result.plan.variants.size(); ++v) {
+    table.push_back({result.plan.variants[v].name});
+    for (const StudyQuantity quantity : known) table.back().push_back(cell_text(v, quantity));
+  }
+  return table_text(table);
+}
+
+std::string introduction(const StudyResult& result) {
+  const StudyPlan& plan = result.plan;
+  std::set<std::string> versions;
+  for (const StudyOutcome& outcome : result.outcomes) versions.insert(outcome.version);
+  std::string text = fmt::format(
+      "# Study of {}\n\n{} of {} runs complete; seeds {}. Values are means over seeds ± standard error; "
+      "worst residuals are the largest of all seeds.\n",
+      plan.variants.front().scenario_file, result.outcomes.size(), plan.members.size(),
+      joined(plan.seeds, ", "));
+  if (!plan.baseline.empty()) text += fmt::format("Baseline: {}.\n", plan.baseline);
+  for (const std::string& version : versions) text += fmt::format("Computed by Talus {}.\n", version);
+  if (versions.size() > 1)
+    text += "**Runs of several versions stand side by side: differences may be theirs.**\n";
+  return text + "\n";
+}
+
+std::string differences(const StudyResult& result) {
+  int made = 0, differing = 0;
+  const auto difference = [&](std::size_t v, StudyQuantity quantity) {
+    const Statistics found = compare(result, v, quantity).difference;
+    if (found.count > 1) ++made;
+    if (verdict(found) == Verdict::differs) ++differing;
+    return difference_text(found, field_of(quantity).factor, result.plan.seeds.size());
+  };
+  const std::string angle = short_text(result.reference) + " deg";
+  std::string text = fmt::format(
+      "## Difference to the baseline: theta_c, and the bed at {}\n\n{}", angle,
+      table_of(result, quantities_of({StudyGroup::slope, StudyGroup::at_reference}), 1, difference));
+  if (is_known(result, StudyQuantity::theta_c))
+    text += "## Difference to the baseline: the bed at theta_c\n\n" +
+            table_of(result, quantities_of({StudyGroup::at_theta_c}), 1, difference);
+  return fmt::format(
+      "{}Mean of the differences of runs with the same seed ± standard error. Within error: zero lies in the "
+      "interval of 95 % confidence (Student's t). {} of {} comparisons differ; by chance alone about {:.1f} "
+      "would.\n",
+      text, differing, made, 0.05 * made);
+}
+
+/// A field of CSV (RFC 4180).
+std::string quoted(const std::string& text) {
+  std::string field = "\"";
+  for (const char c : text) field += c == '"' ? "\"\"" : std::string(1, c);
+  return field + "\"";
+}
+
+}  // namespace
+
+std::string study_csv(const StudyResult& result) {
+  std::vector<std::string> head = {"variation", "seed"};
+  for (const StudyField& field : study_fields()) head.emplace_back(field.name);
+  head.insert(head.end(), {"reference_deg", "state_hash", "version"});
+  std::string text = joined(head, ",") + "\n";
+  for (const StudyOutcome& outcome : result.outcomes) {
+    const Member& run = result.plan.members[outcome.member];
+    std::vector<std::string> row = {quoted(result.plan.variants[run.variant].name), std::to_string(run.seed)};
+    for (const double value : outcome.figures) row.push_back(std::isnan(value) ? "" : short_text(value));
+    row.insert(row.end(), {short_text(result.reference), outcome.state_hash, outcome.version});
+    text += joined(row, ",") + "\n";
+  }
+  return text;
+}
+
+std::string study_markdown(const StudyResult& result) {
+  const auto value = [&](std::size_t v, StudyQuantity quantity) { return cell(result, v, quantity); };
+  const auto tables = [&](const std::string& head, const std::vector<StudyQuantity>& quantities) {
+    return fmt::format("## {}\n\n{}", head, table_of(result, quantities, 0, value));
+  };
+  std::string text = introduction(result);
+  text += tables("Angle of repose, and how well it was solved",
+                 quantities_of({StudyGroup::slope, StudyGroup::solver}));
+  text += tables(fmt::format("The bed at {} deg", short_text(result.reference)),
+                 quantities_of({StudyGroup::at_reference}));
+  if (is_known(result, StudyQuantity::theta_c))
+    text += tables("The bed at theta_c", quantities_of({StudyGroup::at_theta_c}));
+  return result.plan.variants.size() > 1 ? text + differences(result) : text;
+}
+
+}  // namespace talus

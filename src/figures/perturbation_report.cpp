@@ -1,0 +1,109 @@
+/// What perturbed runs say, as tables in Markdown.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fmt/core.h>
+#include <vector>
+
+#include "core/trigonometry.h"
+#include "figures/group_table.h"
+#include "figures/perturbation_figure.h"
+#include "session/perturbation_threshold.h"
+
+namespace talus {
+namespace {
+
+/// Upper edges of the ranges of theta_c - theta of the first table, deg.
+constexpr std::array<double, 7> range_edges = {0.5, 1.0, 2.0, 3.0, 4.0, 6.0, 60.0};
+
+struct MeasuredState {
+  std::uint64_t seed = 0;
+  double tilt = 0.0;     ///< deg
+  double theta_c = 0.0;  ///< deg, NaN where the slope has not failed
+  Threshold threshold;
+  Index moved = 0;  ///< by the push at the upper end of the bracket; 0 where there is none
+};
+
+std::vector<MeasuredState> states_of(const RunGroup& group, std::span<const PerturbationTable> tables) {
+  std::vector<MeasuredState> found;
+  for (std::size_t r = 0; r < group.runs.size(); ++r) {
+    const double theta_c = degrees(group.runs[r].analysis.theta_c);
+    for (const PerturbedState& state : tables[r].states) {
+      MeasuredState measured{group.runs[r].scenario.seed, state.tilt, theta_c, threshold_of(state.trials), 0};
+      for (const Trial& trial : state.trials)
+        if (trial.strength == measured.threshold.with) measured.moved = trial.moved;
+      found.push_back(measured);
+    }
+  }
+  return found;
+}
+
+/// The middle of a bracket on a logarithmic scale; beds that need no push, or less than the weakest, count
+/// with the weakest, beds that no push set off as infinite.
+double middle(const Threshold& threshold) {
+  return std::sqrt(std::max(threshold.without, weakest_push) * std::max(threshold.with, weakest_push));
+}
+
+std::string push_text(double strength) {
+  if (std::isinf(strength)) return fmt::format("> {:.3g}", strongest_push);
+  return strength <= weakest_push ? fmt::format("< {:.3g}", weakest_push) : fmt::format("{:.2f}", strength);
+}
+
+/// The row of the states whose distance to theta_c lies in (low, high]; nothing where there is none.
+std::string range_row(const std::vector<MeasuredState>& states, double low, double high) {
+  std::vector<double> middles;
+  int alone = 0, none = 0, erratic = 0;
+  for (const MeasuredState& state : states) {
+    const double distance = state.theta_c - state.tilt;
+    if (!(distance > low && distance <= high)) continue;
+    middles.push_back(middle(state.threshold));
+    alone += state.threshold.held ? 0 : 1;
+    none += std::isinf(state.threshold.with) ? 1 : 0;
+    erratic += state.threshold.monotone ? 0 : 1;
+  }
+  if (middles.empty()) return {};
+  std::ranges::sort(middles);
+  const std::string range =
+      high < range_edges.back() ? fmt::format("{:.3g} - {:.3g}", low, high) : fmt::format("> {:.3g}", low);
+  return fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} |\n", range, middles.size(), alone, none,
+                     erratic, push_text(middles.front()), push_text(middles[middles.size() / 2]),
+                     push_text(middles.back()));
+}
+
+std::string state_row(const MeasuredState& state) {
+  const Threshold& threshold = state.threshold;
+  std::string bracket = "does not hold";
+  if (threshold.held)
+    bracket = std::isinf(threshold.with)
+                  ? fmt::format("> {:.3g}", threshold.without)
+                  : fmt::format("{:.3g} ... {:.3g}", threshold.without, threshold.with);
+  const std::string moved = state.moved > 0 ? std::to_string(state.moved) : "-";
+  const std::string distance =
+      std::isnan(state.theta_c) ? "-" : fmt::format("{:.2f}", state.theta_c - state.tilt);
+  return fmt::format("| {} | {:.2f} | {} | {}{} | {} |\n", state.seed, state.tilt, distance, bracket,
+                     threshold.monotone ? "" : ", erratic", moved);
+}
+
+}  // namespace
+
+std::string perturbation_markdown(const RunGroup& group, std::span<const PerturbationTable> tables) {
+  const std::vector<MeasuredState> states = states_of(group, tables);
+  std::string text = fmt::format(
+      "# Weakest push that starts an avalanche\n\n{}, patch of {} D, {} states of {}. Pushes in sqrt(g D), "
+      "angles in deg. Least, median and most are those of the middles of the brackets.\n\n",
+      group.label, patch_text(tables.front().plan.patch), states.size(), runs_text(group.runs.size()));
+  text +=
+      "| theta_c - theta | states | do not hold | no avalanche | erratic | least | median | most |\n"
+      "|---|--:|--:|--:|--:|--:|--:|--:|\n";
+  double low = 0.0;
+  for (const double high : range_edges) {
+    text += range_row(states, low, high);
+    low = high;
+  }
+  text += "\n| seed | theta | theta_c - theta | bracket | grains moved |\n|--:|--:|--:|---|--:|\n";
+  for (const MeasuredState& state : states) text += state_row(state);
+  return text;
+}
+
+}  // namespace talus

@@ -1,0 +1,89 @@
+#include "pictures/bed_view.h"
+
+#include <algorithm>
+#include <fmt/core.h>
+#include <string>
+
+namespace talus {
+namespace {
+
+bool is_seen(const FrameView& view, double left, double right, double bottom, double top) {
+  return right > view.x_min && left < view.x_max && top > view.y_min && bottom < view.y_max;
+}
+
+/// 10 D, or less where 10 D would fill the picture.
+int scale_diameters(double width, double diameter) {
+  int diameters = 10;
+  for (const int shorter : {5, 2, 1})
+    if (diameters * diameter > 0.3 * width) diameters = shorter;
+  return diameters;
+}
+
+}  // namespace
+
+bool is_seen(const FrameView& view, const Disc& disc) {
+  return is_seen(view, disc.x - disc.radius, disc.x + disc.radius, disc.y - disc.radius,
+                 disc.y + disc.radius);
+}
+
+bool is_seen(const FrameView& view, const Line& line) {
+  const auto [left, right] = std::minmax(line.x0, line.x1);
+  const auto [bottom, top] = std::minmax(line.y0, line.y1);
+  const float half = line.half_width;
+  return is_seen(view, left - half, right + half, bottom - half, top + half);
+}
+
+FrameView empty_view(const MapExtent& extent) {
+  FrameView view;
+  view.furniture = false;
+  view.x_min = extent.x_min;
+  view.x_max = extent.x_max;
+  view.y_min = extent.y_min;
+  view.y_max = extent.y_max;
+  return view;
+}
+
+void add_disc(FrameView& view, const Disc& disc, const RunStatics& statics) {
+  if (is_seen(view, disc)) view.discs.push_back(disc);
+  if (!statics.periodic) return;
+  for (const double shift : {statics.length, -statics.length}) {
+    Disc image = disc;
+    image.x += static_cast<float>(shift);
+    if (is_seen(view, image)) view.discs.push_back(image);
+  }
+}
+
+void add_line(FrameView& view, const Line& line, const RunStatics& statics) {
+  if (is_seen(view, line)) view.lines.push_back(line);
+  if (!statics.periodic) return;
+  for (const double shift : {statics.length, -statics.length}) {
+    Line image = line;
+    image.x0 += static_cast<float>(shift);
+    image.x1 += static_cast<float>(shift);
+    if (is_seen(view, image)) view.lines.push_back(image);
+  }
+}
+
+Disc disc_of(const BedFrame& bed, Index grain) {
+  Disc disc;
+  disc.x = static_cast<float>(bed.frame.x[grain]);
+  disc.y = static_cast<float>(bed.frame.y[grain]);
+  disc.radius = static_cast<float>(bed.statics.radius[grain]);
+  if (grain >= bed.statics.free_count) {
+    disc.rim = gray(0.75);
+    disc.hatched = 1.0f;
+  }
+  return disc;
+}
+
+void add_surroundings(FrameView& view, const BedFrame& bed) {
+  const RunStatics& statics = bed.statics;
+  view.left_wall = !statics.periodic && view.x_min <= 0.0;
+  view.right_wall = !statics.periodic && view.x_max >= statics.length;
+  view.floor_line = statics.free_count == bed.frame.grain_count() && view.y_min <= 0.0;
+  const int diameters = scale_diameters(view.x_max - view.x_min, statics.mean_diameter);
+  view.scale_length = diameters * statics.mean_diameter;
+  view.scale_label = fmt::format("{} D", diameters);
+}
+
+}  // namespace talus

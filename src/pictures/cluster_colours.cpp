@@ -1,0 +1,93 @@
+#include "pictures/cluster_colours.h"
+
+#include <algorithm>
+#include <tuple>
+
+namespace talus {
+namespace {
+
+/// Grains that a cluster has of an earlier one.
+struct SharedGrains {
+  std::int64_t track = -1;
+  Index cluster = -1;
+  Index grains = 0;
+};
+
+/// For each cluster and each earlier one that share grains.
+std::vector<SharedGrains> shared_grains(const Clusters& clusters,
+                                        const std::vector<std::int64_t>& track_of_grain) {
+  std::vector<std::pair<std::int64_t, Index>> pairs;
+  for (std::size_t i = 0; i < std::min(clusters.label.size(), track_of_grain.size()); ++i)
+    if (clusters.label[i] >= 0 && track_of_grain[i] >= 0)
+      pairs.emplace_back(track_of_grain[i], clusters.label[i]);
+  std::ranges::sort(pairs);
+  std::vector<SharedGrains> shared;
+  for (const auto& [track, cluster] : pairs) {
+    if (shared.empty() || shared.back().track != track || shared.back().cluster != cluster)
+      shared.push_back({track, cluster, 0});
+    ++shared.back().grains;
+  }
+  return shared;
+}
+
+std::size_t least_worn(const std::vector<Index>& worn) {
+  return static_cast<std::size_t>(std::ranges::min_element(worn) - worn.begin());
+}
+
+}  // namespace
+
+std::vector<Colour> cluster_palette() {
+  // Of Okabe and Ito (2008) and of Tol's "muted" scheme, those that follow each other far apart; yellow is
+  // left out, as it is too light.
+  return {{213, 94, 0},   {0, 114, 178},   {68, 170, 153}, {170, 68, 153}, {230, 159, 0},   {51, 34, 136},
+          {153, 153, 51}, {136, 204, 238}, {136, 34, 85},  {17, 119, 51},  {204, 102, 119}, {221, 204, 119}};
+}
+
+std::vector<ClusterColour> ClusterColours::next(const Clusters& clusters) {
+  std::vector<SharedGrains> shared = shared_grains(clusters, track_of_grain_);
+  // The most grains first; of as many, those of the cluster that was larger.
+  std::ranges::sort(shared, [&](const SharedGrains& one, const SharedGrains& other) {
+    const auto key = [&](const SharedGrains& pair) {
+      return std::tuple(-pair.grains, -tracks_[static_cast<std::size_t>(pair.track)].size, pair.track,
+                        pair.cluster);
+    };
+    return key(one) < key(other);
+  });
+  std::vector<ClusterColour> colours(clusters.size.size());
+  std::vector<bool> taken(tracks_.size(), false);
+  for (const SharedGrains& pair : shared) {
+    ClusterColour& colour = colours[static_cast<std::size_t>(pair.cluster)];
+    const auto track = static_cast<std::size_t>(pair.track);
+    if (colour.track >= 0 || taken[track]) continue;
+    taken[track] = true;
+    colour = {pair.track, tracks_[track].palette_index};
+  }
+
+  std::vector<Index> worn(cluster_palette().size(), 0);
+  for (std::size_t k = 0; k < colours.size(); ++k)
+    if (colours[k].palette_index >= 0)
+      worn[static_cast<std::size_t>(colours[k].palette_index)] += clusters.size[k];
+  for (std::size_t k = 0; k < colours.size(); ++k) {
+    ClusterColour& colour = colours[k];
+    if (colour.track < 0) {
+      colour.track = static_cast<std::int64_t>(tracks_.size());
+      tracks_.emplace_back();
+    }
+    if (colour.palette_index < 0 && clusters.size[k] >= smallest_coloured_cluster) {
+      const std::size_t least = least_worn(worn);
+      worn[least] += clusters.size[k];
+      colour.palette_index = static_cast<int>(least);
+    }
+    tracks_[static_cast<std::size_t>(colour.track)] = {colour.palette_index, clusters.size[k]};
+  }
+  // A cluster that has become small is gray, as the legend says; its colour is kept until it grows again.
+  for (std::size_t k = 0; k < colours.size(); ++k)
+    if (clusters.size[k] < smallest_coloured_cluster) colours[k].palette_index = -1;
+  track_of_grain_.assign(clusters.label.size(), -1);
+  for (std::size_t i = 0; i < clusters.label.size(); ++i)
+    if (clusters.label[i] >= 0)
+      track_of_grain_[i] = colours[static_cast<std::size_t>(clusters.label[i])].track;
+  return colours;
+}
+
+}  // namespace talus

@@ -1,0 +1,44 @@
+#pragma once
+/// Colours of clusters of overloaded grains that stay with them from frame to frame.
+
+#include <cstdint>
+#include <vector>
+
+#include "analysis/clusters.h"
+#include "render/colour.h"
+
+namespace talus {
+
+/// Of one cluster of a frame: its identity over the frames, and its place in the palette; -1 while it is so
+/// small that it has no colour yet.
+struct ClusterColour {
+  std::int64_t track = -1;
+  int palette_index = -1;
+  bool operator==(const ClusterColour&) const = default;
+};
+
+/// Clusters below this size have no colour of their own yet.
+inline constexpr Index smallest_coloured_cluster = 10;
+
+/// The palette: distinct colours, darker than the grains that are not overloaded.
+std::vector<Colour> cluster_palette();
+
+/// Follows clusters through the frames of a run, in their order. A cluster keeps its identity while it grows
+/// or shrinks: that of the earlier cluster of which it has the most grains. So a merger takes the colour of
+/// the larger part, and of a cluster that falls apart the largest piece keeps it. A new one takes the colour
+/// that the fewest grains wear.
+class ClusterColours {
+ public:
+  /// The clusters of the next frame; the result in their order.
+  std::vector<ClusterColour> next(const Clusters& clusters);
+
+ private:
+  struct Track {
+    int palette_index = -1;
+    Index size = 0;
+  };
+  std::vector<std::int64_t> track_of_grain_;  ///< of the frame before; -1 for none
+  std::vector<Track> tracks_;
+};
+
+}  // namespace talus

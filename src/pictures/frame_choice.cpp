@@ -1,0 +1,113 @@
+#include "pictures/frame_choice.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <fmt/core.h>
+
+#include "core/errors.h"
+#include "core/trigonometry.h"
+
+namespace talus {
+namespace {
+
+/// Spacing of the frames, rad: their largest step, as single frames lie between (where the slope fails); 1
+/// degree where there is only one.
+double frame_spacing(const std::vector<double>& tilts) {
+  if (tilts.size() < 2) return radians(1.0);
+  double spacing = 0.0;
+  for (std::size_t k = 1; k < tilts.size(); ++k) spacing = std::max(spacing, tilts[k] - tilts[k - 1]);
+  return spacing;
+}
+
+std::size_t frame_at_angle(const std::vector<double>& tilts, const std::string& entry) {
+  double angle = 0.0;
+  const auto [end, error] = std::from_chars(entry.data(), entry.data() + entry.size(), angle);
+  if (error != std::errc() || end != entry.data() + entry.size() || !std::isfinite(angle))
+    throw Error(ExitCode::usage, fmt::format("--at {}: expected an angle in degrees, or repose", entry));
+  const auto frame = frame_near(tilts, radians(angle));
+  if (!frame)
+    throw Error(ExitCode::bad_data, fmt::format("--at {}: the run has no frame there; its {} frames go "
+                                                "from {:.2f} to {:.2f} deg, every {:.3g} deg",
+                                                entry, tilts.size(), degrees(tilts.front()),
+                                                degrees(tilts.back()), degrees(frame_spacing(tilts))));
+  return *frame;
+}
+
+FrameChoice sorted(FrameChoice choice) {
+  std::sort(choice.begin(), choice.end());
+  choice.erase(std::unique(choice.begin(), choice.end()), choice.end());
+  return choice;
+}
+
+}  // namespace
+
+std::optional<std::size_t> nearest_frame(const std::vector<double>& tilts, double tilt) {
+  if (tilts.empty() || std::isnan(tilt)) return std::nullopt;
+  const auto nearest = std::ranges::min_element(tilts, {}, [tilt](double of) { return std::abs(of - tilt); });
+  return static_cast<std::size_t>(nearest - tilts.begin());
+}
+
+std::optional<std::size_t> reference_frame(std::size_t k, std::optional<std::size_t> since) {
+  if (k == 0) return std::nullopt;
+  const std::size_t frame = since.value_or(k - 1);
+  return frame < k ? std::optional(frame) : std::nullopt;
+}
+
+std::optional<std::size_t> frame_near(const std::vector<double>& tilts, double tilt) {
+  const std::size_t frame = nearest_frame(tilts, tilt).value();
+  if (std::abs(tilts[frame] - tilt) > 0.5 * frame_spacing(tilts) + 1e-9) return std::nullopt;
+  return frame;
+}
+
+FrameChoice frames_at(const std::vector<double>& tilts, const std::vector<std::string>& entries,
+                      double theta_c) {
+  FrameChoice choice;
+  for (const std::string& entry : entries) {
+    if (entry == "repose" && !std::isfinite(theta_c))
+      throw Error(ExitCode::bad_data,
+                  "--at repose: the angle of repose is not known, as the slope has not failed in "
+                  "this run; give it with --theta-c DEG");
+    choice.push_back(entry == "repose" ? frame_at_repose(tilts, theta_c) : frame_at_angle(tilts, entry));
+  }
+  return sorted(choice);
+}
+
+FrameChoice frames_every(const std::vector<double>& tilts, double every) {
+  FrameChoice choice;
+  const double spacing = frame_spacing(tilts);
+  if (every < degrees(spacing) - 1e-9) {
+    for (std::size_t k = 0; k < tilts.size(); ++k) choice.push_back(k);
+    return choice;
+  }
+  const auto count = static_cast<long>(std::floor((tilts.back() + 0.5 * spacing) / radians(every)));
+  for (long k = 0; k <= count; ++k)
+    if (const auto frame = frame_near(tilts, radians(static_cast<double>(k) * every)))
+      choice.push_back(*frame);
+  return sorted(choice);
+}
+
+std::size_t frame_at_repose(const std::vector<double>& tilts, double theta_c) {
+  const auto above = std::upper_bound(tilts.begin(), tilts.end(), theta_c + 1e-9);
+  return above == tilts.begin() ? 0 : static_cast<std::size_t>(above - tilts.begin()) - 1;
+}
+
+std::string angle_name(double tilt, int decimals) {
+  return fmt::format("{:0{}.{}f}", degrees(tilt), 4 + decimals, decimals);
+}
+
+int angle_decimals(const std::vector<double>& tilts, const FrameChoice& choice) {
+  constexpr int most_decimals = 9;
+  std::vector<std::string> names;
+  for (int decimals = 2; decimals <= most_decimals; ++decimals) {
+    names.clear();
+    for (const std::size_t k : choice)
+      if (k < tilts.size()) names.push_back(angle_name(tilts[k], decimals));
+    if (std::ranges::adjacent_find(names) == names.end()) return decimals;
+  }
+  throw Error(ExitCode::bad_data,
+              fmt::format("two frames of the run have the same angle, {} deg and on", names.front()));
+}
+
+}  // namespace talus

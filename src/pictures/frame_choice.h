@@ -1,0 +1,43 @@
+#pragma once
+/// Which frames of a run are drawn, and what their files are called.
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace talus {
+
+/// Indices into `tilts` (rad, ascending, not empty), ascending and without doubles.
+using FrameChoice = std::vector<std::size_t>;
+
+/// The frames nearest to the angles listed: degrees, or "repose" for the last frame with tilt <= theta_c
+/// (rad, NaN while the slope has not failed). Throws Error(usage) where an entry is neither, Error(bad_data)
+/// where no frame lies within half the spacing of the frames, or where the angle of repose is not known.
+FrameChoice frames_at(const std::vector<double>& tilts, const std::vector<std::string>& entries,
+                      double theta_c);
+
+/// The frame nearest to a tilt (rad; NaN: none), however far away. Here the tilts need not ascend.
+std::optional<std::size_t> nearest_frame(const std::vector<double>& tilts, double tilt);
+
+/// The frame that motion up to frame k is measured from: the one before, or `since` where there is one; none
+/// where that does not come before k.
+std::optional<std::size_t> reference_frame(std::size_t k, std::optional<std::size_t> since);
+
+/// The frame nearest to a tilt (rad), if there is one within half the spacing of the frames.
+std::optional<std::size_t> frame_near(const std::vector<double>& tilts, double tilt);
+
+/// The frames nearest to 0, `every`, 2 `every`, ... degrees; all frames where `every` is below their spacing.
+FrameChoice frames_every(const std::vector<double>& tilts, double every);
+
+/// The last frame with tilt <= theta_c (rad): the slope just before it failed.
+std::size_t frame_at_repose(const std::vector<double>& tilts, double theta_c);
+
+/// "012.00": an angle (rad) in degrees, as names of files have it that sort by angle.
+std::string angle_name(double tilt, int decimals);
+
+/// With how many decimals, at least two, angle_name tells the chosen frames apart, as far as they have a
+/// tilt. Throws Error(bad_data) where none does.
+int angle_decimals(const std::vector<double>& tilts, const FrameChoice& choice);
+
+}  // namespace talus

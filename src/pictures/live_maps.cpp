@@ -1,0 +1,123 @@
+#include "pictures/live_maps.h"
+
+#include <cmath>
+#include <filesystem>
+#include <fmt/core.h>
+#include <utility>
+
+#include "core/output_file.h"
+#include "core/trigonometry.h"
+#include "pictures/picture_files.h"
+
+namespace talus {
+namespace {
+
+/// Above the bed when it begins to tilt, over its depth: pictures of one size hold all of its later frames.
+constexpr double margin_above = 0.05;
+
+/// Frames that may wait to be drawn.
+constexpr std::size_t frames_waiting = 4;
+
+void refuse_pictures(const std::string& folder, const MapPlan& plan) {
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    for (const MapSettings& map : plan.maps) {
+      const std::string name = entry.path().filename().string();
+      if (name.starts_with(layers_name(map.layers) + "_") && name.ends_with(".png"))
+        throw Error(ExitCode::cannot_create,
+                    fmt::format("{} holds pictures of the map {} already; choose another folder, or give "
+                                "--overwrite to replace them and the run",
+                                folder, layers_name(map.layers)));
+    }
+}
+
+/// The bed when it begins to tilt, with some space above.
+MapExtent live_extent(const BedFrame& bed) {
+  MapExtent extent = bed_extent(bed.statics);
+  extend(extent, bed);
+  extent.y_max += margin_above * bed.statics.depth;
+  return extent;
+}
+
+}  // namespace
+
+MapPlan plan_live_maps(const MapOptions& options) {
+  MapPlan plan = plan_maps(options);
+  if (!needs_theta_c(plan) || options.theta_c) return plan;
+  for (MapSettings& map : plan.maps) {
+    map.theta_c = radians(assumed_theta_c);
+    map.theta_c_assumed = true;
+  }
+  return plan;
+}
+
+LiveMaps::LiveMaps(const MapPlan& plan, std::string folder, bool resumed, bool overwrite, Warn warn)
+    : folder_(std::move(folder)), overwrite_(overwrite), warn_(std::move(warn)), tasks_(frames_waiting) {
+  series_.asked = series_.plan = plan;
+  // A context belongs to the thread that makes it.
+  tasks_.post([this] { renderer_ = std::make_unique<Renderer>(make_context(series_.plan.context)); });
+  tasks_.finish();
+  create_folder(folder_);
+  if (!resumed && !overwrite_) refuse_pictures(folder_, series_.plan);
+}
+
+LiveMaps::~LiveMaps() {
+  tasks_.drop();  // of a run that ends early: it draws them when it is resumed
+  tasks_.post([this] { renderer_.reset(); });
+  tasks_.finish();
+}
+
+void LiveMaps::begin(const RunHeader& header, const std::string& path, double step) {
+  series_.run = header;
+  series_.path = path;
+  decimals_ = std::max(2, static_cast<int>(std::ceil(-std::log10(step) - 1e-9)));
+}
+
+void LiveMaps::meet(const RunFile& file) {
+  for (std::size_t k = 0; k < file.all_frame_tilts().size(); ++k)
+    tasks_.post([this, frame = file.frame(k)] { draw_or_fail(frame); });
+  finish();
+}
+
+void LiveMaps::add(const Frame& frame) {
+  tasks_.post([this, stored = as_stored(frame)] { draw_or_fail(stored); });
+}
+
+void LiveMaps::finish() {
+  tasks_.finish();
+  if (failure_) throw *failure_;
+}
+
+void LiveMaps::draw_or_fail(Frame frame) {
+  if (failure_) return;
+  try {
+    draw(std::move(frame));
+  } catch (const Error& error) {
+    fail(error.code(), error.what());
+  } catch (const std::bad_alloc&) {
+    fail(ExitCode::out_of_memory, "out of memory");
+  } catch (const std::exception& error) {
+    fail(ExitCode::internal, error.what());
+  }
+}
+
+void LiveMaps::fail(ExitCode code, const std::string& message) {
+  failure_.emplace(code, message);
+  warn_(message + "; the run goes on, and no more of its maps are drawn");
+}
+
+void LiveMaps::draw(Frame frame) {
+  const MapPlan& plan = series_.plan;
+  if (series_.instants.empty()) series_.extent = live_extent({frame, series_.run.statics});
+  frame = as_mapped(series_, std::move(frame));
+  talus::meet(series_, frame);
+  const std::size_t k = series_.instants.size() - 1;
+  for (std::size_t map = 0; map < plan.maps.size(); ++map) {
+    const PictureFile file = picture_file(series_, "run", folder_, k, map, decimals_);
+    if (is_drawn(file.path, file.marks, overwrite_)) continue;
+    const FrameView view = picture(series_, k, frame, before_ ? &*before_ : nullptr, map);
+    write_png(file.path, renderer_->draw(view, plan.width), picture_texts(file.marks));
+  }
+  before_ = std::move(frame);
+}
+
+}  // namespace talus

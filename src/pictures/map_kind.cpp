@@ -1,0 +1,88 @@
+#include "pictures/map_kind.h"
+
+#include <algorithm>
+#include <array>
+#include <fmt/core.h>
+
+#include "core/errors.h"
+#include "core/text.h"
+
+namespace talus {
+namespace {
+
+struct MapEntry {
+  MapKind kind;
+  std::string_view name, help;
+};
+
+constexpr auto entries = std::to_array<MapEntry>({
+    {MapKind::gamma, "gamma", "stress ratio of each grain and its neighbours, or of the grain alone"},
+    {MapKind::overloaded, "overloaded", "overloaded grains, gamma >= Gamma_c"},
+    {MapKind::clusters, "clusters", "clusters of overloaded grains, each in a colour of its own"},
+    {MapKind::coarse, "coarse", "stress ratio of the neighbourhood of each grain"},
+    {MapKind::pressure, "pressure", "pressure in each grain, over rho g D"},
+    {MapKind::displacement, "displacement", "how far each grain has moved; over another map: arrows"},
+    {MapKind::rotation, "rotation", "how far each grain has turned"},
+    {MapKind::forces, "forces", "force chains: lines between centres, as wide as the normal force is large"},
+    {MapKind::critical, "critical", "contacts with fully mobilised friction"},
+});
+
+constexpr auto kinds = [] {
+  std::array<MapKind, entries.size()> all{};
+  for (std::size_t k = 0; k < entries.size(); ++k) all[k] = entries[k].kind;
+  return all;
+}();
+
+const MapEntry& entry_of(MapKind kind) { return entries[static_cast<std::size_t>(kind)]; }
+
+MapKind layer_of(std::string_view name, std::string_view whole) {
+  const auto found = std::ranges::find(entries, name, &MapEntry::name);
+  if (found != entries.end()) return found->kind;
+  throw Error(ExitCode::usage,
+              fmt::format("map '{}': expected one of {}, or two of them with + between, such as gamma+forces",
+                          whole, joined(entries, " ", &MapEntry::name)));
+}
+
+}  // namespace
+
+std::span<const MapKind> map_kinds() { return kinds; }
+
+std::string_view map_name(MapKind kind) { return entry_of(kind).name; }
+
+std::string_view map_help(MapKind kind) { return entry_of(kind).help; }
+
+std::string list_of_maps() {
+  return joined(entries, "; ",
+                [](const MapEntry& entry) { return fmt::format("{}: {}", entry.name, entry.help); });
+}
+
+bool needs_theta_c(MapKind kind) { return shows_gamma(kind) || kind == MapKind::coarse; }
+
+bool shows_gamma(MapKind kind) {
+  return kind == MapKind::gamma || kind == MapKind::overloaded || kind == MapKind::clusters;
+}
+
+bool needs_reference(MapKind kind) { return kind == MapKind::displacement || kind == MapKind::rotation; }
+
+bool shows(const MapLayers& layers, MapKind kind) { return std::ranges::count(layers, kind) > 0; }
+
+bool any_layer(const MapLayers& layers, bool (*has)(MapKind)) { return std::ranges::any_of(layers, has); }
+
+MapLayers map_layers(std::string_view name) {
+  MapLayers layers;
+  for (std::string_view rest = name;;) {
+    const auto plus = rest.find('+');
+    layers.push_back(layer_of(rest.substr(0, plus), name));
+    if (plus == std::string_view::npos) break;
+    rest.remove_prefix(plus + 1);
+  }
+  if (layers.size() > 2)
+    throw Error(ExitCode::usage, fmt::format("map '{}': at most two can be overlaid", name));
+  if (layers.size() == 2 && layers[0] == layers[1])
+    throw Error(ExitCode::usage, fmt::format("map '{}': twice the same map", name));
+  return layers;
+}
+
+std::string layers_name(const MapLayers& layers) { return joined(layers, "+", map_name); }
+
+}  // namespace talus

@@ -1,0 +1,52 @@
+#pragma once
+/// The maps that there are, and their names.
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace talus {
+
+enum class MapKind {
+  gamma,         ///< stress ratio of each grain (paper, Fig. 10)
+  overloaded,    ///< grains with gamma >= Gamma_c (paper, Fig. 13)
+  clusters,      ///< overloaded grains by cluster, each keeps its colour from frame to frame
+  coarse,        ///< gamma_l: the stress ratio of the neighbourhood of each grain, of a chosen diameter
+  pressure,      ///< p of each grain, over rho g D
+  displacement,  ///< how far each grain has moved in the frame of the bed; as upper layer, arrows
+  rotation,      ///< how far it has turned
+  forces,        ///< force chains: lines between centres, width by normal force, strong and weak apart
+  critical,      ///< contacts with fully mobilised friction
+};
+
+/// All of them, in the order in which they are listed to users.
+std::span<const MapKind> map_kinds();
+
+std::string_view map_name(MapKind kind);
+/// A line for users: what the map shows.
+std::string_view map_help(MapKind kind);
+/// "gamma: stress ratio of each grain ...; overloaded: ...", of all.
+std::string list_of_maps();
+
+/// Whether its scale or its threshold is Gamma_c.
+bool needs_theta_c(MapKind kind);
+/// Whether it shows the gamma of grains, or what follows from it: whether MapSettings::l_min changes it.
+bool shows_gamma(MapKind kind);
+/// Whether it is measured from an earlier frame.
+bool needs_reference(MapKind kind);
+
+/// One map, or two overlaid: the lower first.
+using MapLayers = std::vector<MapKind>;
+
+bool shows(const MapLayers& layers, MapKind kind);
+/// Whether one of them has it.
+bool any_layer(const MapLayers& layers, bool (*has)(MapKind));
+
+/// The layers of a name: "gamma", or "gamma+forces". Throws Error(usage) with the names that there are at an
+/// unknown one, and where there are more than two, or twice the same.
+MapLayers map_layers(std::string_view name);
+/// "gamma+forces", which is also what files are called.
+std::string layers_name(const MapLayers& layers);
+
+}  // namespace talus

@@ -1,0 +1,116 @@
+#include "pictures/map_plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/core.h>
+#include <limits>
+#include <set>
+
+#include "core/errors.h"
+#include "core/trigonometry.h"
+
+namespace talus {
+namespace {
+
+[[noreturn]] void refuse(const std::string& message) { throw Error(ExitCode::usage, message); }
+
+std::optional<Crop> parse_crop(const std::vector<double>& values) {
+  if (values.empty()) return std::nullopt;
+  const Crop crop{values[0], values[1], values[2], values[3]};
+  for (double value : values)
+    if (!std::isfinite(value)) refuse("--crop: expected four finite numbers X0,Y0,X1,Y1");
+  if (crop.x1 <= crop.x0 || crop.y1 <= crop.y0)
+    refuse("--crop: the region is empty; expected X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1");
+  return crop;
+}
+
+/// What all maps have in common.
+MapSettings common_settings(const MapOptions& options) {
+  MapSettings settings;
+  settings.theta_c = options.theta_c ? radians(*options.theta_c) : std::numeric_limits<double>::quiet_NaN();
+  settings.threshold_factor = options.threshold.value_or(settings.threshold_factor);
+  settings.l_min = options.l_min.value_or(settings.l_min);
+  settings.length = options.length.value_or(settings.length);
+  settings.turned = options.turned;
+  settings.transparent = options.transparent;
+  settings.furniture = !options.bare;
+  if (options.joined && *options.joined != "contacts" && *options.joined != "neighbours")
+    refuse(fmt::format("--joined {}: expected contacts or neighbours", *options.joined));
+  settings.joined_by_neighbours = options.joined == "neighbours";
+  if (!options.range.empty()) {
+    settings.range_low = options.range[0];
+    settings.range_high = options.range[1];
+    if (!std::isfinite(options.range[0]) || !(options.range[0] < options.range[1]) ||
+        !std::isfinite(options.range[1]))
+      refuse("--range: expected LOW,HIGH with LOW < HIGH");
+  }
+  return settings;
+}
+
+bool draws_bar(const MapSettings& map) { return has_bar(map.layers); }
+
+/// Options that would do nothing are errors: whoever wrote them expected something else.
+void refuse_idle_options(const MapOptions& options, const MapPlan& plan) {
+  if (!options.range.empty() && plan.maps.size() > 1)
+    refuse("--range: its unit is that of one map; ask for the maps one by one");
+  if (!options.range.empty() && !has_bar(plan.maps[0].layers))
+    refuse(fmt::format("--range: the map {} has no bar", layers_name(plan.maps[0].layers)));
+  if (!options.colours.empty() && std::ranges::none_of(plan.maps, draws_bar))
+    refuse("--colours: no map that is asked for has a bar; --colours is for those that do");
+  if (options.length && !shows(plan, MapKind::coarse)) refuse("--length: it is for the map coarse");
+  if (options.since && !any_layer(plan, needs_reference))
+    refuse("--since: it is for the maps displacement and rotation");
+  if (options.l_min && !shows_gamma(plan))
+    refuse("--l-min: no map or trace that is asked for goes by gamma of grains");
+  if (options.threshold && !needs_theta_c(plan))
+    refuse("--threshold: no map or trace that is asked for goes by Gamma_c");
+  if (options.joined && !shows(plan, MapKind::clusters) &&
+      std::ranges::count(plan.traces, TraceKind::largest_cluster) == 0)
+    refuse("--joined: it is for the map clusters and the trace of the largest one");
+  if (options.bare && !options.traces.empty())
+    refuse("--trace and --bare do not go together: traces are furniture");
+}
+
+}  // namespace
+
+MapPlan plan_maps(const MapOptions& options) {
+  MapPlan plan;
+  const MapSettings common = common_settings(options);
+  std::set<std::string> names;
+  for (const std::string& name : options.maps) {
+    plan.maps.emplace_back(common).layers = map_layers(name);
+    if (!names.insert(name).second) refuse(fmt::format("--map: {} is given twice", name));
+  }
+  if (plan.maps.empty()) refuse("--map is missing; expected one of: " + list_of_maps());
+  if (!options.traces.empty()) plan.traces = trace_kinds(options.traces);
+  plan.crop = parse_crop(options.crop);
+  if (options.since) plan.since = radians(*options.since);
+  plan.width = options.width;
+  refuse_idle_options(options, plan);
+  if (!options.colours.empty()) {
+    const ColourMap colours = colour_map(options.colours);
+    for (MapSettings& map : plan.maps)
+      if (has_bar(map.layers)) map.colours = colours;
+  }
+  plan.context = context_kind(options.context);
+  return plan;
+}
+
+bool any_layer(const MapPlan& plan, bool (*has)(MapKind)) {
+  return std::ranges::any_of(plan.maps, [has](const MapSettings& map) { return any_layer(map.layers, has); });
+}
+
+bool shows(const MapPlan& plan, MapKind kind) {
+  return std::ranges::any_of(plan.maps, [kind](const MapSettings& map) { return shows(map.layers, kind); });
+}
+
+bool needs_theta_c(const MapPlan& plan) {
+  return any_layer(plan, needs_theta_c) ||
+         std::ranges::any_of(plan.traces, [](TraceKind kind) { return needs_theta_c(kind); });
+}
+
+bool shows_gamma(const MapPlan& plan) {
+  return any_layer(plan, shows_gamma) || std::ranges::any_of(plan.traces, trace_from_frames);
+}
+
+}  // namespace talus

@@ -1,0 +1,179 @@
+#include "pictures/maps.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <fmt/core.h>
+#include <utility>
+
+#include "core/errors.h"
+#include "core/trigonometry.h"
+#include "pictures/bed_view.h"
+#include "pictures/layers.h"
+#include "pictures/texts.h"
+
+namespace talus {
+namespace {
+
+/// Whether a layer fills the grains, or has lines only.
+bool fills_grains(const MapLayers& layers, std::size_t k) {
+  return layers[k] != MapKind::forces && layers[k] != MapKind::critical &&
+         !(layers[k] == MapKind::displacement && k > 0);
+}
+
+bool has_bar(const MapLayers& layers, std::size_t k) {
+  return fills_grains(layers, k) && layers[k] != MapKind::overloaded && layers[k] != MapKind::clusters;
+}
+
+/// What was chosen for the first layer with a bar; nothing for the other.
+ScaleChoice choice_of(const MapSettings& settings, std::size_t k) {
+  const bool first = has_bar(settings.layers, k) && (k == 0 || !has_bar(settings.layers, 0));
+  return first ? ScaleChoice{settings.colours, settings.range_low, settings.range_high} : ScaleChoice{};
+}
+
+/// Lines over layer k: black, or, where its grains can be dark, what tells from its colours, and from black
+/// and white also in gray.
+Colour colour_over(const MapSettings& settings, std::size_t k) {
+  const MapKind kind = settings.layers[k];
+  const ColourMap own = kind == MapKind::rotation ? ColourMap::diverging : ColourMap::gray;
+  const bool light =
+      kind == MapKind::clusters || choice_of(settings, k).colours.value_or(own) == ColourMap::diverging;
+  return light ? black : Colour{255, 60, 130};
+}
+
+MapLayer make_layer(const MapFrame& of, const MapSettings& settings, const MapExtent& extent, std::size_t k) {
+  constexpr double arrows_across = 60.0;  // at most, to tell one from the other
+
+  const ScaleChoice choice = choice_of(settings, k);
+  const bool over_grains = settings.layers.size() > 1 && fills_grains(settings.layers, 1 - k);
+  const OverColour over = over_grains ? OverColour(colour_over(settings, 1 - k)) : OverColour();
+  switch (settings.layers[k]) {
+    case MapKind::gamma:
+      return gamma_layer(of, settings, choice);
+    case MapKind::overloaded:
+      return overloaded_layer(of, settings, over_grains && k == 1);
+    case MapKind::clusters:
+      return clusters_layer(of, settings, over_grains && k == 1);
+    case MapKind::coarse:
+      return coarse_layer(of, settings, choice);
+    case MapKind::pressure:
+      return pressure_layer(of, choice);
+    case MapKind::displacement:
+      return k == 0 ? displacement_layer(of, settings.motion, choice)
+                    : displacement_arrows(of, settings.motion, over,
+                                          (extent.x_max - extent.x_min) / arrows_across);
+    case MapKind::rotation:
+      return rotation_layer(of, settings.motion, choice);
+    case MapKind::forces:
+      return forces_layer(of, over);
+    case MapKind::critical:
+      return critical_layer(of, over);
+  }
+  throw Error(ExitCode::internal, "a map of no kind");
+}
+
+void check_theta_c(const MapSettings& settings) {
+  const bool needed = any_layer(settings.layers, needs_theta_c);
+  if (needed && !(settings.theta_c > radians(2.0) && settings.theta_c < radians(89.0)))
+    throw Error(ExitCode::bad_data,
+                fmt::format("theta_c = {:.3f} deg: expected an angle of repose between 2 and 89 deg",
+                            degrees(settings.theta_c)));
+}
+
+/// In the looks of the lower layer that has any, else as outlines; those of a second one as smaller discs
+/// within.
+void add_grains(FrameView& view, const BedFrame& bed, std::span<const std::vector<GrainLook>> looks) {
+  constexpr float inner_radius = 0.5f;  // of that of the grain
+  const std::size_t count = bed.frame.x.size();
+  view.discs.reserve(count * std::max<std::size_t>(1, looks.size()) + count / 16);
+  const auto add = [&](Index i, const GrainLook& look, float scale) {
+    Disc disc = disc_of(bed, i);
+    disc.radius *= scale;
+    disc.fill = look.fill;
+    disc.rim = look.rim;
+    add_disc(view, disc, bed.statics);
+  };
+  for (Index i = 0; i < bed.statics.free_count; ++i) {
+    const auto grain = static_cast<std::size_t>(i);
+    add(i, looks.empty() ? outline_look() : looks[0][grain], 1.0f);
+    if (looks.size() > 1 && looks[1][grain].marked) add(i, looks[1][grain], inner_radius);
+  }
+  for (Index i = bed.statics.free_count; i < bed.frame.grain_count(); ++i)
+    add_disc(view, disc_of(bed, i), bed.statics);
+}
+
+/// "Overloaded grains, p_o = 0.300; force chains".
+std::string joint_title(std::span<const MapLayer> layers) {
+  std::string title = layers[0].title;
+  for (const MapLayer& layer : layers.subspan(1)) {
+    title.append("; ").append(layer.title);
+    char& first = title[title.size() - layer.title.size()];
+    first = static_cast<char>(std::tolower(static_cast<unsigned char>(first)));
+  }
+  return title;
+}
+
+std::string caption_of(const Frame& frame, const MapSettings& settings) {
+  std::string caption = fmt::format("θ = {:.2f}°", degrees(frame.tilt));
+  if (std::isfinite(settings.theta_c) && settings.theta_c > 0.0) {
+    caption += fmt::format(", θ_c = {:.2f}°", degrees(settings.theta_c));
+    if (settings.theta_c_assumed) caption += " (assumed)";
+  }
+  return caption;
+}
+
+}  // namespace
+
+MapExtent bed_extent(const RunStatics& statics) { return {0.0, statics.length, 0.0, 0.0}; }
+
+void extend(MapExtent& extent, const BedFrame& bed) {
+  for (std::size_t i = 0; i < bed.frame.y.size(); ++i) {
+    extent.y_min = std::min(extent.y_min, bed.frame.y[i] - bed.statics.radius[i]);
+    extent.y_max = std::max(extent.y_max, bed.frame.y[i] + bed.statics.radius[i]);
+  }
+}
+
+void extend(MapExtent& extent, const MapExtent& other) {
+  extent.y_min = std::min(extent.y_min, other.y_min);
+  extent.y_max = std::max(extent.y_max, other.y_max);
+}
+
+FrameView bare_map(const BedFrame& bed, const std::vector<GrainLook>& looks, const MapExtent& extent) {
+  FrameView view = empty_view(extent);
+  add_grains(view, bed, {&looks, looks.empty() ? 0u : 1u});
+  return view;
+}
+
+bool has_bar(const MapLayers& layers) {
+  return has_bar(layers, 0) || (layers.size() > 1 && has_bar(layers, 1));
+}
+
+FrameView make_map(const MapFrame& frame, const MapSettings& settings, const MapExtent& extent) {
+  check_theta_c(settings);
+  std::vector<MapLayer> layers;
+  for (std::size_t k = 0; k < settings.layers.size(); ++k)
+    layers.push_back(make_layer(frame, settings, extent, k));
+  std::vector<std::vector<GrainLook>> looks;
+  for (MapLayer& layer : layers)
+    if (!layer.looks.empty()) looks.push_back(std::move(layer.looks));
+  FrameView view = empty_view(extent);
+  add_grains(view, frame, looks);
+  for (const MapLayer& layer : layers)
+    for (const Line& line : layer.lines) add_line(view, line, frame.statics);
+  add_surroundings(view, frame);
+  view.furniture = settings.furniture;
+  view.transparent = settings.transparent;
+  // Also in a frame in which no cluster has a colour yet: all of a movie have as many channels.
+  view.coloured = shows(settings.layers, MapKind::clusters);
+  view.tilt = frame.frame.tilt;
+  if (settings.turned) {
+    view.turn = std::max(0.0, frame.frame.tilt);
+    view.turn_max = std::max(view.turn, settings.tilt_max);
+  }
+  view.title = joint_title(layers);
+  view.caption = caption_of(frame.frame, settings);
+  for (MapLayer& layer : layers) view.legends.push_back(std::move(layer.legend));
+  return view;
+}
+
+}  // namespace talus

@@ -1,0 +1,108 @@
+#pragma once
+/// Maps of the bed: from a frame of a run to what the renderer draws.
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/bed_frame.h"
+#include "pictures/cluster_colours.h"
+#include "pictures/map_kind.h"
+#include "pictures/overload_rule.h"
+#include "pictures/scale.h"
+#include "render/colour_map.h"
+#include "render/frame_view.h"
+
+namespace talus {
+
+/// Ends of a scale.
+struct ScaleRange {
+  double low = 0.0, high = 1.0;
+  bool operator==(const ScaleRange&) const = default;
+};
+
+/// Ranges that fit how far grains have moved and turned in the frames that are drawn (MotionSample in
+/// motion.h). Two of each, as the units differ: in all, and per degree of tilt. None where nothing moved.
+struct MotionRanges {
+  std::array<std::optional<ScaleRange>, 2> displacement, rotation;
+  bool operator==(const MotionRanges&) const = default;
+};
+
+/// What lies within them: the shares of grains below the ends of the scale of displacement, and that of
+/// grains which have turned less than the ends of the scale of rotation.
+inline constexpr struct { double low, high; } displacement_shares = {0.05, 0.99};
+inline constexpr double rotation_share = 0.95;
+
+/// The range of `displacement` or `rotation` where no other fits or is chosen: from the creep of a bed at
+/// rest to an avalanche.
+ScaleRange fixed_motion_range(MapKind kind, bool per_degree);
+
+/// deg: by which maps are scaled while the slope has not failed and nothing else is asked for.
+inline constexpr double assumed_theta_c = 20.0;
+
+/// How the maps of a run are drawn; the same for all of its frames.
+struct MapSettings : OverloadRule {
+  MapLayers layers;                  ///< one map, or two: the second is drawn over the first
+  std::optional<ColourMap> colours;  ///< of the first layer that has a bar; without a value: its own
+  std::optional<double> range_low;   ///< of the bar of that layer, in the unit of its title
+  std::optional<double> range_high;
+  MotionRanges motion;           ///< of `displacement` and `rotation` where no range is chosen
+  bool theta_c_assumed = false;  ///< the caption says so
+  double length = 10.0;          ///< D: the diameter of neighbourhoods of the map `coarse`
+  bool turned = false;           ///< to its slope, instead of the bed's own frame
+  double tilt_max = 0.0;         ///< rad, of all frames that are to have the size of this one
+  bool furniture = true;
+  bool transparent = false;
+  bool operator==(const MapSettings&) const = default;
+};
+
+/// What the maps of one run show of the bed, so that all of them have the same size. m, frame of the bed.
+struct MapExtent {
+  double x_min = 0.0, x_max = 0.0, y_min = 0.0, y_max = 0.0;
+  bool operator==(const MapExtent&) const = default;
+};
+
+/// The bed from end to end (x), and in y from the lowest to the highest grain of these frames: begin with
+/// bed_extent, and extend by each frame.
+MapExtent bed_extent(const RunStatics& statics);
+void extend(MapExtent& extent, const BedFrame& bed);
+/// The same by the lowest and the highest grain of other frames.
+void extend(MapExtent& extent, const MapExtent& other);
+
+/// Whose gamma a map shows, for its title: "l = 3 D", or "single grains" where l_min is 0.
+std::string reading_text(const OverloadRule& rule);
+
+/// A frame of mapped_frame, with the l_min of the map, and what maps need beside it.
+struct MapFrame : BedFrame {
+  /// For `displacement` and `rotation`: the frame that they are measured from, null where there is none yet
+  /// (nothing has moved); and whether the map says what moved in a degree of tilt, or in all;
+  /// always the latter where there was no tilt between them, as in a flow.
+  const Frame* reference = nullptr;
+  bool per_degree = true;
+  /// For `clusters`: from a ClusterColours (cluster_colours.h) that has met all earlier frames; else empty.
+  std::span<const ClusterColour> cluster_colours = {};
+};
+
+/// The bed of a frame without furniture, with these looks of its free grains; none: outlines.
+FrameView bare_map(const BedFrame& bed, const std::vector<GrainLook>& looks, const MapExtent& extent);
+
+/// A map of a frame, with its furniture but no traces. Throws Error(bad_data) where a layer is scaled by
+/// theta_c, and that is not between 2 and 89 deg; Error(usage) where a range or `length` cannot be.
+FrameView make_map(const MapFrame& frame, const MapSettings& settings, const MapExtent& extent);
+
+/// Whether a map has a bar: whether `colours` and `range_low`, `range_high` change anything.
+bool has_bar(const MapLayers& layers);
+
+/// Stress ratio below which a grain is white in the map of gamma (paper, Fig. 10).
+inline constexpr double white_below = 0.05;
+
+/// The scale of the map of gamma: white up to white_below, black from 2 gamma_c on.
+Scale gamma_scale(double gamma_c);
+
+/// Of each free grain: black with gamma >= threshold, else white; `over_grains`: as a mark in a grain that
+/// another layer fills.
+std::vector<GrainLook> overload_looks(const BedFrame& bed, double threshold, bool over_grains = false);
+
+}  // namespace talus

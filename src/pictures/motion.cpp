@@ -1,0 +1,98 @@
+#include "pictures/motion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/core.h>
+
+#include "core/trigonometry.h"
+#include "pictures/texts.h"
+
+namespace talus {
+namespace {
+
+/// To two digits, as bars and legends print it.
+double rounded(double value) {
+  const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1.0);
+  return std::round(value / unit) * unit;
+}
+
+/// Nothing where nothing has moved. The lowest grains hardly move at all: a scale does not follow them down
+/// for more than five decades; and it is one also where all move alike.
+std::optional<ScaleRange> displacement_range(const LogHistogram& moved) {
+  constexpr double most = 1e5, least = 2.0;  // of the upper end over the lower one
+  const double high = moved.quantile(displacement_shares.high);
+  if (!(high > 0.0)) return std::nullopt;
+  const double low = std::clamp(moved.quantile(displacement_shares.low), high / most, high / least);
+  return ScaleRange{rounded(low), rounded(high)};
+}
+
+std::optional<ScaleRange> rotation_range(const LogHistogram& turned) {
+  const double largest = turned.quantile(rotation_share);
+  if (!(largest > 0.0)) return std::nullopt;
+  return ScaleRange{-rounded(largest), rounded(largest)};
+}
+
+}  // namespace
+
+MotionSpan motion_span(const MapFrame& of) {
+  const double begin = of.reference != nullptr ? of.reference->tilt : of.frame.tilt;
+  const double tilted = degrees(of.frame.tilt - begin);
+  // Where the bed flows after failure it is not tilted any more: there is nothing to divide by.
+  const bool moved = of.reference != nullptr && of.reference->step != of.frame.step;
+  if (of.per_degree && (tilted > 0.0 || !moved))
+    return {true, tilted > 0.0 ? tilted : 1.0, " per degree of tilt", " per degree"};
+  return {false, 1.0, fmt::format(" since {:.2f}°", degrees(begin)), ""};
+}
+
+std::vector<Vec2> displacements(const MapFrame& of, const MotionSpan& span) {
+  const RunStatics& statics = of.statics;
+  std::vector<Vec2> moved(static_cast<std::size_t>(statics.free_count));
+  if (of.reference == nullptr) return moved;
+  const Frame& before = *of.reference;
+  const double unit = statics.mean_diameter * span.degrees;
+  for (Index i = 0; i < statics.free_count; ++i) {
+    const double periods = statics.periodic ? of.frame.image[i] - before.image[i] : 0;
+    moved[i] = {(of.frame.x[i] - before.x[i] + periods * statics.length) / unit,
+                (of.frame.y[i] - before.y[i]) / unit};
+  }
+  return moved;
+}
+
+std::vector<double> rotations(const MapFrame& of, const MotionSpan& span) {
+  std::vector<double> turned(static_cast<std::size_t>(of.statics.free_count), 0.0);
+  if (of.reference != nullptr)
+    for (std::size_t i = 0; i < turned.size(); ++i)
+      turned[i] = degrees(of.frame.angle[i] - of.reference->angle[i]) / span.degrees;
+  return turned;
+}
+
+void LogHistogram::add(double value) {
+  const double at =
+      value >= smallest ? 1.0 + std::floor(classes_per_decade * std::log10(value / smallest)) : 0.0;
+  ++counts_[static_cast<std::size_t>(std::min(at, static_cast<double>(counts_.size() - 1)))];
+  ++total_;
+}
+
+double LogHistogram::quantile(double share) const {
+  const double wanted = share * static_cast<double>(total_);
+  std::int64_t below = counts_[0];
+  std::size_t k = 0;
+  while (k + 1 < counts_.size() && static_cast<double>(below) < wanted) below += counts_[++k];
+  if (k == 0) return 0.0;
+  return smallest * std::pow(10.0, static_cast<double>(k) / classes_per_decade);
+}
+
+void MotionSample::add(const MapFrame& of) {
+  if (of.reference == nullptr) return;
+  const MotionSpan span = motion_span(of);
+  for (const Vec2& moved : displacements(of, span))
+    displacement_[span.per_degree].add(std::hypot(moved.x, moved.y));
+  for (const double turned : rotations(of, span)) rotation_[span.per_degree].add(std::abs(turned));
+}
+
+MotionRanges MotionSample::ranges() const {
+  return {{displacement_range(displacement_[0]), displacement_range(displacement_[1])},
+          {rotation_range(rotation_[0]), rotation_range(rotation_[1])}};
+}
+
+}  // namespace talus

@@ -1,0 +1,114 @@
+#include <algorithm>
+#include <cmath>
+#include <fmt/core.h>
+#include <set>
+#include <utility>
+
+#include "pictures/layers.h"
+#include "pictures/motion.h"
+#include "pictures/texts.h"
+
+namespace talus {
+namespace {
+
+ScaleRange range_of(const std::array<std::optional<ScaleRange>, 2>& fitting, MapKind kind,
+                    const MotionSpan& span) {
+  return fitting[span.per_degree].value_or(fixed_motion_range(kind, span.per_degree));
+}
+
+Scale displacement_scale(const MotionRanges& motion, const MotionSpan& span, const ScaleChoice& choice) {
+  const ScaleRange range = range_of(motion.displacement, MapKind::displacement, span);
+  return chosen({ColourMap::viridis, range.low, range.high, true}, choice);
+}
+
+/// ", 5 to 99 % of grains" where the range is one that fits them.
+std::string displacement_share_text(const MotionRanges& motion, const MotionSpan& span,
+                                    const ScaleChoice& choice) {
+  if (choice.low || !motion.displacement[span.per_degree]) return "";
+  return fmt::format(", {:.6g} to {:.6g} % of grains", 100.0 * displacement_shares.low,
+                     100.0 * displacement_shares.high);
+}
+
+std::string rotation_share_text(const MotionRanges& motion, const MotionSpan& span,
+                                const ScaleChoice& choice) {
+  if (choice.low || !motion.rotation[span.per_degree]) return "";
+  return fmt::format(", {:.6g} % of grains", 100.0 * rotation_share);
+}
+
+/// All free grains; or, where `spacing` is more than D, that with the smallest id in each square of that
+/// side.
+std::vector<Index> evenly_spread(const MapFrame& of, double spacing) {
+  std::vector<Index> grains;
+  std::set<std::pair<long, long>> taken;
+  const bool all = spacing <= of.statics.mean_diameter;
+  const auto is_first_of_square = [&](Index i) {
+    return taken.emplace(std::lround(of.frame.x[i] / spacing), std::lround(of.frame.y[i] / spacing)).second;
+  };
+  for (Index i = 0; i < of.statics.free_count; ++i)
+    if (all || is_first_of_square(i)) grains.push_back(i);
+  return grains;
+}
+
+void add_arrow(std::vector<Line>& lines, double x, double y, Vec2 along, double half_width,
+               const Colour& colour) {
+  const auto line = [&](double x0, double y0, double x1, double y1) {
+    lines.push_back({static_cast<float>(x0), static_cast<float>(y0), static_cast<float>(x1),
+                     static_cast<float>(y1), static_cast<float>(half_width), colour});
+  };
+  const double tip_x = x + along.x, tip_y = y + along.y;
+  line(x, y, tip_x, tip_y);
+  constexpr double back = 0.35, aside = 0.2;  // of its length
+  line(tip_x, tip_y, tip_x - back * along.x - aside * along.y, tip_y - back * along.y + aside * along.x);
+  line(tip_x, tip_y, tip_x - back * along.x + aside * along.y, tip_y - back * along.y - aside * along.x);
+}
+
+}  // namespace
+
+ScaleRange fixed_motion_range(MapKind kind, bool per_degree) {
+  if (kind == MapKind::displacement) return {per_degree ? 1e-4 : 1e-3, 10.0};
+  const double largest = per_degree ? 10.0 : 30.0;
+  return {-largest, largest};
+}
+
+MapLayer displacement_layer(const MapFrame& of, const MotionRanges& motion, const ScaleChoice& choice) {
+  const MotionSpan span = motion_span(of);
+  const Scale scale = displacement_scale(motion, span, choice);
+  std::vector<double> values;
+  for (const Vec2& moved : displacements(of, span)) values.push_back(std::hypot(moved.x, moved.y));
+  const std::string title = fmt::format("in D{}{}", span.unit, displacement_share_text(motion, span, choice));
+  return {"Displacement" + span.title, looks_of(scale, values), {}, {{bar_of(scale, title)}, {}}};
+}
+
+MapLayer displacement_arrows(const MapFrame& of, const MotionRanges& motion, const OverColour& over,
+                             double spacing) {
+  constexpr double longest = 1.6, half_width = 0.04;  // D, or spacing
+  const Colour colour = over.value_or(Colour{0, 90, 180});
+  const MotionSpan span = motion_span(of);
+  const Scale scale = displacement_scale(motion, span, {});
+  const double unit = std::max(spacing, of.statics.mean_diameter);
+  MapLayer layer;
+  layer.title = "Displacement" + span.title;
+  const std::vector<Vec2> moved = displacements(of, span);
+  for (const Index i : evenly_spread(of, spacing)) {
+    const double distance = std::hypot(moved[i].x, moved[i].y);
+    if (!(distance > scale.low)) continue;
+    const double stretch = longest * unit * std::min(1.0, share_of(scale, distance)) / distance;
+    add_arrow(layer.lines, of.frame.x[i], of.frame.y[i], {stretch * moved[i].x, stretch * moved[i].y},
+              half_width * unit, colour);
+  }
+  const std::string label = fmt::format("length logarithmic, from {:.6g} to {:.6g} D{}{}", scale.low,
+                                        scale.high, span.unit, displacement_share_text(motion, span, {}));
+  layer.legend.swatches = {{Swatch::Kind::line, colour, colour, 0.15, label}};
+  return layer;
+}
+
+MapLayer rotation_layer(const MapFrame& of, const MotionRanges& motion, const ScaleChoice& choice) {
+  const MotionSpan span = motion_span(of);
+  const ScaleRange range = range_of(motion.rotation, MapKind::rotation, span);
+  const Scale scale = chosen({ColourMap::diverging, range.low, range.high}, choice);
+  const std::string title = fmt::format("in °{}, counter-clockwise positive{}", span.unit,
+                                        rotation_share_text(motion, span, choice));
+  return {"Rotation" + span.title, looks_of(scale, rotations(of, span)), {}, {{bar_of(scale, title)}, {}}};
+}
+
+}  // namespace talus

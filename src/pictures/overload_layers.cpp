@@ -1,0 +1,119 @@
+#include <fmt/core.h>
+#include <string>
+
+#include "analysis/percolation.h"
+#include "pictures/layers.h"
+#include "pictures/texts.h"
+#include "stress/overload.h"
+
+namespace talus {
+namespace {
+
+/// Of clusters that have no colour of their own.
+constexpr double uncoloured_shade = 0.4;
+
+/// "Γ_c", "2Γ_c".
+std::string threshold_symbol(const MapSettings& settings) {
+  const double factor = settings.threshold_factor;
+  return factor == 1.0 ? "Γ_c" : fmt::format("{:.6g}Γ_c", factor);
+}
+
+/// "Γ_c = sin θ_c = 0.34", "2Γ_c = 0.69".
+std::string threshold_text(const MapSettings& settings) {
+  return fmt::format("{} = {}{:.2f}", threshold_symbol(settings),
+                     settings.threshold_factor == 1.0 ? "sin θ_c = " : "", threshold_of(settings));
+}
+
+Swatch disc_swatch(const Colour& fill, const Colour& rim, const std::string& label) {
+  return {Swatch::Kind::disc, fill, rim, 0.0, label};
+}
+
+/// A colour for each cluster.
+std::vector<Colour> colours_of(std::span<const ClusterColour> cluster_colours) {
+  const std::vector<Colour> palette = cluster_palette();
+  std::vector<Colour> colours;
+  for (const ClusterColour& colour : cluster_colours)
+    colours.push_back(colour.palette_index < 0 ? gray(uncoloured_shade)
+                                               : palette[static_cast<std::size_t>(colour.palette_index)]);
+  return colours;
+}
+
+std::string clusters_title(const Clusters& clusters, const MapSettings& settings) {
+  const std::string reading = ", " + reading_text(settings);
+  if (clusters.count() == 0) return "No clusters of overloaded grains" + reading;
+  const double share = 100.0 * clusters.size[0] / clusters.members;
+  return fmt::format("{}{}{}; the largest has {:.0f} % of the overloaded grains", clusters.count(),
+                     clusters.count() == 1 ? " cluster" : " clusters", reading, share);
+}
+
+/// What marks the clusters that span.
+std::vector<Swatch> spanning_swatches(const Spanning& spanning, std::span<const Colour> colours,
+                                      bool periodic) {
+  const std::string across = periodic ? "spans the period" : "spans wall to wall";
+  const auto swatch = [&](Index cluster, const std::string& label) {
+    return disc_swatch(colours[static_cast<std::size_t>(cluster)], black, label);
+  };
+  std::vector<Swatch> swatches;
+  const bool both = spanning.floor_to_surface >= 0 && spanning.floor_to_surface == spanning.across;
+  if (spanning.floor_to_surface >= 0)
+    swatches.push_back(
+        swatch(spanning.floor_to_surface, both ? "spans floor to surface, and " + across.substr(6)
+                                               : std::string("spans floor to surface")));
+  if (spanning.across >= 0 && !both) swatches.push_back(swatch(spanning.across, across));
+  return swatches;
+}
+
+}  // namespace
+
+std::vector<GrainLook> overload_looks(const BedFrame& bed, double threshold, bool over_grains) {
+  std::vector<GrainLook> looks;
+  for (Index i = 0; i < bed.statics.free_count; ++i) {
+    const bool overloaded = is_overloaded(bed.frame.gamma[i], threshold);
+    const Colour fill = overloaded ? black : white;
+    looks.push_back({fill, over_grains ? white : rim_of(fill), overloaded});
+  }
+  return looks;
+}
+
+MapLayer overloaded_layer(const MapFrame& of, const MapSettings& settings, bool over_grains) {
+  const double threshold = threshold_of(settings);
+  const OverloadCount count = count_overloaded(of, threshold);
+  MapLayer layer;
+  layer.title = settings.l_min > 0.0 ? "Overloaded grains, " + reading_text(settings)
+                                     : "Overloaded " + reading_text(settings);
+  if (count.loaded > 0) layer.title += fmt::format(", p_o = {:.3f}", count.fraction());
+  layer.looks = overload_looks(of, threshold, over_grains);
+  layer.legend.swatches = {disc_swatch(black, black, "γ ≥ " + threshold_text(settings))};
+  if (!over_grains)
+    layer.legend.swatches.push_back(disc_swatch(white, rim_of(white), "γ < " + threshold_symbol(settings)));
+  return layer;
+}
+
+MapLayer clusters_layer(const MapFrame& of, const MapSettings& settings, bool over_grains) {
+  const Clusters clusters = overloaded_clusters(of, settings);
+  const Spanning spanning = find_spanning(clusters, bed_edges(of));
+  const std::vector<Colour> colours = colours_of(
+      of.cluster_colours.empty() ? ClusterColours().next(clusters)
+                                 : std::vector(of.cluster_colours.begin(), of.cluster_colours.end()));
+  MapLayer layer;
+  layer.title = clusters_title(clusters, settings);
+  for (const Index label : clusters.label) {
+    if (label < 0) {
+      layer.looks.push_back(outline_look());
+      continue;
+    }
+    const bool spans = label == spanning.floor_to_surface || label == spanning.across;
+    const Colour fill = colours[static_cast<std::size_t>(label)];
+    layer.looks.push_back({fill, spans ? black : rim_of(fill)});
+  }
+  const GrainLook other = outline_look();
+  layer.legend.swatches = spanning_swatches(spanning, colours, of.statics.periodic);
+  layer.legend.swatches.push_back(
+      disc_swatch(gray(uncoloured_shade), rim_of(gray(uncoloured_shade)),
+                  fmt::format("fewer than {} grains", smallest_coloured_cluster)));
+  if (!over_grains)
+    layer.legend.swatches.push_back(disc_swatch(other.fill, other.rim, "γ < " + threshold_text(settings)));
+  return layer;
+}
+
+}  // namespace talus

@@ -1,0 +1,27 @@
+#include "pictures/overload_rule.h"
+
+#include <utility>
+
+#include "analysis/free_grains.h"
+#include "analysis/links.h"
+#include "core/trigonometry.h"
+#include "stress/overload.h"
+
+namespace talus {
+
+double threshold_of(const OverloadRule& rule) { return rule.threshold_factor * sine(rule.theta_c); }
+
+Frame mapped_frame(Frame frame, const RunStatics& statics, double l_min) {
+  return with_gamma_of_neighbourhoods(std::move(frame), statics, l_min * statics.mean_diameter);
+}
+
+Clusters overloaded_clusters(const BedFrame& bed, const OverloadRule& rule) {
+  const double threshold = threshold_of(rule);
+  std::vector<bool> overloaded(static_cast<std::size_t>(bed.statics.free_count));
+  for (std::size_t i = 0; i < overloaded.size(); ++i)
+    overloaded[i] = is_overloaded(bed.frame.gamma[i], threshold);
+  const auto links = rule.joined_by_neighbours ? neighbour_links(bed) : force_links(bed);
+  return find_clusters(overloaded, links, bed.frame.x, period_of(bed.statics));
+}
+
+}  // namespace talus

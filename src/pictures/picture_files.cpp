@@ -1,0 +1,95 @@
+#include "pictures/picture_files.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fmt/core.h>
+#include <utility>
+
+#include "core/errors.h"
+#include "core/output_file.h"
+#include "core/trigonometry.h"
+#include "pictures/background_tasks.h"
+#include "render/renderer.h"
+
+namespace talus {
+namespace {
+
+/// Pictures that may wait to be written: of 16 megapixels in colour each takes 48 MB.
+constexpr std::size_t pictures_waiting = 2;
+
+/// "gamma_012.00.png" for frame k of the tilt, "gamma_flow_002.3500s.png" for one of the flow after failure,
+/// with the time since the last frame of the tilt: names sort by time.
+std::string picture_name(const PictureSeries& series, std::size_t k, std::size_t map, int decimals) {
+  const FrameInstant &instant = series.instants[k], &highest = series.instants[series.highest];
+  const std::string name = layers_name(series.plan.maps[map].layers);
+  if (k <= series.highest) return fmt::format("{}_{}.png", name, angle_name(instant.tilt, decimals));
+  return fmt::format("{}_flow_{:08.4f}s.png", name, instant.time - highest.time);
+}
+
+}  // namespace
+
+FrameChoice choose_frames(const DrawnRun& run, const FramesAsked& asked) {
+  const std::vector<double>& tilts = run.file.frame_tilts();
+  const std::size_t count = run.series.instants.size();
+  if (asked.flow && count == tilts.size())
+    throw Error(ExitCode::bad_data, run.series.path +
+                                        ": --flow: nothing was followed after failure in this run; "
+                                        "tilt.after_failure = \"lower\" or \"hold\" does");
+  FrameChoice choice =
+      asked.at.empty() ? frames_every(tilts, asked.every) : frames_at(tilts, asked.at, run.theta_c());
+  if (asked.at.empty() && std::isfinite(run.theta_c()))
+    choice.push_back(frame_at_repose(tilts, run.theta_c()));
+  for (std::size_t k = tilts.size(); asked.flow && k < count; ++k) choice.push_back(k);
+  std::ranges::sort(choice);
+  choice.erase(std::unique(choice.begin(), choice.end()), choice.end());
+  return choice;
+}
+
+PictureFile picture_file(const PictureSeries& series, const std::string& command, const std::string& folder,
+                         std::size_t k, std::size_t map, int decimals) {
+  const std::string path = (std::filesystem::path(folder) / picture_name(series, k, map, decimals)).string();
+  PictureMarks marks = {picture_key(series, k, map),
+                        picture_request(command, series, {&series.asked.maps[map], 1}, path),
+                        picture_source(series, k, map)};
+  return {k, map, path, std::move(marks)};
+}
+
+std::vector<PictureFile> files_to_draw(DrawnRun& run, const FrameChoice& choice, const std::string& folder,
+                                       bool overwrite) {
+  fit_motion(run, choice);
+  const PictureSeries& series = run.series;
+  const int decimals = angle_decimals(run.file.frame_tilts(), choice);
+  std::vector<PictureFile> files;
+  for (const std::size_t k : choice)
+    for (std::size_t map = 0; map < series.plan.maps.size(); ++map) {
+      PictureFile file = picture_file(series, "render", folder, k, map, decimals);
+      if (!is_drawn(file.path, file.marks, overwrite)) files.push_back(std::move(file));
+    }
+  return files;
+}
+
+void draw_files(DrawnRun& run, const std::vector<PictureFile>& files, const std::string& folder,
+                const Watch& watch) {
+  Renderer renderer(make_context(run.series.plan.context));
+  BackgroundTasks writer(pictures_waiting);  // while one is encoded and written, the next is drawn
+  for (std::size_t done = 0; done < files.size(); ++done) {
+    const PictureFile& file = files[done];
+    if (watch.stopped()) {
+      writer.finish();
+      throw Error(
+          ExitCode::stopped,
+          fmt::format(
+              "stopped after {} of {} pictures; repeat the command, and those that are there are kept", done,
+              files.size()));
+    }
+    Image image = renderer.draw(picture(run, file.frame, file.map), run.series.plan.width);
+    if (done == 0) create_folder(folder);
+    writer.post(
+        [&file, drawn = std::move(image)] { write_png(file.path, drawn, picture_texts(file.marks)); });
+    if (watch.progress) watch.progress(done + 1, files.size());
+  }
+  writer.finish();
+}
+
+}  // namespace talus

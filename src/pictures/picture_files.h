@@ -1,0 +1,51 @@
+#pragma once
+/// Maps of a run as PNG files in a folder.
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "pictures/frame_choice.h"
+#include "pictures/picture_marks.h"
+
+namespace talus {
+
+/// Which frames are asked for.
+struct FramesAsked {
+  std::vector<std::string> at;  ///< as in frames_at; none: by `every`
+  double every = 1.0;           ///< deg; the last frame before failure is added
+  bool flow = false;            ///< also all frames after failure
+};
+
+/// Frames of the tilt, ascending, and then those of the flow. Throws as frames_at does, and Error(bad_data)
+/// where a flow is asked for that was not followed.
+FrameChoice choose_frames(const DrawnRun& run, const FramesAsked& asked);
+
+/// A picture to be drawn.
+struct PictureFile {
+  std::size_t frame = 0, map = 0;  ///< of the series
+  std::string path;
+  PictureMarks marks;
+};
+
+/// Of map `map` of frame k, as `command` draws it into the folder. Names sort by time.
+PictureFile picture_file(const PictureSeries& series, const std::string& command, const std::string& folder,
+                         std::size_t k, std::size_t map, int decimals);
+
+/// Of all maps of the frames chosen, those that are not in the folder yet; all maps of a frame, then the next
+/// frame. Fits the ranges of motion to them. Throws as is_drawn does.
+std::vector<PictureFile> files_to_draw(DrawnRun& run, const FrameChoice& choice, const std::string& folder,
+                                       bool overwrite);
+
+/// Who watches a long drawing.
+struct Watch {
+  CountDone progress;             ///< may be empty
+  std::function<bool()> stopped;  ///< whether to stop; asked before each picture
+};
+
+/// Draws them, and makes the folder where it is missing once there is something to put there. Throws
+/// Error(stopped) where it was stopped, with the pictures so far whole.
+void draw_files(DrawnRun& run, const std::vector<PictureFile>& files, const std::string& folder,
+                const Watch& watch);
+
+}  // namespace talus

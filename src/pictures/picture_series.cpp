@@ -1,0 +1,168 @@
+#include "pictures/picture_series.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/core.h>
+#include <utility>
+
+#include "core/errors.h"
+#include "core/trigonometry.h"
+#include "pictures/frame_choice.h"
+#include "pictures/motion.h"
+#include "pictures/texts.h"
+
+namespace talus {
+namespace {
+
+/// "0.50,1.25": a place in the bed (m) in mean diameters.
+std::string place_text(double x, double y, double diameter) {
+  return fmt::format("{:.2f},{:.2f}", x / diameter, y / diameter);
+}
+
+void take_theta_c(PictureSeries& series, const std::optional<double>& measured) {
+  for (MapSettings& map : series.plan.maps)
+    if (!std::isfinite(map.theta_c) && measured) map.theta_c = *measured;
+  if (std::isfinite(series.plan.maps[0].theta_c) || !needs_theta_c(series.plan)) return;
+  throw Error(ExitCode::bad_data, series.path +
+                                      ": the slope has not failed in this run, and what is asked for is "
+                                      "scaled by the angle of repose; give it with --theta-c DEG");
+}
+
+/// The frame of --since; none where the frame before is meant.
+std::optional<std::size_t> reference_since(const std::vector<double>& tilts, std::optional<double> since) {
+  if (!since) return std::nullopt;
+  const std::optional<std::size_t> frame = nearest_frame(tilts, *since);
+  const double spacing = tilts.size() > 1
+                             ? (tilts.back() - tilts.front()) / static_cast<double>(tilts.size() - 1)
+                             : radians(1.0);
+  if (*since > tilts.back() + 0.5 * spacing)
+    throw Error(ExitCode::bad_data, fmt::format("--since {:.6g}: the frames of the run end at {:.2f} deg",
+                                                degrees(*since), degrees(tilts.back())));
+  return frame;
+}
+
+void meet_all(PictureSeries& series, const RunFile& file, const CountDone& progress) {
+  const MapPlan& plan = series.plan;
+  const bool whole = shows(plan, MapKind::clusters) || std::ranges::any_of(plan.traces, trace_from_frames);
+  const std::size_t count = file.all_frame_tilts().size();
+  for (std::size_t k = 0; k < count; ++k) {
+    const Frame frame = whole ? as_mapped(series, file.frame(k)) : file.positions(k);
+    const BedFrame bed{frame, series.run.statics};
+    meet(series, frame);
+    extend(series.extent, bed);
+    for (std::size_t t = 0; t < plan.traces.size() && k < file.frame_count(); ++t)
+      if (trace_from_frames(plan.traces[t])) {
+        series.curves[t].tilts.push_back(frame.tilt);
+        series.curves[t].values.push_back(frame_value(plan.traces[t], bed, plan.maps[0]));
+      }
+    if (progress) progress(k + 1, count);
+  }
+  series.highest = file.frame_count() - 1;
+}
+
+void take_observables(PictureSeries& series, const RunFile& file) {
+  if (std::ranges::all_of(series.plan.traces, trace_from_frames)) return;
+  const std::vector<ObservableRow> rows = file.observables();
+  for (std::size_t t = 0; t < series.plan.traces.size(); ++t) {
+    if (trace_from_frames(series.plan.traces[t])) continue;
+    for (const ObservableRow& row : rows) {
+      series.curves[t].tilts.push_back(at(row, Observable::tilt));
+      series.curves[t].values.push_back(at(row, trace_column(series.plan.traces[t])));
+    }
+  }
+}
+
+MapExtent cropped(const MapExtent& bed, const Crop& crop, double diameter) {
+  const MapExtent asked{crop.x0 * diameter, crop.x1 * diameter, crop.y0 * diameter, crop.y1 * diameter};
+  if (asked.x_min < bed.x_min || asked.x_max > bed.x_max || asked.y_min < bed.y_min ||
+      asked.y_max > bed.y_max)
+    throw Error(
+        ExitCode::usage,
+        fmt::format(
+            "--crop {:.6g},{:.6g},{:.6g},{:.6g} leaves the bed, which goes from {} to {} in mean diameters",
+            crop.x0, crop.y0, crop.x1, crop.y1, place_text(bed.x_min, bed.y_min, diameter),
+            place_text(bed.x_max, bed.y_max, diameter)));
+  return asked;
+}
+
+MapFrame map_frame(const PictureSeries& series, std::size_t k, const Frame& frame, const Frame* reference) {
+  std::span<const ClusterColour> colours;
+  if (!series.cluster_colours.empty()) colours = series.cluster_colours[k];
+  return {{frame, series.run.statics}, reference, !series.since, colours};
+}
+
+void read_frame(DrawnRun& run, std::size_t k) {
+  if (run.current == k) return;
+  const std::optional<std::size_t> wanted =
+      any_layer(run.series.plan, needs_reference) ? reference_frame(k, run.series.since) : std::nullopt;
+  if (wanted && wanted != run.before)
+    run.reference = run.current == wanted ? std::move(run.frame) : run.file.frame(*wanted);
+  run.before = wanted;
+  run.frame = as_mapped(run.series, run.file.frame(k));
+  run.current = k;
+}
+
+const Frame* reference_of(const DrawnRun& run) { return run.before ? &run.reference : nullptr; }
+
+}  // namespace
+
+Frame as_mapped(const PictureSeries& series, Frame frame) {
+  if (!shows_gamma(series.plan)) return frame;
+  return mapped_frame(std::move(frame), series.run.statics, series.plan.maps[0].l_min);
+}
+
+void meet(PictureSeries& series, const Frame& mapped) {
+  if (series.instants.empty() || mapped.tilt > series.instants[series.highest].tilt)
+    series.highest = series.instants.size();
+  series.instants.push_back({mapped.step, mapped.time, mapped.tilt});
+  if (shows(series.plan, MapKind::clusters))
+    series.cluster_colours.push_back(
+        series.tracker.next(overloaded_clusters({mapped, series.run.statics}, series.plan.maps[0])));
+}
+
+FrameView picture(const PictureSeries& series, std::size_t k, const Frame& frame, const Frame* reference,
+                  std::size_t map) {
+  const MapSettings& settings = series.plan.maps[map];
+  FrameView view = make_map(map_frame(series, k, frame, reference), settings, series.extent);
+  for (std::size_t t = 0; t < series.curves.size(); ++t)
+    view.traces.push_back(make_trace(series.plan.traces[t], series.curves[t].tilts, series.curves[t].values,
+                                     settings, frame.tilt));
+  return view;
+}
+
+DrawnRun open_drawn_run(const std::string& path, const MapPlan& plan, const CountDone& progress) {
+  DrawnRun run{RunFile::open(path), {}, {}, {}, {}, {}};
+  PictureSeries& series = run.series;
+  series.path = path;
+  series.asked = series.plan = plan;
+  series.run = run.file.header();
+  if (run.file.frame_count() == 0)
+    throw Error(ExitCode::bad_data, path + " has no frames yet: nothing is drawn before the tilt begins");
+  take_theta_c(series, find_value(run.file.checkpoint().results, "theta_c"));
+  series.since = reference_since(run.file.frame_tilts(), plan.since);
+  series.curves.resize(plan.traces.size());
+  series.extent = bed_extent(series.run.statics);
+  meet_all(series, run.file, progress);
+  take_observables(series, run.file);
+  if (plan.crop) series.extent = cropped(series.extent, *plan.crop, series.run.statics.mean_diameter);
+  for (MapSettings& map : series.plan.maps)
+    if (map.turned) map.tilt_max = std::ranges::max(run.file.all_frame_tilts());
+  return run;
+}
+
+void fit_motion(DrawnRun& run, std::span<const std::size_t> frames) {
+  if (!any_layer(run.series.plan, needs_reference)) return;
+  MotionSample sample;
+  for (const std::size_t k : frames) {
+    read_frame(run, k);
+    sample.add(map_frame(run.series, k, run.frame, reference_of(run)));
+  }
+  for (MapSettings& map : run.series.plan.maps) map.motion = sample.ranges();
+}
+
+FrameView picture(DrawnRun& run, std::size_t k, std::size_t map) {
+  read_frame(run, k);
+  return picture(run.series, k, run.frame, reference_of(run), map);
+}
+
+}  // namespace talus

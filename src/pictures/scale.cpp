@@ -1,0 +1,88 @@
+#include "pictures/scale.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/core.h>
+
+#include "core/errors.h"
+#include "pictures/texts.h"
+
+namespace talus {
+namespace {
+
+constexpr double lightest_rim = 0.45;  // shade of gray
+constexpr double rim_darkness = 0.6;   // of the channels of a colour
+constexpr int most_steps = 5;          // between ticks of a bar
+
+std::uint8_t darkened(std::uint8_t channel) { return static_cast<std::uint8_t>(rim_darkness * channel); }
+
+/// These multiples of the powers of ten between the ends.
+std::vector<BarTick> decades(const Scale& scale, std::initializer_list<double> factors) {
+  constexpr double hair = 1e-9;  // so that rounding loses no tick at an end
+  std::vector<BarTick> ticks;
+  const auto first = static_cast<int>(std::floor(std::log10(scale.low)));
+  const auto last = static_cast<int>(std::ceil(std::log10(scale.high)));
+  for (int k = first; k <= last; ++k)
+    for (const double factor : factors) {
+      const double value = factor * std::pow(10.0, k), share = share_of(scale, value);
+      if (share >= -hair && share <= 1.0 + hair)
+        ticks.push_back({std::clamp(share, 0.0, 1.0), fmt::format("{:.6g}", value)});
+    }
+  return ticks;
+}
+
+std::vector<BarTick> round_shares(const Scale& scale) {
+  std::vector<BarTick> ticks;
+  for (const RoundTick& tick : round_ticks(scale.low, scale.high, most_steps))
+    ticks.push_back({std::clamp(share_of(scale, tick.value), 0.0, 1.0), tick.label});
+  return ticks;
+}
+
+}  // namespace
+
+Colour rim_of(const Colour& fill) {
+  if (is_gray(fill)) return gray(std::max(1.0 - fill.red / 255.0, lightest_rim));
+  return {darkened(fill.red), darkened(fill.green), darkened(fill.blue), fill.alpha};
+}
+
+GrainLook outline_look() { return {white, gray(0.25), false}; }
+
+Scale chosen(Scale scale, const ScaleChoice& choice) {
+  scale.colours = choice.colours.value_or(scale.colours);
+  scale.low = choice.low.value_or(scale.low);
+  scale.high = choice.high.value_or(scale.high);
+  const std::string range = fmt::format("range {:.6g} to {:.6g}: expected ", scale.low, scale.high);
+  if (!(std::isfinite(scale.low) && std::isfinite(scale.high) && scale.low < scale.high))
+    throw Error(ExitCode::usage, range + "an end above the beginning");
+  if (scale.logarithmic && !(scale.low > 0.0))
+    throw Error(ExitCode::usage, range + "a beginning above 0, as the scale is logarithmic");
+  return scale;
+}
+
+double share_of(const Scale& scale, double value) {
+  if (scale.logarithmic) return std::log(value / scale.low) / std::log(scale.high / scale.low);
+  return (value - scale.low) / (scale.high - scale.low);
+}
+
+GrainLook look_of(const Scale& scale, double value) {
+  const Colour fill = colour_at(scale.colours, share_of(scale, value));
+  return {fill, rim_of(fill), !std::isnan(value)};
+}
+
+std::vector<GrainLook> looks_of(const Scale& scale, std::span<const double> values) {
+  std::vector<GrainLook> looks;
+  looks.reserve(values.size());
+  for (const double value : values) looks.push_back(look_of(scale, value));
+  return looks;
+}
+
+Bar bar_of(const Scale& scale, const std::string& title) {
+  constexpr std::size_t few = 3;
+  std::vector<BarTick> ticks = scale.logarithmic ? decades(scale, {1.0}) : std::vector<BarTick>();
+  // Over few decades their halves and fifths are wanted too, and within one round numbers say more.
+  if (scale.logarithmic && ticks.size() < few) ticks = decades(scale, {1.0, 2.0, 5.0});
+  if (ticks.size() < few) ticks = round_shares(scale);
+  return {title, colour_ramp(scale.colours), std::move(ticks)};
+}
+
+}  // namespace talus

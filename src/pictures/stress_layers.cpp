@@ -1,0 +1,94 @@
+#include <algorithm>
+#include <cmath>
+#include <fmt/core.h>
+
+#include "analysis/coarse_graining.h"
+#include "core/errors.h"
+#include "core/trigonometry.h"
+#include "pictures/layers.h"
+#include "pictures/texts.h"
+
+namespace talus {
+namespace {
+
+/// Where grains are black, over Gamma_c. Of gamma as in the paper's Fig. 10; neighbourhoods average much of
+/// it away, and are to differ in shade about Gamma_c.
+constexpr double black_gamma = 2.0, black_coarse = 1.5;
+
+/// With ticks at the ends and at Gamma_c.
+Bar stress_ratio_bar(const Scale& scale, double gamma_c, const std::string& title, const std::string& end) {
+  constexpr double clear_of_ends = 0.2;  // of the bar, for the labels
+  Bar bar{title, colour_ramp(scale.colours), {{0.0, fmt::format("{:.6g}", scale.low)}}};
+  const double share = share_of(scale, gamma_c);
+  if (share > clear_of_ends && share < 1.0 - clear_of_ends)
+    bar.ticks.push_back({share, fmt::format("Γ_c = {:.2f}", gamma_c)});
+  bar.ticks.push_back({1.0, end});
+  return bar;
+}
+
+/// (s1 + s2) / (rho g D) of each free grain, its stress being its internal moment over its area, rho its mass
+/// over its area.
+std::vector<double> pressures(const BedFrame& bed) {
+  const RunStatics& statics = bed.statics;
+  std::vector<double> values;
+  for (Index i = 0; i < statics.free_count; ++i) {
+    const double trace = bed.frame.internal_moment[i].xx + bed.frame.internal_moment[i].yy;
+    values.push_back(trace / (statics.mass[i] * statics.gravity * statics.mean_diameter));
+  }
+  return values;
+}
+
+}  // namespace
+
+double gamma_c_of(const MapSettings& settings) { return sine(settings.theta_c); }
+
+std::string reading_text(const OverloadRule& rule) {
+  return rule.l_min > 0.0 ? fmt::format("l = {:.6g} D", rule.l_min) : std::string("single grains");
+}
+
+Scale gamma_scale(double gamma_c) { return {ColourMap::gray, white_below, black_gamma * gamma_c}; }
+
+MapLayer gamma_layer(const MapFrame& of, const MapSettings& settings, const ScaleChoice& choice) {
+  const double gamma_c = gamma_c_of(settings);
+  const Scale scale = chosen(gamma_scale(gamma_c), choice);
+  const std::string end =
+      choice.high ? fmt::format("{:.6g}", scale.high) : fmt::format("2Γ_c = {:.2f}", scale.high);
+  const auto free_grains = std::span(of.frame.gamma).first(static_cast<std::size_t>(of.statics.free_count));
+  return {fmt::format("Stress ratio γ of {}{}",
+                      settings.l_min > 0.0 ? "grains with their neighbours, " : std::string(),
+                      reading_text(settings)),
+          looks_of(scale, free_grains),
+          {},
+          {{stress_ratio_bar(scale, gamma_c, "γ = q/p", end)}, {}}};
+}
+
+MapLayer coarse_layer(const MapFrame& of, const MapSettings& settings, const ScaleChoice& choice) {
+  const double length = settings.length * of.statics.mean_diameter;
+  if (!(length > 0.0 && length <= of.statics.length))
+    throw Error(
+        ExitCode::usage,
+        fmt::format(
+            "neighbourhoods of {:.6g} D: expected a diameter above 0, up to the length of the bed, {:.6g} D",
+            settings.length, of.statics.length / of.statics.mean_diameter));
+  const double gamma_c = gamma_c_of(settings);
+  const Scale scale = chosen({ColourMap::gray, 0.0, black_coarse * gamma_c}, choice);
+  const std::string end = choice.high ? fmt::format("{:.6g}", scale.high) : fmt::format("{:.2f}", scale.high);
+  return {fmt::format("Stress ratio γ_l of neighbourhoods, l = {:.6g} D", settings.length),
+          looks_of(scale, coarse_stress_ratio(of, length)),
+          {},
+          {{stress_ratio_bar(scale, gamma_c, "γ_l", end)}, {}}};
+}
+
+MapLayer pressure_layer(const MapFrame& of, const ScaleChoice& choice) {
+  constexpr int most_ticks = 4;
+  // Below a depth H of grains P is about 2 rho g H on the average, and more in force chains.
+  const double largest = 3.0 * std::max(1.0, of.statics.depth / of.statics.mean_diameter);
+  const double step = round_step(largest, most_ticks);
+  const Scale scale = chosen({ColourMap::viridis, 0.0, std::ceil(largest / step) * step}, choice);
+  return {"Pressure in each grain",
+          looks_of(scale, pressures(of)),
+          {},
+          {{bar_of(scale, "P = σ_1 + σ_2 in ρgD")}, {}}};
+}
+
+}  // namespace talus

@@ -1,0 +1,21 @@
+#pragma once
+/// Round numbers for scales.
+
+#include <string>
+#include <vector>
+
+namespace talus {
+
+/// A number on a scale.
+struct RoundTick {
+  double value = 0.0;
+  std::string label;  ///< all of a scale have equally many decimals
+};
+
+/// 1, 2 or 5 times a power of ten: the smallest such step of which at most `most` fit into `width` > 0.
+double round_step(double width, int most);
+
+/// The multiples of the step of round_step between low and high (low < high), both included.
+std::vector<RoundTick> round_ticks(double low, double high, int most);
+
+}  // namespace talus

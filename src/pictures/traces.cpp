@@ -1,0 +1,135 @@
+#include "pictures/traces.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fmt/core.h>
+#include <limits>
+
+#include "core/errors.h"
+#include "core/text.h"
+#include "core/trigonometry.h"
+#include "pictures/texts.h"
+#include "stress/overload.h"
+
+namespace talus {
+namespace {
+
+struct TraceEntry {
+  TraceKind kind;
+  std::string_view name;
+  QuantityMember member;
+};
+
+constexpr auto entries = std::to_array<TraceEntry>({
+    {TraceKind::overloaded, "overloaded", &FrameThreshold::overloaded_fraction},
+    {TraceKind::largest_cluster, "largest_cluster", &FrameThreshold::largest_share},
+    {TraceKind::stress_ratio, "stress_ratio", &FrameRecord::stress_ratio},
+    {TraceKind::volume_strain, "volume_strain", &FrameRecord::volume_strain},
+});
+
+constexpr auto kinds = [] {
+  std::array<TraceKind, entries.size()> all{};
+  for (std::size_t k = 0; k < entries.size(); ++k) all[k] = entries[k].kind;
+  return all;
+}();
+
+const TraceEntry& entry_of(TraceKind kind) { return entries[static_cast<std::size_t>(kind)]; }
+
+TraceKind kind_of(std::string_view name) {
+  const auto found = std::ranges::find(entries, name, &TraceEntry::name);
+  if (found != entries.end()) return found->kind;
+  throw Error(ExitCode::usage,
+              fmt::format("trace '{}': expected {} or {}", name,
+                          joined(std::span(entries).first(entries.size() - 1), ", ", &TraceEntry::name),
+                          entries.back().name));
+}
+
+std::vector<AxisTick> axis_ticks(double low, double high, int most) {
+  std::vector<AxisTick> ticks;
+  for (const RoundTick& tick : round_ticks(low, high, most)) ticks.push_back({tick.value, tick.label});
+  return ticks;
+}
+
+/// Of the finite values; widened by `margin` on either side where they are all the same, and 0 to 1 where
+/// there are none.
+ScaleRange range_of(std::span<const double> values, double margin) {
+  ScaleRange range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  for (const double value : values)
+    if (std::isfinite(value)) range = {std::min(range.low, value), std::max(range.high, value)};
+  if (range.low > range.high) return {0.0, 1.0};
+  if (range.low == range.high) return {range.low - margin, range.high + margin};
+  return range;
+}
+
+/// To whole steps of its ticks.
+ScaleRange rounded(const ScaleRange& range, int most) {
+  const double step = round_step(range.high - range.low, most);
+  return {step * std::floor(range.low / step + 1e-9), step * std::ceil(range.high / step - 1e-9)};
+}
+
+}  // namespace
+
+std::span<const TraceKind> trace_kinds() { return kinds; }
+
+std::string_view trace_name(TraceKind kind) { return entry_of(kind).name; }
+
+const Quantity& trace_quantity(TraceKind kind) { return quantity_of(entry_of(kind).member); }
+
+std::vector<TraceKind> trace_kinds(std::string_view name) {
+  std::vector<TraceKind> chosen;
+  for (std::string_view rest = name;;) {
+    const auto end = rest.find_first_of(",+");
+    const TraceKind kind = kind_of(rest.substr(0, end));
+    if (std::ranges::find(chosen, kind) != chosen.end())
+      throw Error(ExitCode::usage, fmt::format("trace '{}': twice the same trace", name));
+    chosen.push_back(kind);
+    if (end == std::string_view::npos) return chosen;
+    rest.remove_prefix(end + 1);
+  }
+}
+
+bool trace_from_frames(TraceKind kind) { return !trace_quantity(kind).display.observable; }
+
+bool needs_theta_c(TraceKind kind) { return needs_threshold(trace_quantity(kind)); }
+
+double frame_value(TraceKind kind, const BedFrame& bed, const OverloadRule& rule) {
+  if (kind == TraceKind::overloaded) return count_overloaded(bed, threshold_of(rule)).fraction();
+  if (kind == TraceKind::largest_cluster) return largest_share(overloaded_clusters(bed, rule));
+  throw Error(ExitCode::internal, fmt::format("trace '{}' of a frame", trace_name(kind)));
+}
+
+Observable trace_column(TraceKind kind) {
+  if (const auto& column = trace_quantity(kind).display.observable) return *column;
+  throw Error(ExitCode::internal, fmt::format("trace '{}' has no column", trace_name(kind)));
+}
+
+Trace make_trace(TraceKind kind, std::span<const double> tilts_rad, std::span<const double> values,
+                 const OverloadRule& rule, double tilt_now) {
+  constexpr int most_x = 8, most_y = 3;
+  const Quantity& quantity = trace_quantity(kind);
+  Trace trace;
+  trace.title = shown_title(quantity);
+  if (trace_from_frames(kind)) trace.title += ", " + reading_text(rule);
+  trace.x_title = "θ in °";
+  for (const double tilt : tilts_rad) trace.x.push_back(degrees(tilt));
+  for (const double value : values) trace.y.push_back(shown(quantity, value, 1.0));
+  trace.mark = degrees(tilt_now);
+
+  const ScaleRange x = range_of(trace.x, 0.5);
+  const ScaleRange y = rounded(range_of(trace.y, 0.05), most_y);
+  trace.x_min = x.low;
+  trace.x_max = x.high;
+  trace.y_min = y.low;
+  trace.y_max = y.high;
+  trace.x_ticks = axis_ticks(x.low, x.high, most_x);
+  trace.y_ticks = axis_ticks(y.low, y.high, most_y + 1);
+  const double theta_c = degrees(rule.theta_c);
+  if (theta_c > x.low && theta_c <= x.high) {
+    trace.event = theta_c;
+    trace.event_label = "θ_c";
+  }
+  return trace;
+}
+
+}  // namespace talus

@@ -1,0 +1,101 @@
+#include "problems/local_solvers.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "solver/local_law.h"
+
+namespace talus {
+namespace {
+
+// Sliding makes the problem non-associated: the change of a sweep can grow along the momentum. When it has
+// grown by this much above the least since the last restart, the momentum is dropped.
+constexpr double tolerated_growth = 1.1;
+
+/// Nesterov's sequence with adaptive restart (O'Donoghue and Candes 2015).
+struct SweepMomentum {
+  double theta = 1.0;
+  double beta = 0.0;
+  double least_change = INFINITY;  ///< since the last restart
+
+  void update(double change, double ascent) {
+    least_change = std::min(least_change, change);
+    if (ascent > 0.0 || change > tolerated_growth * least_change) {
+      *this = {};
+      return;
+    }
+    const double square = theta * theta;
+    const double next = 0.5 * (std::sqrt(square * square + 4.0 * square) - square);
+    beta = theta * (1.0 - theta) / (square + next);
+    theta = next;
+  }
+};
+
+struct SweepSums {
+  double change = 0.0;   ///< || P_new - Y ||^2
+  double impulse = 0.0;  ///< || P_new ||^2
+  double ascent =
+      0.0;  ///< (Y - P_new) . D (P_new - P), D the diagonal of W: > 0 where momentum points uphill
+
+  double relative_change() const { return impulse > 0.0 ? std::sqrt(change / impulse) : 0.0; }
+};
+
+/// One sweep over all contacts in their order, each solved exactly for the impulses of the moment: turns Y
+/// into P_new. `p` is P.
+SweepSums sweep(const LocalProblem& problem, const std::vector<LocalContact>& contacts,
+                const std::vector<Impulse>& p, std::vector<Impulse>& y) {
+  SweepSums sums;
+  for (Index c = 0; c < problem.contact_count(); ++c) {
+    const LocalContact& contact = contacts[c];
+    const Impulse from = y[c];
+    const Impulse to = solve_local_contact(contact, from, relative_velocity(problem, y, c));
+    const double dn = to.normal - from.normal;
+    const double dt = to.tangential - from.tangential;
+    sums.change += dn * dn + dt * dt;
+    sums.impulse += to.normal * to.normal + to.tangential * to.tangential;
+    sums.ascent -=
+        contact.w.nn * dn * (to.normal - p[c].normal) + contact.w.tt * dt * (to.tangential - p[c].tangential);
+    y[c] = to;
+  }
+  return sums;
+}
+
+/// P becomes P_new, which Y holds, and Y becomes P_new + beta (P_new - P).
+void extrapolate(double beta, std::vector<Impulse>& p, std::vector<Impulse>& y) {
+  for (std::size_t c = 0; c < p.size(); ++c) {
+    const Impulse before = p[c];
+    p[c] = y[c];
+    y[c].normal += beta * (p[c].normal - before.normal);
+    y[c].tangential += beta * (p[c].tangential - before.tangential);
+  }
+}
+
+Residual look_at(const LocalProblem& problem, LocalSolution& solution) {
+  velocities_from_impulses(problem, solution);
+  return natural_map_residual(problem, solution);
+}
+
+}  // namespace
+
+SolverReport solve(const LocalProblem& problem, const SolverSettings& settings, LocalSolution& solution) {
+  const std::vector<LocalContact> contacts = local_contacts(problem);
+  std::vector<Impulse>& p = solution.p;
+  std::vector<Impulse> y = p;
+  SweepMomentum momentum;
+  SolverReport report;
+  report.residual = look_at(problem, solution);
+  // The residual costs as much as a sweep, so it is looked at now and then.
+  while (report.residual.eta > settings.tolerance && report.iterations < settings.max_iterations) {
+    const int next_look = std::min(settings.max_iterations, report.iterations + 5 + report.iterations / 16);
+    for (; report.iterations < next_look; ++report.iterations) {
+      const SweepSums sums = sweep(problem, contacts, p, y);
+      if (settings.kind == SolverKind::accelerated) momentum.update(sums.relative_change(), sums.ascent);
+      extrapolate(momentum.beta, p, y);
+    }
+    report.residual = look_at(problem, solution);
+  }
+  report.converged = report.residual.eta <= settings.tolerance;
+  return report;
+}
+
+}  // namespace talus

@@ -1,0 +1,176 @@
+#include "problems/step_problem.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "core/errors.h"
+#include "core/trigonometry.h"
+#include "dynamics/form_problem.h"
+#include "session/run_header.h"
+#include "session/session.h"
+
+namespace talus {
+namespace {
+
+Contacts memory_of(const FrameContacts& from) {
+  Contacts contacts;
+  contacts.a = from.a;
+  contacts.b = from.b;
+  contacts.shift = from.shift;
+  contacts.nx = from.nx;
+  contacts.ny = from.ny;
+  contacts.gap.assign(from.a.size(), 0.0);
+  contacts.fn = from.fn;
+  contacts.ft = from.ft;
+  return contacts;
+}
+
+/// Gap below which two bodies of a frame may touch: what rounding to single precision does to the distance of
+/// two points in the box.
+double gap_resolution(const World& world) {
+  double farthest = world.boundary.length;
+  for (const double y : world.grains.y) farthest = std::max(farthest, std::fabs(y));
+  return farthest * 0x1p-23;
+}
+
+void close_remembered_contacts(double resolution, Contacts& contacts) {
+  for (Index c = 0; c < contacts.count(); ++c)
+    if (contacts.fn[c] > 0.0 && std::fabs(contacts.gap[c]) <= resolution) contacts.gap[c] = 0.0;
+}
+
+double weight(const World& world) {
+  double mass = 0.0;
+  for (Index i = 0; i < world.grains.free_count; ++i) mass += world.grains.mass[i];
+  return mass * world.gravity;
+}
+
+/// What the commands of a run have made of its scenario by a step.
+struct InForce {
+  double friction = 0.0;
+  std::optional<double> tilt_rate;  ///< rad/s, where it was changed
+};
+InForce in_force(const RunFile& run, const Scenario& scenario, std::int64_t step) {
+  InForce now{scenario.contact.friction, {}};
+  for (const Command& command : run.commands()) {
+    if (command.step > step) break;
+    if (command.kind == CommandKind::friction) now.friction = command.x;
+    if (command.kind == CommandKind::tilt_rate) now.tilt_rate = radians(command.x);
+  }
+  return now;
+}
+
+/// Of the step after a frame. Where no command has changed the rate it is a whole number of steps of the
+/// tilt, as in a run.
+double next_tilt(double tilt, const Scenario& scenario, const InForce& now) {
+  if (now.tilt_rate) return tilt + *now.tilt_rate * time_step(scenario);
+  const double step_angle = radians(scenario.tilt.step);
+  return static_cast<double>(std::llround(tilt / step_angle) + 1) * step_angle;
+}
+
+/// The problem of the next step of a world, whose grains are moved to the midpoint; `contacts` become its
+/// contacts with what is remembered.
+StepProblem form_step(World& world, const StepSettings& settings, double closed_below, double mean_diameter,
+                      Contacts& contacts) {
+  StepWorkspace workspace;
+  begin_step(world, settings, workspace);
+  if (closed_below > 0.0) {
+    close_remembered_contacts(closed_below, workspace.contacts);
+    form_problem(world, workspace.contacts, settings.law, settings.h, workspace.problem);
+  }
+  StepProblem step;
+  step.problem = std::move(workspace.problem);
+  step.guess = std::move(workspace.solution);
+  velocities_from_impulses(step.problem, step.guess);
+  step.scales = {settings.h, world.gravity, world.tilt, mean_diameter, weight(world)};
+  contacts = std::move(workspace.contacts);
+  return step;
+}
+
+/// A frame as the start of a step.
+struct FrameStart {
+  World world;
+  StepSettings settings;
+  double mean_diameter = 0.0;  ///< m
+  double closed_below = 0.0;   ///< m; 0 where positions are not rounded
+  double next_tilt = 0.0;      ///< rad
+};
+FrameStart start_at_frame(const RunFile& run, std::size_t k) {
+  const Scenario scenario = stored_scenario(run.header(), "/parameters/scenario_resolved");
+  FrameStart start;
+  start.world = world_at_frame(run, k);
+  const InForce now = in_force(run, scenario, start.world.step);
+  start.settings = step_settings(scenario);
+  start.settings.law.friction = now.friction;
+  start.mean_diameter = scenario.grains.mean_diameter;
+  if (start.world.step != run.checkpoint().world.step) start.closed_below = gap_resolution(start.world);
+  start.next_tilt = next_tilt(start.world.tilt, scenario, now);
+  return start;
+}
+
+}  // namespace
+
+World world_at_frame(const RunFile& run, std::size_t k) {
+  if (!run.has_state())
+    throw Error(ExitCode::bad_data,
+                "the run was repaired and its last state is lost; without it no step can be formed");
+  World world = run.checkpoint().world;
+  Frame frame = run.frame(k);
+  if (frame.step == world.step) return world;
+  world.grains.x = std::move(frame.x);
+  world.grains.y = std::move(frame.y);
+  world.grains.vx = std::move(frame.vx);
+  world.grains.vy = std::move(frame.vy);
+  world.grains.omega = std::move(frame.omega);
+  world.grains.angle = std::move(frame.angle);
+  world.grains.image = std::move(frame.image);
+  world.contacts = memory_of(frame.contacts);
+  world.tilt = frame.tilt;
+  world.time = frame.time;
+  world.step = frame.step;
+  return world;
+}
+
+StepProblem problem_after_frame(const RunFile& run, std::size_t k) {
+  FrameStart start = start_at_frame(run, k);
+  start.world.tilt = start.next_tilt;
+  Contacts contacts;
+  return form_step(start.world, start.settings, start.closed_below, start.mean_diameter, contacts);
+}
+
+FrozenBed freeze(World world, const StepSettings& settings, double mean_diameter) {
+  const double closed_at_rest = 0.01 * world.gravity * settings.h * settings.h;
+  const double closed_below = std::max(gap_resolution(world), closed_at_rest);
+  for (auto* velocity : {&world.grains.vx, &world.grains.vy, &world.grains.omega})
+    std::ranges::fill(*velocity, 0.0);
+  FrozenBed bed;
+  bed.law = settings.law;
+  bed.step = form_step(world, settings, closed_below, mean_diameter, bed.world.contacts);
+  std::swap(world.contacts, bed.world.contacts);
+  bed.world = std::move(world);
+  return bed;
+}
+
+FrozenBed frozen_frame(const RunFile& run, std::size_t k) {
+  FrameStart start = start_at_frame(run, k);
+  return freeze(std::move(start.world), start.settings, start.mean_diameter);
+}
+
+double carried_weight(const StepProblem& step, const ContactSolution& solution) {
+  const ContactProblem& problem = step.problem;
+  const double up_x = -sine(step.scales.tilt);
+  const double up_y = cosine(step.scales.tilt);
+  double impulse = 0.0;
+  for (Index c = 0; c < problem.contact_count(); ++c) {
+    const bool a_moves = problem.inverse_mass[problem.a[c]] > 0.0;
+    const bool b_moves = problem.inverse_mass[problem.b[c]] > 0.0;
+    if (a_moves == b_moves) continue;
+    const double px = solution.pn[c] * problem.nx[c] - solution.pt[c] * problem.ny[c];
+    const double py = solution.pn[c] * problem.ny[c] + solution.pt[c] * problem.nx[c];
+    impulse += (b_moves ? 1.0 : -1.0) * (px * up_x + py * up_y);
+  }
+  return impulse / (step.scales.weight * step.scales.h);
+}
+
+}  // namespace talus

@@ -1,0 +1,116 @@
+#include "scenario/suggestion.h"
+
+#include <algorithm>
+#include <cctype>
+#include <fmt/core.h>
+#include <numeric>
+#include <optional>
+#include <vector>
+
+#include "core/text.h"
+
+namespace talus {
+namespace {
+
+std::string lower(std::string_view text) {
+  std::string result(text);
+  for (char& c : result) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return result;
+}
+
+/// Edit distance regardless of case; nothing if it is too large for a typing error.
+std::optional<std::size_t> slip(std::string_view written, std::string_view existing) {
+  // No name is this long, and the cost of comparing grows with the length.
+  if (written.size() > 100) return std::nullopt;
+  const std::size_t distance = edit_distance(lower(written), existing);
+  const std::size_t most = std::max<std::size_t>(2, existing.size() / 3);
+  return distance <= most ? std::optional(distance) : std::nullopt;
+}
+
+std::string place_of(const std::string& section) {
+  return section.empty() ? "the top of the file, above the first section" : fmt::format("[{}]", section);
+}
+
+/// The key nearest in name, one of the same section before others; nullptr where none is near. Names of
+/// other sections must be nearer: `speed` in [tilt] does not mean the seed.
+const KeyHead* nearest_key(const KeyHeads& keys, std::string_view section, std::string_view name) {
+  const KeyHead* best = nullptr;
+  std::size_t least = 0;
+  for (const KeyHead* key : keys) {
+    const auto distance = slip(name, key->name);
+    const bool elsewhere = key->section != section;
+    if (!distance || (elsewhere && !section.empty() && 4 * *distance >= key->name.size())) continue;
+    const std::size_t cost = 2 * *distance + (elsewhere ? 1 : 0);
+    if (best != nullptr && cost >= least) continue;
+    best = key;
+    least = cost;
+  }
+  return best;
+}
+
+/// The first key of the section of whose name one word, or the beginning, is written, but for one character:
+/// `thresold` means threshold_factors. nullptr where there is none.
+const KeyHead* key_with_word(const KeyHeads& keys, std::string_view section, std::string_view name) {
+  const auto near = [name](std::string_view word) {
+    return word.size() > 3 && slip(name, word).value_or(2) < 2;
+  };
+  for (const KeyHead* key : keys) {
+    if (key->section != section) continue;
+    for (std::string_view rest = key->name; !rest.empty();) {
+      const auto end = std::min(rest.find('_'), rest.size());
+      if (near(rest.substr(0, end))) return key;
+      rest.remove_prefix(std::min(end + 1, rest.size()));
+    }
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);  // distances of a prefix of a to every prefix of b
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i + 1;
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({row[j] + 1, diagonal + 1, replaced});
+    }
+  }
+  return row.back();
+}
+
+std::string suggest_key(const KeyHeads& keys, std::string_view section, std::string_view name) {
+  std::vector<std::string> homes, siblings;
+  for (const KeyHead* key : keys) {
+    if (key->name == name) homes.push_back(place_of(key->section));
+    if (key->section == section) siblings.push_back(key->name);
+  }
+  const std::vector<std::string> sections = sections_of(keys);
+  if (!homes.empty() && !sections.empty())
+    return fmt::format("; '{}' belongs to {}", name, joined(homes, " or "));
+  const KeyHead* meant = nearest_key(keys, section, name);
+  if (meant == nullptr) meant = key_with_word(keys, section, name);
+  if (meant != nullptr) return fmt::format("; did you mean '{}'?", full_name(*meant));
+  if (sections.empty()) return fmt::format("; expected one of {}", joined(siblings, ", "));
+  if (section.empty())
+    return fmt::format("; expected {}, or a section: [{}]", joined(siblings, ", "), joined(sections, "], ["));
+  return fmt::format("; [{}] has {}", section, joined(siblings, ", "));
+}
+
+std::string suggest_section(const KeyHeads& keys, std::string_view section) {
+  std::string best;
+  std::size_t least = 0;
+  for (const std::string& name : sections_of(keys)) {
+    const auto distance = slip(section, name);
+    if (!distance || (!best.empty() && *distance >= least)) continue;
+    best = name;
+    least = *distance;
+  }
+  if (!best.empty()) return fmt::format("; did you mean [{}]?", best);
+  return fmt::format("; expected one of [{}]", joined(sections_of(keys), "], ["));
+}
+
+}  // namespace talus

@@ -1,0 +1,99 @@
+#include "scenario/text.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <fmt/core.h>
+
+#include "core/text.h"
+#include "scenario/keys.h"
+
+namespace talus {
+namespace {
+
+/// A basic string of TOML.
+std::string quoted(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\') result += '\\';
+    result += byte < 0x20 || byte == 0x7f ? fmt::format("\\u{:04x}", byte) : std::string(1, c);
+  }
+  return result + "\"";
+}
+
+std::string comment(const KeyHead& key) {
+  return fmt::format("# {}{}", key.unit.empty() ? "" : key.unit + "; ", key.help);
+}
+
+struct SettingLine {
+  std::string setting;
+  std::string comment;
+};
+
+/// Lines of one section, with their comments one below the other.
+std::string aligned(const std::vector<SettingLine>& lines) {
+  std::size_t width = 0;
+  for (const SettingLine& line : lines) width = std::max(width, line.setting.size());
+  std::string text;
+  for (const SettingLine& line : lines)
+    text += fmt::format("{}{:{}}{}\n", line.setting, "", width - line.setting.size() + 2, line.comment);
+  return text;
+}
+
+}  // namespace
+
+std::string short_text(double value) {
+  // 100000 reads better than 1e+05, though it is longer.
+  const bool plain = value == 0.0 || (std::abs(value) >= 1e-4 && std::abs(value) < 1e7);
+  std::array<char, 32> digits;
+  char* const last = digits.data() + digits.size();
+  const auto end = plain ? std::to_chars(digits.data(), last, value, std::chars_format::fixed).ptr
+                         : std::to_chars(digits.data(), last, value).ptr;
+  return {digits.data(), end};
+}
+
+std::string toml_text(const KeyValue& value) {
+  if (const auto* whole = std::get_if<std::int64_t>(&value)) return std::to_string(*whole);
+  if (const auto* text = std::get_if<std::string>(&value)) return quoted(*text);
+  if (const auto* numbers = std::get_if<std::vector<double>>(&value))
+    return fmt::format("[{}]", joined(*numbers, ", ", [](double number) { return toml_text(number); }));
+  // Without a point or an exponent (and for nan and inf, which have an "n") TOML would read an integer.
+  const std::string digits = short_text(std::get<double>(value));
+  return digits.find_first_of(".en") == std::string::npos ? digits + ".0" : digits;
+}
+
+std::string plain_text(const KeyValue& value) {
+  if (const auto* number = std::get_if<double>(&value)) return short_text(*number);
+  if (const auto* text = std::get_if<std::string>(&value)) return *text;
+  if (const auto* numbers = std::get_if<std::vector<double>>(&value))
+    return joined(*numbers, ",", short_text);
+  return toml_text(value);
+}
+
+std::string printable(std::string_view text, std::size_t limit) {
+  std::string shown;
+  for (const char c : text.substr(0, limit)) {
+    const auto byte = static_cast<unsigned char>(c);
+    shown += byte < 0x20 || byte > 0x7e ? fmt::format("\\x{:02x}", byte) : std::string(1, c);
+  }
+  return text.size() > limit ? shown + "..." : shown;
+}
+
+std::string resolved_toml(const Scenario& scenario) {
+  std::string text;
+  std::string section;
+  std::vector<SettingLine> lines;
+  for (const ScenarioKey& key : scenario_keys()) {
+    if (key.section != section) {
+      text += aligned(lines) + "\n[" + key.section + "]\n";
+      lines.clear();
+      section = key.section;
+    }
+    lines.push_back({key.name + " = " + toml_text(key.get(scenario)), comment(key)});
+  }
+  return text + aligned(lines);
+}
+
+}  // namespace talus

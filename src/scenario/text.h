@@ -1,0 +1,28 @@
+#pragma once
+/// Values of keys as text, exact if they are read back and harmless if they are shown.
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace talus {
+
+/// The value of a key, as in TOML.
+using KeyValue = std::variant<std::int64_t, double, std::string, std::vector<double>>;
+
+/// The shortest decimal that reads back as the same double: "200", "1e-06".
+std::string short_text(double value);
+
+/// The value in TOML: 200.0, 1e-06, 7, "periodic", [1.0, 2.0].
+std::string toml_text(const KeyValue& value);
+
+/// The value as it is written in a setting: 200, 1e-06, periodic, or 1,2.
+std::string plain_text(const KeyValue& value);
+
+/// Text of a user in a form fit for a message: at most `limit` characters, and bytes that are not printable
+/// ASCII as \xNN.
+std::string printable(std::string_view text, std::size_t limit = 60);
+
+}  // namespace talus

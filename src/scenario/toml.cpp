@@ -1,0 +1,389 @@
+/// Reading scenarios and settings: TOML to values, values to fields, and every error with its place.
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <fmt/core.h>
+#include <map>
+#include <new>
+#include <span>
+
+#include "core/descriptor.h"
+#include "core/errors.h"
+#include "scenario/keys.h"
+#include "scenario/rules.h"
+#include "scenario/settings.h"
+#include "scenario/suggestion.h"
+#include "scenario/text.h"
+
+namespace talus {
+namespace {
+
+constexpr std::size_t largest_file = std::size_t{1} << 20;  // bytes
+constexpr std::size_t most_complaints = 100;                // shown at once
+constexpr std::ptrdiff_t most_dots = 1000;                  // in a line
+
+/// Where a value stands: in the file, or in a setting of the command line.
+struct SourcePlace {
+  std::string text;  ///< "slope.toml:4:11", "--set contact.friction=-1"
+  std::uint32_t line = 0;
+  std::uint32_t column = 0;
+  bool in_file = false;
+};
+
+struct Complaint {
+  SourcePlace place;
+  std::string message;
+};
+
+/// A key that has been given a value.
+struct Given {
+  SourcePlace place;
+  std::optional<KeyValue> value;  ///< none where it is not accepted
+};
+
+/// A scenario, or settings, while they are read.
+struct ParsedKeys {
+  KeyHeads keys;
+  std::string example;  ///< of a setting
+  std::string name;     ///< of the file
+  std::map<const KeyHead*, Given> given;
+  std::vector<Complaint> complaints;
+
+  void complain(const SourcePlace& place, const std::string& message) {
+    complaints.push_back({place, message});
+  }
+};
+
+SourcePlace place_in_file(const std::string& name, toml::source_position at) {
+  return {fmt::format("{}:{}:{}", name, at.line, at.column), at.line, at.column, true};
+}
+
+std::string line_of(const SourcePlace& place, const std::string& message) {
+  return fmt::format("{}: error: {}", place.text, message);
+}
+
+[[noreturn]] void refuse(const SourcePlace& place, const std::string& message) {
+  throw LocatedError(ExitCode::bad_data, line_of(place, message));
+}
+
+/// All complaints by their place in the file, then those about settings in the order of these.
+[[noreturn]] void refuse(std::vector<Complaint> complaints, const std::string& name) {
+  std::ranges::stable_sort(complaints, [](const Complaint& first, const Complaint& second) {
+    const auto order = [](const SourcePlace& p) { return std::tuple(!p.in_file, p.line, p.column); };
+    return order(first.place) < order(second.place);
+  });
+  std::string text;
+  for (std::size_t i = 0; i < std::min(complaints.size(), most_complaints); ++i) {
+    if (i > 0) text += '\n';
+    text += line_of(complaints[i].place, complaints[i].message);
+  }
+  if (complaints.size() > most_complaints)
+    text += fmt::format("\n{}: error: and {} more", name, complaints.size() - most_complaints);
+  throw LocatedError(ExitCode::bad_data, text);
+}
+
+std::string kind_of(const toml::node& node) {
+  switch (node.type()) {
+    case toml::node_type::table:
+      return "a table";
+    case toml::node_type::array:
+      return "an array";
+    case toml::node_type::string:
+      return "a string";
+    case toml::node_type::integer:
+      return "an integer";
+    case toml::node_type::floating_point:
+      return "a float";
+    case toml::node_type::boolean:
+      return "a boolean";
+    default:
+      return "a date or time";
+  }
+}
+
+std::optional<KeyValue> value_of(const toml::node& node) {
+  if (const auto* whole = node.as_integer()) return whole->get();
+  if (const auto* number = node.as_floating_point()) return number->get();
+  if (const auto* text = node.as_string()) return text->get();
+  const toml::array* array = node.as_array();
+  if (array == nullptr) return std::nullopt;
+  std::vector<double> numbers;
+  for (const toml::node& element : *array)
+    if (const auto number = element.value<double>(); number && element.is_number())
+      numbers.push_back(*number);
+    else
+      return std::nullopt;
+  return numbers;
+}
+
+/// " = 0.5"; nothing for a value that would not fit a line.
+std::string shown(const toml::node& node) {
+  if (const auto* truth = node.as_boolean()) return truth->get() ? " = true" : " = false";
+  if (const auto* text = node.as_string()) return fmt::format(" = \"{}\"", printable(text->get()));
+  const auto value = node.is_array() ? std::nullopt : value_of(node);
+  return value ? " = " + toml_text(*value) : "";
+}
+
+bool is_of_expected_kind(const KeyHead& key, const toml::node& node) {
+  if (std::holds_alternative<Choices>(key.range) || std::holds_alternative<TextRange>(key.range))
+    return node.is_string();
+  if (std::holds_alternative<IntegerRange>(key.range)) return node.is_integer();
+  if (std::holds_alternative<NumberList>(key.range)) return node.is_array();
+  return node.is_number() || (node.is_string() && !std::get<NumberRange>(key.range).word.empty());
+}
+
+void take_value(ParsedKeys& reading, const KeyHead& key, const toml::node& node, const SourcePlace& place) {
+  const auto found = value_of(node);
+  const auto good = found ? admitted(key, *found) : std::nullopt;
+  reading.given[&key] = {place, good};
+  if (!good)
+    reading.complain(place,
+                     fmt::format("key '{}'{}: expected {}{}", full_name(key), shown(node), expectation(key),
+                                 is_of_expected_kind(key, node) ? "" : ", found " + kind_of(node)));
+}
+
+bool is_section(const KeyHeads& keys, std::string_view name) {
+  return std::ranges::any_of(
+      keys, [&](const KeyHead* key) { return !key->section.empty() && key->section == name; });
+}
+
+std::string joined_name(std::string_view section, std::string_view name) {
+  return section.empty() ? std::string(name) : fmt::format("{}.{}", section, name);
+}
+
+std::string unknown_key(const KeyHeads& keys, std::string_view section, std::string_view name) {
+  return fmt::format("unknown key '{}'{}", printable(joined_name(section, name)),
+                     suggest_key(keys, section, name));
+}
+
+std::string unknown_section(const KeyHeads& keys, std::string_view name) {
+  return fmt::format("unknown section [{}]{}", printable(name), suggest_section(keys, name));
+}
+
+/// Sections are tables at the top level (`section` empty), keys are what else there is.
+void take_table(ParsedKeys& reading, const toml::table& table, const std::string& section) {
+  for (const auto& [name, node] : table) {
+    const SourcePlace at_name = place_in_file(reading.name, name.source().begin);
+    const SourcePlace at_value = place_in_file(reading.name, node.source().begin);
+    const KeyHead* key = find_key(reading.keys, joined_name(section, name.str()));
+    if (key != nullptr) {
+      if (!reading.given.contains(key)) take_value(reading, *key, node, at_value);
+    } else if (section.empty() && is_section(reading.keys, name.str())) {
+      if (node.is_table())
+        take_table(reading, *node.as_table(), std::string(name.str()));
+      else
+        reading.complain(at_value, fmt::format("key '{}'{}: expected a section [{}], found {}", name.str(),
+                                               shown(node), name.str(), kind_of(node)));
+    } else {
+      const bool new_section = section.empty() && (node.is_table() || node.is_array_of_tables());
+      reading.complain(at_name, new_section ? unknown_section(reading.keys, name.str())
+                                            : unknown_key(reading.keys, section, name.str()));
+    }
+  }
+}
+
+/// The message of the TOML library, in plainer words for the most frequent ones.
+std::string syntax_message(const toml::parse_error& error) {
+  const std::string_view said = error.description();
+  const auto again = said.find("cannot redefine");
+  if (again != std::string_view::npos)
+    return fmt::format("this name occurs twice: {}; expected it once", printable(said.substr(again), 200));
+  const bool bare_word = said.ends_with("could not determine value type");
+  return fmt::format("not valid TOML: {}{}", printable(said, 200),
+                     bare_word ? "; expected a number, true, false, or a string in quotes" : "");
+}
+
+/// The TOML library takes a number for none where the memory to read it is missing; errno tells.
+template <typename... Arguments>
+toml::table parse_toml(const Arguments&... text) {
+  errno = 0;
+  try {
+    return toml::parse(text...);
+  } catch (const toml::parse_error&) {
+    if (errno == ENOMEM) throw std::bad_alloc();
+    throw;
+  }
+}
+
+toml::table parse_text(const std::string& text, const std::string& name) {
+  try {
+    return parse_toml(std::string_view(text), std::string_view(name));
+  } catch (const toml::parse_error& error) {
+    refuse(place_in_file(name, error.source().begin), syntax_message(error));
+  }
+}
+
+bool is_bare_word(std::string_view text) {
+  return !text.empty() &&
+         std::ranges::all_of(text, [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; }) &&
+         std::isalpha(static_cast<unsigned char>(text.front()));
+}
+
+/// Digits, more of them perhaps than TOML reads.
+bool is_whole_number(std::string_view text) {
+  if (text.starts_with('-') || text.starts_with('+')) text.remove_prefix(1);
+  return !text.empty() && std::ranges::all_of(text, [](unsigned char c) { return std::isdigit(c) != 0; });
+}
+
+/// The first line, from 1, with so many dots that its name could be a table in a table in a table ... deeper
+/// than the stack of the parser; 0 where there is none.
+std::uint32_t line_too_deep(std::string_view text) {
+  for (std::uint32_t line = 1;; ++line) {
+    const auto end = text.find('\n');
+    if (std::ranges::count(text.substr(0, end), '.') > most_dots) return line;
+    if (end == std::string_view::npos) return 0;
+    text.remove_prefix(end + 1);
+  }
+}
+
+/// The value of a setting: TOML, a list without its brackets, or a bare word that stands for a string; of a
+/// key that takes any text, also what is no TOML (`--set deposition.file=beds/dense.csv`). One entry, named
+/// "value"; nothing where it is none of these.
+std::optional<toml::table> parse_setting(const KeyHead& key, const std::string& value) {
+  if (line_too_deep(value) != 0) return std::nullopt;
+  const bool bare_list = std::holds_alternative<NumberList>(key.range) && !value.starts_with('[');
+  try {
+    toml::table table = parse_toml("value = " + (bare_list ? fmt::format("[{}]", value) : value));
+    if (table.size() == 1) return table;
+  } catch (const toml::parse_error&) {
+    if (is_bare_word(value) || std::holds_alternative<TextRange>(key.range))
+      return toml::table{{"value", value}};
+  }
+  return std::nullopt;
+}
+
+std::string unknown_key_of_setting(const KeyHeads& keys, const std::string& name) {
+  const auto dot = name.find('.');
+  const std::string section = name.substr(0, dot == std::string::npos ? 0 : dot);
+  const std::string rest = name.substr(dot == std::string::npos ? 0 : dot + 1);
+  if (section.empty() || is_section(keys, section)) return unknown_key(keys, section, rest);
+  if (!sections_of(keys).empty()) return unknown_section(keys, section);
+  return fmt::format("unknown key '{}'{}", printable(name), suggest_key(keys, "", rest));
+}
+
+/// A setting of `option`, "--set".
+void take_setting(ParsedKeys& reading, const std::string& option, const std::string& setting) {
+  SourcePlace place;
+  place.text = fmt::format("{} {}", option, printable(setting));
+  const auto equals = setting.find('=');
+  const std::string name = setting.substr(0, equals);
+  const KeyHead* key = find_key(reading.keys, name);
+  if (equals == std::string::npos || equals == 0 || equals + 1 == setting.size())
+    return reading.complain(
+        place, fmt::format("{}expected {}key=value, such as --set {}",
+                           key != nullptr ? fmt::format("key '{}' has no value: ", name) : "",
+                           sections_of(reading.keys).empty() ? "" : "section.", reading.example));
+  if (key == nullptr) return reading.complain(place, unknown_key_of_setting(reading.keys, name));
+  if (reading.given.contains(key))
+    return reading.complain(place,
+                            fmt::format("key '{}' is set twice on the command line; expected it once", name));
+  const std::string value = setting.substr(equals + 1);
+  if (const auto table = parse_setting(*key, value))
+    return take_value(reading, *key, *table->get("value"), place);
+  reading.given[key] = {place, std::nullopt};
+  reading.complain(
+      place,
+      is_whole_number(value)
+          ? fmt::format("key '{}' = {}: expected {}", name, printable(value), expectation(*key))
+          : fmt::format("key '{}': expected {}, found text that is not valid TOML", name, expectation(*key)));
+}
+
+/// The scenario as far as its keys are accepted.
+Scenario scenario_of(const ParsedKeys& reading) {
+  Scenario scenario;
+  for (const ScenarioKey& key : scenario_keys())
+    if (const auto found = reading.given.find(&key); found != reading.given.end() && found->second.value)
+      key.set(scenario, *found->second.value);
+  return scenario;
+}
+
+/// Complains at a key that the rule concerns: one set on the command line, otherwise the first one given.
+void check_rules(ParsedKeys& reading, const Scenario& scenario) {
+  for (const BrokenRule& rule : broken_rules(scenario)) {
+    const ScenarioKey* blamed = find_key(rule.keys.front());
+    const Given* at = nullptr;
+    bool all_good = true;
+    for (const std::string& name : rule.keys) {
+      const auto found = reading.given.find(find_key(name));
+      if (found == reading.given.end()) continue;
+      all_good = all_good && found->second.value.has_value();
+      if (at != nullptr && (!at->place.in_file || found->second.place.in_file)) continue;
+      blamed = find_key(name);
+      at = &found->second;
+    }
+    if (all_good)
+      reading.complain(at != nullptr ? at->place : place_in_file(reading.name, {1, 1}),
+                       fmt::format("key '{}' = {}: expected {}", full_name(*blamed),
+                                   toml_text(blamed->get(scenario)), rule.expected));
+  }
+}
+
+/// Throws if the text cannot be TOML, so that the parser is spared.
+void refuse_what_is_no_text(const std::string& text, const std::string& name) {
+  const auto zero = text.find('\0');
+  if (zero != std::string::npos || text.starts_with("talus run file"))
+    refuse(place_in_file(name, {1, 1}),
+           "this is not a scenario but binary data; expected TOML (see docs/scenario.md). "
+           "`talus info` shows what a run holds");
+  if (text.size() > largest_file)
+    refuse(place_in_file(name, {1, 1}),
+           fmt::format("the file is too large: expected a scenario of at most {} bytes", largest_file));
+  if (const std::uint32_t line = line_too_deep(text))
+    refuse(place_in_file(name, {line, 1}),
+           fmt::format("this line has too many dots: expected at most {}", most_dots));
+}
+
+}  // namespace
+
+std::map<const KeyHead*, KeyValue> read_settings(const KeyHeads& keys,
+                                                 const std::vector<std::string>& settings,
+                                                 const std::string& example) {
+  ParsedKeys reading{keys, example, {}, {}, {}};
+  for (const std::string& setting : settings) take_setting(reading, "--set", setting);
+  if (!reading.complaints.empty()) refuse(reading.complaints, "--set");
+  std::map<const KeyHead*, KeyValue> values;
+  for (const auto& [key, given] : reading.given) values.emplace(key, *given.value);
+  return values;
+}
+
+Scenario parse_scenario(const std::string& text, const std::string& name,
+                        const std::vector<std::string>& overrides, const std::vector<std::string>& varied) {
+  refuse_what_is_no_text(text, name);
+  const toml::table table = parse_text(text, name);
+  ParsedKeys reading{heads(scenario_keys()), "contact.friction=0.3", name, {}, {}};
+  for (const std::string& setting : overrides) take_setting(reading, "--set", setting);
+  for (const std::string& setting : varied) take_setting(reading, "--vary", setting);
+  take_table(reading, table, "");
+  Scenario scenario = scenario_of(reading);
+  check_rules(reading, scenario);
+  if (!reading.complaints.empty()) refuse(reading.complaints, name);
+  return scenario;
+}
+
+Scenario read_scenario(const std::string& path, const std::vector<std::string>& overrides, std::string* text,
+                       const std::vector<std::string>& varied) {
+  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  if (file.get() < 0) throw system_error(ExitCode::missing_input, "read", path, errno);
+  struct stat status {};
+  const bool known = ::fstat(file.get(), &status) == 0;
+  if (known && S_ISDIR(status.st_mode))
+    throw Error(ExitCode::missing_input,
+                fmt::format("{} is a folder; expected a scenario file (TOML)", path));
+  std::string content(largest_file + 1, '\0');
+  content.resize(read_at_most(file, std::as_writable_bytes(std::span(content)), path));
+  // A pipe that was read before has nothing more to say, which is not the scenario of all defaults.
+  if (known && !S_ISREG(status.st_mode) && content.empty())
+    throw Error(
+        ExitCode::missing_input,
+        fmt::format("{} is a pipe or a device that holds nothing, or no longer; save the scenario as a "
+                    "file, and give that",
+                    path));
+  if (text != nullptr) *text = content;
+  return parse_scenario(content, path, overrides, varied);
+}
+
+}  // namespace talus

@@ -1,0 +1,191 @@
+#include "session/schedule.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/core.h>
+#include <limits>
+#include <type_traits>
+#include <variant>
+#include <vector>
+
+#include "core/errors.h"
+#include "core/hash.h"
+#include "scenario/text.h"
+
+namespace talus {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double most_steps = 0x1p53;  // all numbers of steps up to this are doubles
+
+/// Where in a checkpoint a value stands. Those of `timing` are no state, and need not be there.
+enum class CheckpointGroup { integers, reals, results, timing };
+constexpr std::array<const char*, 4> groups = {"/checkpoint/integers/", "/checkpoint/reals/", "/results/",
+                                               "/provenance/timing/"};
+
+enum class Kept {
+  always,
+  where_not_zero,  ///< one that is not there is zero
+  as_result,       ///< follows from others: written, never read
+};
+
+/// A value of the schedule (no value is stored as NaN), or a result as a number of its own.
+using Value = std::variant<Phase*, std::int64_t*, bool*, double*, std::optional<double>*, double>;
+
+struct ScheduleField {
+  CheckpointGroup place;
+  std::string name;
+  Value value;
+  Kept kept = Kept::always;
+};
+
+double count(std::int64_t steps) { return static_cast<double>(steps); }
+
+/// The table of all that a checkpoint holds of a schedule. Values of a command are there where it was given.
+std::vector<ScheduleField> fields(Schedule& s, bool follows) {
+  using enum CheckpointGroup;
+  using enum Kept;
+  std::vector<ScheduleField> all = {
+      {integers, "phase", &s.phase},
+      {integers, "tilt_steps", &s.tilt_steps},
+      {integers, "quiet_steps", &s.quiet_steps},
+      {integers, "flowing", &s.flow.flowing},
+      {integers, "failed", &s.flow.failed},
+      {integers, "unconverged_deposition", &s.record.unconverged_deposition},
+      {integers, "unconverged_tilt", &s.record.unconverged_tilt},
+      {reals, "baseline_volume", &s.baseline.volume},
+      {reals, "baseline_centre_of_mass_height", &s.baseline.centre_of_mass_height},
+      {reals, "onset_tilt", &s.flow.onset_tilt},
+      {reals, "flow_displacement", &s.flow.displacement},
+      {reals, "surface_height", &s.surface_height},
+      {reals, "surface_displacement", &s.surface_displacement},
+      {reals, "residual_since_row", &s.residual_since_row},
+      {results, "theta_c", angle_of_repose(s).value_or(nan), as_result},
+      {results, "residual_max", std::max(s.record.residual_max_rest, s.record.residual_max_moving),
+       as_result},
+      {results, "residual_max_rest", &s.record.residual_max_rest},
+      {results, "residual_max_moving", &s.record.residual_max_moving},
+      {results, "unconverged_steps_deposition", count(s.record.unconverged_deposition), as_result},
+      {results, "unconverged_steps", count(s.record.unconverged_tilt), as_result},
+      {timing, "deposition", &s.seconds.deposition},
+      {timing, "tilt", &s.seconds.tilt},
+  };
+  if (s.friction) all.push_back({reals, "friction", &*s.friction});
+  if (s.course) {
+    all.push_back({reals, "tilt_rate", &s.course->rate});
+    all.push_back({reals, "tilt_from", &s.course->from});
+    all.push_back({integers, "tilt_since", &s.course->since});
+  }
+  all.push_back({integers, "unconverged_in_a_row", &s.unconverged_in_a_row, where_not_zero});
+  for (std::size_t k = 0; k < guard_count; ++k) {
+    const std::string name = std::string("warnings_").append(guard_names[k]);
+    all.push_back({results, name, &s.warnings.steps[k], where_not_zero});
+    all.push_back({results, name + "_first_step", &s.warnings.first[k], where_not_zero});
+  }
+  if (follows) {
+    all.push_back({integers, "flow_steps", &s.flow_steps});
+    all.push_back({integers, "unconverged_flow", &s.record.unconverged_flow});
+    all.push_back({results, "theta_r", &s.angle_at_rest});
+    all.push_back({results, "unconverged_steps_flow", count(s.record.unconverged_flow), as_result});
+  }
+  for (std::size_t k = 0; k < stage_count; ++k)
+    all.push_back({timing, std::string("stage_").append(stage_names[k]), &s.seconds.stages[k]});
+  return all;
+}
+
+double number_of(const Value& value) {
+  return std::visit(
+      [](auto of) -> double {
+        if constexpr (std::is_same_v<decltype(of), double>)
+          return of;
+        else if constexpr (std::is_same_v<decltype(of), std::optional<double>*>)
+          return of->value_or(nan);
+        else
+          return static_cast<double>(*of);
+      },
+      value);
+}
+
+/// The list of numbers that a place is; not for integers.
+auto& reals_at(CheckpointGroup place, auto& checkpoint) {
+  return place == CheckpointGroup::reals     ? checkpoint.reals
+         : place == CheckpointGroup::results ? checkpoint.results
+                                             : checkpoint.timing;
+}
+
+std::optional<double> find(const ScheduleField& field, const Checkpoint& checkpoint) {
+  if (field.place != CheckpointGroup::integers)
+    return find_value(reals_at(field.place, checkpoint), field.name);
+  const std::optional<std::int64_t> found = find_value(checkpoint.integers, field.name);
+  return found ? std::optional(static_cast<double>(*found)) : std::nullopt;
+}
+
+[[noreturn]] void refuse(const ScheduleField& field, const std::string& origin, const std::string& fault) {
+  throw Error(ExitCode::bad_data,
+              fmt::format("{}: data set {}{} {}", origin, groups[static_cast<std::size_t>(field.place)],
+                          field.name, fault));
+}
+
+/// Sets the value of a field, or refuses what it cannot be.
+void take(double number, const ScheduleField& field, const std::string& origin) {
+  const auto check = [&](double most, const char* expected) {
+    if (!(number >= 0.0 && number <= most))
+      refuse(field, origin, fmt::format("is {}, expected {}", short_text(number), expected));
+  };
+  if (Phase* const* phase = std::get_if<Phase*>(&field.value)) {
+    check(static_cast<double>(Phase::flow), "0, 1, 2 or 3");
+    **phase = static_cast<Phase>(static_cast<std::int64_t>(number));
+  } else if (std::int64_t* const* steps = std::get_if<std::int64_t*>(&field.value)) {
+    check(most_steps, "a number of steps");
+    **steps = static_cast<std::int64_t>(number);
+  } else if (bool* const* flag = std::get_if<bool*>(&field.value)) {
+    **flag = number != 0.0;
+  } else if (double* const* real = std::get_if<double*>(&field.value)) {
+    **real = number;
+  } else if (std::optional<double>* const* real_or_none = std::get_if<std::optional<double>*>(&field.value)) {
+    if (!std::isnan(number)) **real_or_none = number;
+  }
+}
+
+}  // namespace
+
+std::optional<double> angle_of_repose(const Schedule& schedule) {
+  return schedule.flow.failed ? std::optional<double>(schedule.flow.onset_tilt) : std::nullopt;
+}
+
+void store_schedule(Schedule schedule, bool follows, Checkpoint& checkpoint) {
+  for (const ScheduleField& field : fields(schedule, follows)) {
+    const double number = number_of(field.value);
+    if (field.kept == Kept::where_not_zero && number == 0.0) continue;
+    if (field.place == CheckpointGroup::integers)
+      checkpoint.integers.emplace_back(field.name, static_cast<std::int64_t>(number));
+    else
+      reals_at(field.place, checkpoint).emplace_back(field.name, number);
+  }
+}
+
+Schedule stored_schedule(const Checkpoint& checkpoint, bool follows, const std::string& origin) {
+  Schedule schedule;
+  if (find_value(checkpoint.reals, "friction")) schedule.friction.emplace();
+  if (find_value(checkpoint.reals, "tilt_rate")) schedule.course.emplace();
+  for (const ScheduleField& field : fields(schedule, follows)) {
+    if (field.kept == Kept::as_result) continue;
+    if (const std::optional<double> number = find(field, checkpoint))
+      take(*number, field, origin);
+    else if (field.kept == Kept::always && field.place != CheckpointGroup::timing)
+      refuse(field, origin, "is missing; without it the run cannot go on");
+  }
+  return schedule;
+}
+
+std::uint64_t schedule_hash(Schedule schedule) {
+  Hasher hash;
+  for (const ScheduleField& field : fields(schedule, true)) {
+    if (field.place == CheckpointGroup::timing || field.kept == Kept::as_result) continue;
+    hash.add_array(field.name);
+    hash.add(number_of(field.value));
+  }
+  return hash.value();
+}
+
+}  // namespace talus

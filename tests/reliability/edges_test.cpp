@@ -1,0 +1,328 @@
+/// What surrounds a command and is not its own: signals, pipes, memory, the user's settings, a terminal.
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+#include "core/errors.h"
+#include "core/random.h"
+#include "reliability/hostile_file.h"
+#include "reliability/hostile_run.h"
+#include "reliability/whole_run.h"
+#include "session/run_check.h"
+#include "session/run_header.h"
+#include "session/session.h"
+
+namespace talus::test {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+using Words = std::vector<std::string>;
+
+constexpr double soon = 1.0;  // s
+constexpr int stop_signals[] = {SIGINT, SIGTERM, SIGHUP};
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+std::string text_of(const fs::path& path) {
+  std::stringstream text;
+  text << std::ifstream(path, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+/// Whether `holds()` becomes true within ten seconds.
+template <typename Condition>
+bool comes_true(const Condition& holds) {
+  for (int wait = 0; wait < 2000; ++wait, std::this_thread::sleep_for(std::chrono::milliseconds(5)))
+    if (holds()) return true;
+  return false;
+}
+
+/// A run and what is made of it, once for all tests.
+class Edges : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder = new TemporaryFolder;
+    hostile::make_run(folder->path("run.h5"));
+    hostile::make_problem(folder->path("run.h5"), folder->path("problem.h5"));
+    write_file(*folder, "bed.toml", small_bed);
+  }
+  static void TearDownTestSuite() {
+    delete folder;
+    folder = nullptr;
+  }
+  static Outcome talus(const Words& words, const Words& environment = {}) {
+    return run_talus(words, folder->path(), environment);
+  }
+
+  /// How a command ends that is sent a signal while it works, and that it does so soon.
+  static int end_by(const Words& words, int signal) {
+    const pid_t process = start_talus(words, folder->path());
+    if (!wait_until_it_catches(process, SIGTERM)) return wait_for(process);  // it was faster
+    const auto begin = Clock::now();
+    kill(process, signal);
+    const bool ended = comes_true([process] { return has_ended(process); });
+    EXPECT_LT(seconds_since(begin), soon + 1.0) << words[0] << " after signal " << signal;
+    if (!ended) kill(process, SIGKILL);
+    return wait_for(process);
+  }
+
+  static inline TemporaryFolder* folder = nullptr;
+};
+
+TEST_F(Edges, each_signal_ends_each_command) {
+  const std::vector<Words> commands = {
+      {"figures", "run.h5", "-o", "figures", "--overwrite"},
+      {"panel", "run.h5", "--map", "gamma", "--theta-c", "20", "--at", "0,0.5,1", "-o", "panel.png"},
+      {"render", "run.h5", "--map", "gamma", "--theta-c", "20", "-o", "maps"},
+      {"animate", "run.h5", "--map", "pressure", "-o", "movie.mp4", "--overwrite"},
+      {"solve", "problem.h5", "--cold", "--tol", "1e-15"},
+      {"analyze", "run.h5"},
+      {"check", "run.h5"},
+      {"replay", "run.h5"}};
+  for (const Words& words : commands)
+    for (const int signal : stop_signals) {
+      const int code = end_by(words, signal);
+      EXPECT_TRUE(code == 75 || code == 0) << words[0] << " ended with " << code << " after signal " << signal
+                                           << ": " << errors_in(folder->path());
+      if (code == 75) {
+        EXPECT_NE(errors_in(folder->path()).find("topped"), std::string::npos) << words[0];
+      }
+    }
+}
+
+TEST_F(Edges, a_hangup_stops_a_run_with_a_checkpoint) {
+  const pid_t process = start_talus({"run", "bed.toml", "-o", "hung.h5", "--threads", "1"}, folder->path());
+  ASSERT_TRUE(comes_true([] { return fs::exists(folder->path("hung.h5.run/manifest")); }));
+  kill(process, SIGHUP);
+  EXPECT_EQ(wait_for(process), 75) << errors_in(folder->path());
+  EXPECT_NE(errors_in(folder->path()).find("Stopped at "), std::string::npos) << errors_in(folder->path());
+  EXPECT_EQ(talus({"run", "--resume", "hung.h5", "-q"}).exit_code, 0);
+}
+
+TEST_F(Edges, a_pipe_that_nobody_writes_to_is_left_by_each_signal) {
+  ASSERT_EQ(mkfifo(folder->path("pipe.toml").c_str(), 0600), 0);
+  for (const char* command : {"run", "check"})
+    for (const int signal : stop_signals) EXPECT_EQ(end_by({command, "pipe.toml"}, signal), 75) << command;
+}
+
+TEST_F(Edges, a_pipe_or_a_device_is_no_run_and_no_problem) {
+  ASSERT_EQ(mkfifo(folder->path("pipe.h5").c_str(), 0600), 0);
+  for (const char* file : {"pipe.h5", "/dev/tty", "/dev/zero"})
+    for (const char* command : {"info", "analyze", "solve"}) {
+      const auto begin = Clock::now();
+      const pid_t process = start_talus({command, file}, folder->path());
+      const bool ended = comes_true([process] { return has_ended(process); });
+      if (!ended) kill(process, SIGKILL);
+      EXPECT_EQ(wait_for(process), 66) << command << " " << file << errors_in(folder->path());
+      EXPECT_LT(seconds_since(begin), soon + 1.0) << command;
+    }
+}
+
+/// A gnuplot that says that it is there, and then takes its time.
+TEST_F(Edges, programs_that_were_started_end_with_the_command) {
+  write_file(*folder, "gnuplot",
+             "#!/bin/sh\ncase $1 in --version) exit 0;; esac\necho $$ > " + folder->path("started") +
+                 "\nexec sleep 100\n");
+  fs::permissions(folder->path("gnuplot"), fs::perms::owner_all);
+  const std::string path = "PATH=" + folder->path().string() + ":" + std::getenv("PATH");
+  for (const int signal : {SIGTERM, SIGKILL}) {
+    fs::remove(folder->path("started"));
+    std::string before = std::getenv("PATH");
+    setenv("PATH", path.c_str() + 5, 1);
+    const pid_t process =
+        start_talus({"figures", "run.h5", "-o", "slow", "--only", "fig04", "--overwrite"}, folder->path());
+    setenv("PATH", before.c_str(), 1);
+    ASSERT_TRUE(comes_true([] { return !text_of(folder->path("started")).empty(); }))
+        << errors_in(folder->path());
+    const pid_t gnuplot = std::stoi(text_of(folder->path("started")));
+    kill(process, signal);
+    EXPECT_EQ(wait_for(process), signal == SIGTERM ? 75 : -1);
+    EXPECT_TRUE(comes_true([gnuplot] { return kill(gnuplot, 0) != 0; }))
+        << "gnuplot goes on after signal " << signal;
+    if (signal == SIGTERM) {
+      EXPECT_TRUE(fs::is_empty(folder->path("slow"))) << "something was left behind";
+    }
+  }
+  fs::remove(folder->path("gnuplot"));
+}
+
+TEST_F(Edges, a_run_that_is_packed_while_it_is_checked_is_whole) {
+  const std::string path = folder->path("left.h5");
+  hostile::make_folder_of_run(path, 0.7);
+  const RunFile run = RunFile::open(path);
+  const std::size_t frames = run.all_frame_tilts().size(), steps = run.steps().size();
+  ASSERT_GT(frames, 1u);
+  ASSERT_EQ(talus({"run", "--resume", "left.h5", "-q"}).exit_code, 0);
+  ASSERT_FALSE(fs::exists(path + ".run"));
+  const RunCheck check = check_run(run, {});
+  EXPECT_TRUE(check.faults.empty()) << check.faults.front();
+  EXPECT_EQ(check.frames, frames);
+  EXPECT_EQ(check.steps, steps);
+}
+
+std::string told_by(const std::string& path) try {
+  const RunCheck check = check_run(RunFile::open(path), {});
+  return check.faults.empty() ? "" : check.faults.front();
+} catch (const Error& error) {
+  return error.what();
+}
+
+/// Of a file that was changed and sealed again `check` tells, or every value in it is as it was. TALUS_TRIES
+/// makes more tries.
+TEST_F(Edges, a_value_changed_and_sealed_again_is_told_or_changes_nothing) {
+  const hostile::Bytes good = hostile::read_bytes(folder->path("run.h5"));
+  std::vector<std::string> paths = hostile::data_sets(good);
+  std::erase_if(paths, [](const std::string& data_set) { return data_set.starts_with("/help/"); });  // texts
+  const std::uint64_t whole = hostile::values_hash(good);
+  const std::string path = folder->path("changed.h5");
+  ASSERT_EQ(told_by(folder->path("run.h5")), "");
+  const char* asked = std::getenv("TALUS_TRIES");
+  const int count = asked != nullptr ? std::atoi(asked) : 100;
+  int told = 0;
+  Random random(40);
+  for (int k = 0; k < count; ++k) {
+    const hostile::Spoil spoil = {paths[random.below(static_cast<std::uint32_t>(paths.size()))],
+                                  hostile::Harm::one_value,
+                                  random.next(),
+                                  random.below(40),
+                                  {}};
+    const hostile::Bytes changed = hostile::spoilt(good, std::vector<hostile::Spoil>{spoil});
+    hostile::write_bytes(path, changed);
+    if (!told_by(path).empty())
+      ++told;
+    else
+      EXPECT_EQ(hostile::values_hash(changed), whole)
+          << spoil.path << " at " << spoil.index << ", " << spoil.bits;
+  }
+  std::printf("%d changes: %d told, %d without effect\n", count, told, count - told);
+}
+
+/// While it lives this process, and those that it starts, have no more memory than so many bytes.
+struct MemoryLimit {
+  explicit MemoryLimit(rlim_t bytes) {
+    getrlimit(RLIMIT_AS, &before);
+    const rlimit less = {bytes, before.rlim_max};
+    setrlimit(RLIMIT_AS, &less);
+  }
+  ~MemoryLimit() { setrlimit(RLIMIT_AS, &before); }
+  MemoryLimit(const MemoryLimit&) = delete;
+  MemoryLimit& operator=(const MemoryLimit&) = delete;
+  rlimit before = {};
+};
+
+constexpr rlim_t mebibyte = rlim_t{1} << 20;
+
+TEST_F(Edges, a_bed_for_which_there_is_no_memory_is_refused_before_it_is_made) {
+  const MemoryLimit limit(4096 * mebibyte);
+  const Outcome outcome =
+      talus({"run", "bed.toml", "--set", "bed.length=100000", "--set", "bed.depth=20", "-o", "large.h5"});
+  EXPECT_EQ(outcome.exit_code, 71);
+  EXPECT_NE(outcome.err.find("this run takes up to about 1"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("only 4.3 GB are available"), std::string::npos) << outcome.err;
+  EXPECT_FALSE(fs::exists(folder->path("large.h5.run")));
+}
+
+TEST_F(Edges, too_little_memory_to_draw_is_not_told_as_a_missing_library) {
+  int drawn = 0, refused = 0;
+  for (rlim_t size = 60; size <= 420; size += 40) {
+    const MemoryLimit limit(size * mebibyte);
+    const Outcome outcome =
+        talus({"render", "run.h5", "--map", "pressure", "--at", "0", "-o", "small", "--overwrite"});
+    if (outcome.exit_code == 127) continue;  // the system could not start it
+    EXPECT_TRUE(outcome.exit_code == 0 || outcome.exit_code == 71)
+        << size << " MiB: " << outcome.exit_code << outcome.err;
+    (outcome.exit_code == 0 ? drawn : refused) += 1;
+  }
+  EXPECT_GT(drawn, 0);
+  EXPECT_GT(refused, 0);
+}
+
+TEST_F(Edges, no_text_of_a_file_reaches_the_terminal_raw) {
+  const std::string attack =
+      "\x1b]0;owned\a\x1b[2J\xc2\x9b"
+      "31m\r\x7f";
+  Session session(parse_scenario(tiny_bed, "tiny.toml"));
+  RunHeader header = run_header(session, {});
+  for (auto& [name, value] : header.provenance) value = attack;
+  Checkpoint checkpoint = session.checkpoint(0.0);
+  checkpoint.results.emplace_back("bad\x1b[31mname", 1.0);
+  RunStore::create(folder->path("attack.h5"), header, false).commit({}, checkpoint);
+  for (const Words& words : {Words{"info", "attack.h5"},
+                             {"info", "attack.h5", "--json"},
+                             {"check", "attack.h5"},
+                             {"replay", "attack.h5"},
+                             {"analyze", "attack.h5"}}) {
+    const Outcome outcome = talus(words);
+    for (const std::string& text : {outcome.out, outcome.err}) {
+      EXPECT_EQ(text.find_first_of("\x1b\a\r\x7f"), std::string::npos) << words[0];
+      EXPECT_EQ(text.find("\xc2\x9b"), std::string::npos) << words[0];
+    }
+  }
+  EXPECT_NE(talus({"info", "attack.h5"}).out.find("\\x1b[2J"), std::string::npos);
+}
+
+TEST_F(Edges, settings_of_the_user_change_no_figure) {
+  write_file(*folder, ".gnuplot", "set decimalsign ','\nset linetype 1 linewidth 9\n");
+  const Words make = {"figures", "run.h5", "--only", "fig04", "--overwrite", "-o"};
+  const auto figure = [&](const std::string& into, const Words& environment) {
+    Words words = make;
+    words.push_back(into);
+    const Outcome outcome = talus(words, environment);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    return text_of(folder->path(into + "/fig04-shear-stress.svg"));
+  };
+  const std::string usual = figure("usual", {"HOME=/nonexistent"});
+  EXPECT_FALSE(usual.empty());
+  const mode_t mask = umask(077);
+  EXPECT_EQ(figure("own", {"HOME=" + folder->path().string(), "LC_ALL=de_DE.UTF-8", "LANG=C", "GNUTERM=dumb",
+                           "GNUPLOT_DEFAULT_GDFONT=none", "GNUPLOT_FONTPATH=/tmp"}),
+            usual);
+  umask(mask);
+}
+
+TEST_F(Edges, a_word_that_is_no_command_is_told_with_the_nearest) {
+  const Outcome outcome = talus({"plot", "x"});
+  EXPECT_EQ(outcome.exit_code, 64);
+  EXPECT_EQ(outcome.err, "talus: error: 'plot' is no command; talus --help lists them\n");
+  EXPECT_NE(talus({"rnu", "x"}).err.find("did you mean 'run'"), std::string::npos);
+}
+
+TEST_F(Edges, a_seed_out_of_range_is_told_as_such) {
+  for (const char* seed : {"-1", "99999999999999999999"}) {
+    const Outcome outcome = talus({"run", "bed.toml", "--seed", seed, "-o", "none.h5"});
+    EXPECT_EQ(outcome.exit_code, 65);
+    EXPECT_EQ(outcome.err, std::string("--set seed=") + seed + ": error: key 'seed' = " + seed +
+                               ": expected an integer in 0 ... 9223372036854775807\n");
+  }
+  EXPECT_EQ(talus({"run", "bed.toml", "--seed", "seven", "-o", "none.h5"}).exit_code, 64);
+}
+
+TEST_F(Edges, a_missing_run_is_told_where_there_is_no_display_too) {
+  const Outcome outcome = talus({"view", "nope.h5"}, {"DISPLAY=", "WAYLAND_DISPLAY="});
+  if (outcome.err.find("without its window") != std::string::npos) GTEST_SKIP() << "talus has no window";
+  EXPECT_EQ(outcome.exit_code, 66);
+  EXPECT_NE(outcome.err.find("nope.h5"), std::string::npos) << outcome.err;
+}
+
+TEST_F(Edges, a_replay_that_was_killed_is_not_advised_to_resume) {
+  hostile::make_folder_of_run(folder->path("part.h5"), 0.3);
+  const Outcome outcome = talus({"replay", "run.h5", "-o", "part.h5"});
+  EXPECT_EQ(outcome.exit_code, 73);
+  EXPECT_EQ(outcome.err.find("--resume"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("--overwrite"), std::string::npos) << outcome.err;
+}
+
+}  // namespace
+}  // namespace talus::test

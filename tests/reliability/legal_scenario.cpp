@@ -1,0 +1,96 @@
+#include "reliability/legal_scenario.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <variant>
+
+#include "scenario/keys.h"
+#include "scenario/rules.h"
+#include "session/estimate.h"
+
+namespace talus::test {
+namespace {
+
+std::uint32_t whole(std::size_t count) { return static_cast<std::uint32_t>(count); }
+
+/// One in three is the lower end or next to it, one in three the upper end; others lie between, by their
+/// logarithm where the range spans decades.
+double number_in(const NumberRange& range, Random& random) {
+  const double low = range.low_included ? range.low : std::max(1e-300, 1e-9 * std::min(range.high, 1.0));
+  const double high = std::isinf(range.high) ? 1e300 : range.high;
+  switch (random.below(6)) {
+    case 0:
+      return low;
+    case 1:
+      return high;
+    case 2:
+      return std::nextafter(low, high);
+    default:
+      break;
+  }
+  if (low > 0.0 && high / low > 100.0)
+    return low * std::pow(10.0, random.uniform(0.0, std::log10(high) - std::log10(low)));
+  return random.uniform(low, high);
+}
+
+KeyValue value_in(const NumberRange& range, Random& random) {
+  if (!range.word.empty() && random.below(3) == 0) return range.word;
+  return std::clamp(number_in(range, random), range.low, range.high);
+}
+
+KeyValue value_in(const IntegerRange& range, Random& random) {
+  if (random.below(3) == 0) return range.low;
+  if (random.below(3) == 0) return range.high;
+  const double spread = std::pow(static_cast<double>(range.high - range.low), random.uniform());
+  return std::min(range.high, range.low + static_cast<std::int64_t>(spread));
+}
+
+KeyValue value_in(const Choices& choices, Random& random) {
+  return choices.names[random.below(whole(choices.names.size()))];
+}
+
+KeyValue value_in(const TextRange&, Random&) { return std::string(); }
+KeyValue value_in(const NumberList& list, Random& random) {
+  return std::vector{random.uniform() * list.high};
+}
+
+Scenario small_bed(Random& random) {
+  Scenario scenario;
+  scenario.seed = random.next();
+  scenario.bed.length = 10.0 + random.below(11);
+  scenario.bed.depth = random.uniform(1.0, 10.0);
+  scenario.deposition.rate = 2.0;
+  scenario.tilt.rate = std::pow(10.0, random.uniform(0.5, 1.7));
+  scenario.tilt.step = scenario.tilt.rate * std::pow(10.0, random.uniform(-3.0, -2.2));
+  scenario.output.frame_every = std::max(scenario.tilt.step, 1.0);
+  scenario.output.observable_every = std::max(scenario.tilt.step, 0.1);
+  return scenario;
+}
+
+/// What decides how large the bed is.
+bool is_size(const ScenarioKey& key) {
+  return full_name(key) == "bed.length" || full_name(key) == "bed.depth";
+}
+
+}  // namespace
+
+Scenario legal_scenario(Random& random, double seconds, const std::vector<std::string>& beds) {
+  for (;;) {
+    Scenario scenario = small_bed(random);
+    const std::uint32_t one_in = 2 + random.below(20);
+    for (const ScenarioKey& key : scenario_keys())
+      if (!is_size(key) && random.below(one_in) == 0)
+        if (const auto value = admitted(
+                key, std::visit([&](const auto& range) { return value_in(range, random); }, key.range)))
+          key.set(scenario, *value);
+    scenario.deposition.frame = 0;
+    if (scenario.deposition.method == DepositionMethod::file)
+      scenario.deposition.file = beds[random.below(whole(beds.size()))];
+    if (!broken_rules(scenario).empty()) continue;
+    if (estimate(scenario).seconds <= seconds) return scenario;
+  }
+}
+
+}  // namespace talus::test

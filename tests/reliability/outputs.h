@@ -1,0 +1,184 @@
+#pragma once
+/// All commands that write a file or a folder, and the places that they are tried in.
+
+#include <gtest/gtest.h>
+#include <sched.h>
+#include <sys/mount.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "io/run_file.h"
+#include "reliability/whole_run.h"
+#include "render/whole_file.h"
+
+namespace talus::test {
+namespace fs = std::filesystem;
+using Words = std::vector<std::string>;
+
+constexpr int done = 0, usage = 64, refused = 73, io_error = 74;
+constexpr int block = 4;          // KiB, of a file system
+constexpr int ample = 64 * 1024;  // KiB
+
+inline std::string content(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+inline std::set<std::string> names_in(const fs::path& folder) {
+  std::set<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder)) names.insert(entry.path().filename().string());
+  return names;
+}
+
+/// A command that writes: its words, of which "OUT" is the output. What it needs is in the folder above.
+struct Writer {
+  std::string name;
+  std::string output;  ///< in the folder of outputs
+  Words words;
+  bool of_folder = false;  ///< the output is a folder
+  bool is_movie = false;
+};
+
+inline bool decodes(const fs::path& movie) {
+  const std::string words = "ffmpeg -nostdin -v error -xerror -i 'file:" + movie.string() + "' -f null -";
+  return std::system(words.c_str()) == 0;
+}
+
+inline Words with_output(Words words, const std::string& output) {
+  std::ranges::replace(words, std::string("OUT"), output);
+  return words;
+}
+
+inline const std::vector<Writer>& writers() {
+  static const std::vector<Writer> all = {
+      {"run", "r.h5", {"run", "bed.toml", "-q", "-o", "OUT"}},
+      {"replay", "r.h5", {"replay", "f.h5", "-q", "-o", "OUT"}},
+      {"repair", "r.h5", {"repair", "damaged.h5", "-o", "OUT"}},
+      {"dump", "p.h5", {"dump", "f.h5", "--frame", "1", "-o", "OUT"}},
+      {"solve", "s.h5", {"solve", "p.h5", "-o", "OUT"}},
+      {"panel",
+       "p.png",
+       {"panel", "f.h5", "-q", "--map", "pressure", "--at", "0,1", "--width", "300", "-o", "OUT"}},
+      {"screenshot", "v.png", {"view", "f.h5", "--size", "400x300", "--screenshot", "OUT"}},
+      {"mp4",
+       "m.mp4",
+       {"animate", "f.h5", "-q", "--map", "pressure", "--width", "300", "-o", "OUT"},
+       false,
+       true},
+      {"webm",
+       "m.webm",
+       {"animate", "f.h5", "-q", "--map", "pressure", "--width", "300", "-o", "OUT"},
+       false,
+       true},
+      {"gif",
+       "m.gif",
+       {"animate", "f.h5", "-q", "--map", "pressure", "--width", "300", "-o", "OUT"},
+       false,
+       true},
+      {"render", "maps", {"render", "f.h5", "-q", "--map", "pressure", "--width", "300", "-o", "OUT"}, true},
+      {"figures", "figs", {"figures", "f.h5", "-q", "--only", "fig04", "-o", "OUT"}, true},
+  };
+  return all;
+}
+
+/// Inputs of all writers, made once.
+class Outputs : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    inputs_ = std::make_unique<TemporaryFolder>();
+    write_file(*inputs_, "bed.toml", tiny_bed);
+    for (const Words& words : {Words{"run", "bed.toml", "-q", "-o", "f.h5"}, Words{"analyze", "f.h5", "-q"},
+                               Words{"dump", "f.h5", "--frame", "1", "-o", "p.h5"}}) {
+      const Outcome outcome = run_talus(words, inputs_->path());
+      ASSERT_EQ(outcome.exit_code, done) << outcome.err;
+    }
+    std::string bytes = content(inputs_->path() / "f.h5");
+    bytes[100] = '?';  // of the seal
+    write_file(*inputs_, "damaged.h5", bytes);
+    // What is mounted here is seen by this process and its children alone.
+    if (unshare(CLONE_NEWNS) == 0) mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr);
+  }
+  static void TearDownTestSuite() { inputs_.reset(); }
+
+  Outputs() {
+    for (const std::string& name : names_in(inputs_->path()))
+      if (name[0] != '.') fs::copy_file(inputs_->path() / name, folder_.path() / name);
+  }
+
+  Outcome talus(const Words& words) const { return run_talus(words, folder_.path()); }
+  std::string path(const std::string& name) const { return folder_.path(name); }
+
+  /// All that is below a folder of outputs is whole, and nothing is there that has no name yet. What is left
+  /// of a run that was not finished can be resumed, or is not there.
+  static void expect_whole(const fs::path& folder) {
+    for (auto entry = fs::recursive_directory_iterator(folder); entry != fs::recursive_directory_iterator();
+         ++entry) {
+      const fs::path& file = entry->path();
+      const std::string name = file.filename().string();
+      EXPECT_EQ(name.find(".part"), std::string::npos) << file << " was left";
+      if (name.ends_with(".run")) {
+        committed_frames(file.parent_path() / file.stem());
+        entry.disable_recursion_pending();
+        continue;
+      }
+      if (entry->is_directory()) continue;
+      EXPECT_GT(fs::file_size(file), 0u) << file;
+      if (name[0] == 'r' && name.ends_with(".h5")) digest(file);
+      const std::set<std::string> checked = {".png", ".mp4", ".webm", ".gif", ".pdf", ".svg"};
+      EXPECT_TRUE(!checked.contains(file.extension()) || is_whole_file(file, name)) << file;
+    }
+  }
+
+  /// Runs a writer below `place` and sees that it is either done, with all of `expected` there, or says that
+  /// it could not write. Returns whether it is done.
+  bool is_done_or_said(const Writer& writer, const std::string& place,
+                       const std::set<std::string>& expected) {
+    const Outcome outcome = talus(with_output(writer.words, place + "/" + writer.output));
+    EXPECT_TRUE(outcome.exit_code == done || outcome.exit_code == io_error)
+        << outcome.exit_code << ": " << outcome.err;
+    expect_whole(folder_.path() / place);
+    const fs::path made = folder_.path() / place / (writer.of_folder ? writer.output : "");
+    const bool is_done = outcome.exit_code == done;
+    EXPECT_TRUE(!is_done || names_in(made) == expected);
+    EXPECT_TRUE(!is_done || !writer.is_movie || decodes(made / writer.output)) << "ffmpeg does not think so";
+    EXPECT_TRUE(is_done || writer.of_folder || !fs::exists(made / writer.output)) << "torn";
+    return is_done;
+  }
+
+  /// What a writer makes where nothing is in its way, and how large that is, in KiB.
+  std::pair<std::set<std::string>, int> made_freely(const Writer& writer) {
+    fs::create_directory(path("free"));
+    const Outcome outcome = talus(with_output(writer.words, "free/" + writer.output));
+    EXPECT_EQ(outcome.exit_code, done) << outcome.err;
+    const fs::path made = folder_.path() / "free" / (writer.of_folder ? writer.output : "");
+    int size = 0;
+    for (const auto& entry : fs::directory_iterator(made))
+      size += block * static_cast<int>(1 + (entry.file_size() - 1) / (1024 * block));
+    std::set<std::string> names = names_in(made);
+    fs::remove_all(path("free"));
+    return {names, size};
+  }
+
+  /// Sizes to try: each block, or in ctest the smallest, the middle and those about `size`.
+  static std::vector<int> sizes_about(int size) {
+    std::vector<int> sizes;
+    const bool all = tries(0, 1) > 0;
+    for (int kib = block; kib <= (all ? ample : size); kib += block)
+      if (all || kib == block || kib == size / 2 / block * block || kib == size - block) sizes.push_back(kib);
+    return sizes;
+  }
+
+  static inline std::unique_ptr<TemporaryFolder> inputs_;
+  TemporaryFolder folder_;
+};
+
+}  // namespace talus::test

@@ -1,0 +1,285 @@
+/// Commands replace nothing but what they may, wait for nothing, and leave nothing.
+
+#include "reliability/outputs.h"
+
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <functional>
+#include <map>
+#include <thread>
+
+#include "reliability/small_disk.h"
+
+namespace talus::test {
+namespace {
+
+/// Makes something that is no file under a name.
+using Make = std::function<void(const std::string&)>;
+
+const std::map<std::string, Make>& strange_kinds() {
+  static const std::map<std::string, Make> kinds = {
+      {"a FIFO", [](const std::string& name) { ASSERT_EQ(mkfifo(name.c_str(), 0600), 0); }},
+      {"a link that leads nowhere", [](const std::string& name) { fs::create_symlink("/nowhere/x", name); }},
+      {"a link to itself",
+       [](const std::string& name) { fs::create_symlink(fs::path(name).filename(), name); }},
+      {"a folder", [](const std::string& name) { fs::create_directory(name); }},
+      {"a link to a device", [](const std::string& name) { fs::create_symlink("/dev/null", name); }},
+      {"a socket",
+       [](const std::string& name) {
+         const int made = socket(AF_UNIX, SOCK_STREAM, 0);
+         sockaddr_un address{};
+         address.sun_family = AF_UNIX;
+         name.copy(address.sun_path, sizeof address.sun_path - 1);
+         ASSERT_EQ(bind(made, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+         close(made);
+       }},
+  };
+  return kinds;
+}
+
+/// What is under a name, not followed.
+std::pair<ino_t, mode_t> identity(const std::string& name) {
+  struct stat status {};
+  EXPECT_EQ(lstat(name.c_str(), &status), 0);
+  return {status.st_ino, status.st_mode};
+}
+
+TEST_F(Outputs, replace_nothing_but_files) {
+  for (const Writer& writer : writers()) {
+    if (writer.of_folder) continue;
+    for (const auto& [kind, make] : strange_kinds()) {
+      SCOPED_TRACE(writer.name + ", " + kind);
+      const std::string output =
+          path(writer.output.substr(0, 1) + "-strange" + fs::path(writer.output).extension().string());
+      make(output);
+      const auto before = identity(output);
+      for (const bool overwrite : {false, true}) {
+        Words words = with_output(writer.words, output);
+        if (overwrite) words.emplace_back("--overwrite");
+        const Outcome outcome = talus(words);
+        EXPECT_EQ(outcome.exit_code, refused) << outcome.err;
+        EXPECT_EQ(identity(output), before);
+      }
+      fs::remove(output);
+    }
+  }
+}
+
+TEST_F(Outputs, wait_for_nothing_that_has_the_name_of_a_lock_or_a_temporary_file) {
+  for (const Writer& writer : writers())
+    for (const auto& [kind, make] : strange_kinds()) {
+      SCOPED_TRACE(writer.name + ", " + kind);
+      fs::create_directory(path("place"));
+      const bool is_run = writer.name == "run" || writer.name == "replay";
+      const std::string name = is_run                     ? "r.h5.run/lock"
+                               : writer.name == "figures" ? "figs/fig04-shear-stress.talus.part"
+                               : writer.name == "render"  ? "maps/pressure_000.00.png.talus.part"
+                                                          : writer.output + ".talus.part";
+      const std::string there = path("place/" + name);
+      fs::create_directories(fs::path(there).parent_path());
+      make(there);
+      const auto before = identity(there);
+      const Outcome outcome = talus(with_output(writer.words, "place/" + writer.output));
+      // An empty folder is what a killed process leaves of a figure.
+      if (writer.name == "figures" && kind == "a folder") {
+        EXPECT_EQ(outcome.exit_code, done) << outcome.err;
+      } else {
+        EXPECT_EQ(outcome.exit_code, refused) << outcome.err;
+        EXPECT_EQ(identity(there), before);
+      }
+      fs::remove_all(path("place"));
+    }
+}
+
+TEST_F(Outputs, never_replace_what_is_read) {
+  const std::map<std::string, std::string> inputs = {
+      {"run", "bed.toml"}, {"repair", "damaged.h5"}, {"solve", "p.h5"}};
+  for (const Writer& writer : writers()) {
+    if (writer.of_folder) continue;
+    SCOPED_TRACE(writer.name);
+    const std::string input = inputs.contains(writer.name) ? inputs.at(writer.name) : "f.h5";
+    const std::string before = content(path(input)), ending = fs::path(writer.output).extension();
+    const std::string other = "other" + ending, link = "link" + ending;
+    fs::create_hard_link(path(input), path(other));
+    fs::create_symlink(input, path(link));
+    for (const std::string& output : {other, link, input}) {
+      if (!output.ends_with(ending)) continue;  // which a movie or a picture refuses by its name
+      Words words = with_output(writer.words, output);
+      words.emplace_back("--overwrite");
+      const Outcome outcome = talus(words);
+      EXPECT_EQ(outcome.exit_code, usage) << output << ": " << outcome.err;
+      EXPECT_TRUE(content(path(input)) == before) << output;
+    }
+    fs::remove(path(other));
+    fs::remove(path(link));
+  }
+}
+
+TEST_F(Outputs, never_replace_the_bed_that_a_run_begins_with) {
+  const std::string before = content(path("f.h5"));
+  const Outcome outcome = talus({"run", "bed.toml", "--set", "deposition.method=file", "--set",
+                                 "deposition.file=f.h5", "-o", "f.h5", "--overwrite"});
+  EXPECT_EQ(outcome.exit_code, usage) << outcome.err;
+  EXPECT_TRUE(content(path("f.h5")) == before);
+}
+
+TEST_F(Outputs, written_again_keep_mode_owner_and_link) {
+  if (geteuid() != 0) GTEST_SKIP() << "needs root, to give files away";
+  const auto expect_kept = [this](const std::string& file, const Words& words) {
+    SCOPED_TRACE(words[0]);
+    const std::string link = "link-" + file;
+    fs::create_symlink(file, path(link));
+    ASSERT_EQ(chown(path(file).c_str(), 1234, 4321), 0);
+    ASSERT_EQ(chmod(path(file).c_str(), 0640), 0);
+    struct stat before {
+    }, after{};
+    stat(path(file).c_str(), &before);
+    const Outcome outcome = talus(with_output(words, link));
+    EXPECT_EQ(outcome.exit_code, done) << outcome.err;
+    EXPECT_TRUE(fs::is_symlink(path(link)));
+    stat(path(file).c_str(), &after);
+    EXPECT_NE(after.st_ino, before.st_ino) << "it was not written again";
+    EXPECT_EQ(after.st_mode & 07777, 0640u);
+    EXPECT_EQ(after.st_uid, 1234u);
+    EXPECT_EQ(after.st_gid, 4321u);
+    fs::remove(path(link));
+  };
+  expect_kept("f.h5", {"analyze", "OUT", "-q", "--force"});
+  for (const Writer& writer : writers()) {
+    if (writer.of_folder) continue;
+    const std::string old = "old" + fs::path(writer.output).extension().string();
+    write_file(folder_, old, "what was there before");
+    Words words = writer.words;
+    words.emplace_back("--overwrite");
+    expect_kept(old, words);
+    fs::remove(path(old));
+  }
+}
+
+TEST_F(Outputs, a_run_that_is_overwritten_stays_until_the_new_one_is_whole) {
+  const std::string before = content(path("f.h5"));
+  const Words again = {"run", "bed.toml", "--set", "tilt.end_angle=30", "--seed",    "77",
+                       "-q",  "-o",       "f.h5",  "--overwrite",       "--threads", "1"};
+  const pid_t process = start_talus(again, folder_.path());
+  for (int wait = 0; wait < 2000 && !fs::exists(path("f.h5.run/manifest")) && !has_ended(process); ++wait)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  kill(process, SIGKILL);
+  wait_for(process);
+  ASSERT_TRUE(fs::exists(path("f.h5.run/manifest"))) << "too late: nothing was tested";
+  EXPECT_TRUE(content(path("f.h5")) == before);
+  EXPECT_EQ(run_presence(path("f.h5")), RunPresence::folder);
+  const Outcome resumed = talus({"run", "--resume", "f.h5", "-q"});
+  EXPECT_EQ(resumed.exit_code, done) << resumed.err;
+  EXPECT_FALSE(fs::exists(path("f.h5.run")));
+  EXPECT_EQ(RunFile::open(path("f.h5")).header().seed, 77u);
+}
+
+TEST_F(Outputs, a_full_disk_takes_no_run_away_that_is_overwritten) {
+  const SmallDisk disk(folder_.path() / "disk", ample);
+  if (!disk.is_mounted()) GTEST_SKIP() << "needs root, to mount a small file system";
+  Words words = {"run", "bed.toml", "-q", "-o", "disk/r.h5", "--threads", "1"};
+  ASSERT_EQ(talus(words).exit_code, done);
+  const std::string before = content(path("disk/r.h5"));
+  words.emplace_back("--overwrite");
+  const int size = static_cast<int>(before.size() / 1024);
+  for (const int more : {8, 40, 80, 120}) {
+    SCOPED_TRACE(more);
+    ASSERT_TRUE(disk.resize(size + more));
+    const Outcome outcome = talus(words);
+    EXPECT_EQ(outcome.exit_code, io_error) << outcome.err;
+    EXPECT_TRUE(content(path("disk/r.h5")) == before);
+    ASSERT_TRUE(disk.resize(ample));
+    fs::remove_all(path("disk/r.h5.run"));
+  }
+}
+
+TEST_F(Outputs, have_any_name_that_a_file_can_have) {
+  for (const char* name : {"-dash.mp4", "12:30.mp4", "a%d.mp4", "file:x.mp4", "pipe:1.gif", "a'b \"c.webm"}) {
+    SCOPED_TRACE(name);
+    const Outcome outcome = talus({"animate", "f.h5", "-q", "--map", "pressure", "--width", "200", "--every",
+                                   "2", std::string("--output=") + name});
+    EXPECT_EQ(outcome.exit_code, done) << outcome.err;
+    EXPECT_TRUE(is_whole_file(path(name), name));
+  }
+  for (const char* name : {"-dash", "12:30", "a%d b"}) {
+    SCOPED_TRACE(name);
+    const Outcome figures =
+        talus({"figures", "f.h5", "-q", "--only", "fig04", std::string("--output=") + name});
+    EXPECT_EQ(figures.exit_code, done) << figures.err;
+    const Outcome study = talus({"study", "bed.toml", "--seeds", "1", std::string("--output=") + name});
+    EXPECT_EQ(study.exit_code, done) << study.err;
+    EXPECT_TRUE(fs::exists(fs::path(path(name)) / "study.md"));
+    expect_whole(path(name));
+  }
+}
+
+TEST_F(Outputs, make_the_folder_that_is_missing) {
+  for (const Writer& writer : writers()) {
+    SCOPED_TRACE(writer.name);
+    const Outcome outcome = talus(with_output(writer.words, "new/" + writer.name + "/" + writer.output));
+    EXPECT_EQ(outcome.exit_code, done) << outcome.err;
+    EXPECT_TRUE(fs::exists(path("new/" + writer.name + "/" + writer.output)));
+  }
+}
+
+TEST_F(Outputs, what_a_killed_command_left_of_a_figure_is_removed_by_the_next) {
+  const Words words = {"figures", "f.h5", "-q", "--only", "fig04", "-o", "figs"};
+  ASSERT_EQ(talus(words).exit_code, done);
+  const std::set<std::string> expected = names_in(path("figs"));
+  fs::remove_all(path("figs"));
+  const pid_t process = start_talus(words, folder_.path());
+  const auto begun = [this] { return fs::exists(path("figs")) && !fs::is_empty(path("figs")); };
+  for (int wait = 0; wait < 5000 && !begun() && !has_ended(process); ++wait)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  kill(process, SIGKILL);
+  wait_for(process);
+  ASSERT_TRUE(begun());
+  write_file(folder_, "figs/mine.part", "not of Talus");
+  Words again = words;
+  again.emplace_back("--overwrite");
+  EXPECT_EQ(talus(again).exit_code, done);
+  std::set<std::string> found = names_in(path("figs"));
+  EXPECT_EQ(found.erase("mine.part"), 1u);
+  EXPECT_EQ(found, expected);
+}
+
+TEST_F(Outputs, a_run_folder_on_another_file_system_is_packed) {
+  const SmallDisk disk(folder_.path() / "disk", ample);
+  if (!disk.is_mounted()) GTEST_SKIP() << "needs root, to mount a small file system";
+  fs::create_directory(path("disk/r"));
+  fs::create_symlink("disk/r", path("r.h5.run"));
+  const Outcome outcome = talus({"run", "bed.toml", "-q", "-o", "r.h5", "--threads", "1"});
+  EXPECT_EQ(outcome.exit_code, done) << outcome.err;
+  EXPECT_EQ(digest(path("r.h5")), digest(path("f.h5")));
+  EXPECT_TRUE(fs::is_empty(path("disk/r")));
+}
+
+TEST_F(Outputs, a_folder_is_repaired_on_a_full_disk_or_nothing_is_left) {
+  fs::create_directory(path("d.h5.run"));
+  const pid_t process = start_talus(
+      {"run", "bed.toml", "-o", "d.h5", "--set", "tilt.end_angle=30", "--threads", "1"}, folder_.path());
+  for (int wait = 0; wait < 5000 && !fs::exists(path("d.h5.run/segment_000004.h5")) && !has_ended(process);
+       ++wait)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  kill(process, SIGKILL);
+  wait_for(process);
+  std::ofstream(path("d.h5.run/segment_000002.h5"), std::ios::app) << "?";
+  for (const int kib : sizes_about(100)) {
+    SCOPED_TRACE(kib);
+    const SmallDisk disk(folder_.path() / "disk", kib);
+    if (!disk.is_mounted()) GTEST_SKIP() << "needs root, to mount a small file system";
+    const Outcome outcome = talus({"repair", "d.h5", "-o", "disk/r.h5"});
+    EXPECT_TRUE(outcome.exit_code == done || outcome.exit_code == io_error) << outcome.err;
+    EXPECT_EQ(names_in(path("disk")),
+              outcome.exit_code == done ? std::set<std::string>{"r.h5"} : std::set<std::string>{});
+  }
+}
+
+}  // namespace
+}  // namespace talus::test

@@ -1,0 +1,37 @@
+#pragma once
+/// Analyses to be filled by hand.
+
+#include "io/analysis_schema.h"
+
+namespace talus::test {
+
+/// How large the arrays of an analysis are, by the letters of its shapes.
+struct AnalysisSizes {
+  std::size_t frames = 1, thresholds = 0, grains = 1, sections = 1, bins = 1;
+};
+
+/// All of its size, and NaN or 0.
+inline Analysis blank_analysis(const AnalysisSizes& of, std::span<const Quantity> table = quantities()) {
+  Analysis analysis;
+  analysis.thresholds.resize(of.thresholds);
+  analysis.frames.resize(of.frames);
+  for (FrameRecord& frame : analysis.frames) frame.thresholds.resize(of.thresholds);
+  const Sizes sizes = {
+      {'T', of.frames}, {'F', of.thresholds}, {'N', of.grains}, {'X', of.sections}, {'B', of.bins}};
+  for (const Quantity& quantity : table) {
+    if (!is_present(quantity, analysis)) continue;
+    std::size_t count = 1;
+    for (const std::uint64_t extent : dimensions(data_set_of(quantity), sizes)) count *= extent;
+    Values values = values_of(quantity, analysis);
+    std::visit(
+        [&]<typename T>(std::vector<T>& numbers) {
+          if (numbers.size() != count)
+            numbers.assign(count, std::is_floating_point_v<T> ? static_cast<T>(not_known) : T(0));
+        },
+        values);
+    set_values(quantity, values, analysis);
+  }
+  return analysis;
+}
+
+}  // namespace talus::test

@@ -1,0 +1,27 @@
+#pragma once
+/// Keys as the documents list them.
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "scenario/key.h"
+
+namespace talus {
+
+/// The row of a key with this default.
+inline std::string row_text(const KeyHead& key, const std::string& by_default) {
+  return "| `" + full_name(key) + "` | " + (key.unit.empty() ? "-" : key.unit) + " | `" + by_default +
+         "` | " + range_text(key) + " | " + key.help + " |\n";
+}
+
+/// All rows of keys on a page of the documents.
+inline std::string rows_of(const std::string& path) {
+  std::string rows;
+  std::ifstream page(std::filesystem::path(TALUS_SOURCE_DIR) / path);
+  for (std::string line; std::getline(page, line);)
+    if (line.starts_with("| `") && !line.starts_with("| `/")) rows += line + "\n";
+  return rows;
+}
+
+}  // namespace talus

@@ -1,0 +1,156 @@
+#include "core/output_file.h"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fmt/core.h>
+#include <fstream>
+
+#include "core/descriptor.h"
+#include "core/errors.h"
+#include "support/temporary_folder.h"
+
+namespace talus {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint8_t text[] = {'a', 'b'};
+
+TEST(OutputFile, appears_when_it_is_whole) {
+  const test::TemporaryFolder folder;
+  const std::string path = folder.path("map.png");
+  {
+    OutputFile file(path);
+    file.write(text);
+    EXPECT_FALSE(fs::exists(path));
+    file.commit();
+    EXPECT_EQ(fs::file_size(path), 2u);
+  }
+  EXPECT_TRUE(fs::exists(path));
+  { OutputFile given_up(path); }
+  EXPECT_EQ(fs::file_size(path), 2u);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 1);
+}
+
+TEST(OutputFile, takes_the_place_of_what_a_kill_left) {
+  const test::TemporaryFolder folder;
+  std::ofstream(folder.path("map.png.talus.part")) << "half a picture";
+  OutputFile file(folder.path("map.png"));
+  file.write(text);
+  file.commit();
+  EXPECT_EQ(fs::file_size(folder.path("map.png")), 2u);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 1);
+}
+
+TEST(OutputFile, is_written_by_one_at_a_time) {
+  const test::TemporaryFolder folder;
+  const std::string path = folder.path("map.png");
+  OutputFile first(path);
+  try {
+    const OutputFile second(path);
+    ADD_FAILURE() << "no error";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::cannot_create);
+    EXPECT_NE(std::string(error.what()).find("being written by another process"), std::string::npos);
+  }
+  first.write(text);
+  first.commit();
+  EXPECT_EQ(fs::file_size(path), 2u);
+}
+
+/// The code of the refusal of an output, `done` where it is accepted.
+ExitCode code_of(const std::string& path, const OutputRule& rule = {}) try {
+  output_target(path, rule);
+  return ExitCode::done;
+} catch (const Error& error) {
+  return error.code();
+}
+
+TEST(OutputTarget, is_a_file_or_what_a_link_leads_to) {
+  const test::TemporaryFolder folder;
+  const std::string file = folder.path("file"), link = folder.path("link");
+  EXPECT_EQ(output_target(file), file) << "that is made";
+  std::ofstream(file) << "x";
+  fs::create_symlink("file", link);
+  EXPECT_EQ(output_target(file), file);
+  EXPECT_EQ(output_target(link), fs::canonical(file).string());
+  EXPECT_EQ(code_of(file, {.overwrite = false}), ExitCode::cannot_create);
+  EXPECT_EQ(code_of(folder.path()), ExitCode::cannot_create);
+  EXPECT_EQ(code_of(folder.path("new/")), ExitCode::cannot_create);
+  EXPECT_EQ(code_of("/dev/null"), ExitCode::cannot_create);
+  EXPECT_EQ(code_of(""), ExitCode::usage);
+  fs::remove(file);
+  EXPECT_EQ(code_of(link), ExitCode::cannot_create) << "it leads nowhere";
+}
+
+TEST(OutputTarget, is_not_what_a_process_has_open) {
+  const test::TemporaryFolder folder;
+  const std::string file = folder.path("file");
+  std::ofstream(file) << "x";
+  const Descriptor open(::open(file.c_str(), O_RDONLY | O_CLOEXEC));
+  EXPECT_EQ(code_of(fmt::format("/dev/fd/{}", open.get())), ExitCode::cannot_create);
+}
+
+TEST(OutputTarget, is_no_input_under_any_name) {
+  const test::TemporaryFolder folder;
+  const std::string file = folder.path("file"), inside = folder.path("run/part");
+  std::ofstream(file) << "x";
+  fs::create_symlink("file", folder.path("link"));
+  fs::create_hard_link(file, folder.path("other"));
+  fs::create_directory(folder.path("run"));
+  std::ofstream(inside) << "x";
+  const OutputRule rule = {true, {folder.path("link"), folder.path("run"), folder.path("none")}};
+  for (const std::string& path : {file, folder.path("link"), folder.path("other"), inside})
+    EXPECT_EQ(code_of(path, rule), ExitCode::usage) << path;
+  EXPECT_EQ(code_of(folder.path("run/new"), rule), ExitCode::done);
+}
+
+TEST(OutputFile, gets_its_name_when_it_was_found_whole) {
+  const test::TemporaryFolder folder;
+  const std::string path = folder.path("file");
+  OutputFile file(path);
+  file.write(text);
+  const auto refuse = [](const std::string&) { throw Error(ExitCode::io_error, "not whole"); };
+  EXPECT_THROW(file.commit(refuse), Error);
+  EXPECT_FALSE(fs::exists(path));
+  std::string seen;
+  file.commit([&seen](const std::string& written) { seen = written; });
+  EXPECT_EQ(seen, path + temporary_ending);
+  EXPECT_TRUE(fs::exists(path));
+}
+
+TEST(OutputFile, is_not_whole_where_bytes_are_missing) {
+  const test::TemporaryFolder folder;
+  OutputFile file(folder.path("file"));
+  file.write(text);
+  fs::resize_file(file.temporary_path(), 1);
+  EXPECT_THROW(file.commit(), Error);
+  EXPECT_FALSE(fs::exists(folder.path("file")));
+}
+
+TEST(OutputFile, keeps_the_mode_and_the_link_of_what_it_replaces) {
+  const test::TemporaryFolder folder;
+  const std::string path = folder.path("file"), link = folder.path("link");
+  std::ofstream(path) << "x";
+  fs::permissions(path, fs::perms::owner_read);
+  fs::create_symlink("file", link);
+  OutputFile file(link);
+  file.write(text);
+  file.commit();
+  EXPECT_TRUE(fs::is_symlink(link));
+  EXPECT_EQ(fs::file_size(path), 2u);
+  EXPECT_EQ(fs::status(path).permissions(), fs::perms::owner_read);
+}
+
+TEST(OutputFile, gives_a_name_to_what_another_program_made) {
+  const test::TemporaryFolder folder;
+  std::ofstream(folder.path("made")) << "abc";
+  give_name(folder.path("made"), folder.path("file"));
+  EXPECT_EQ(fs::file_size(folder.path("file")), 3u);
+  EXPECT_FALSE(fs::exists(folder.path("made")));
+}
+
+}  // namespace
+}  // namespace talus

@@ -1,0 +1,120 @@
+#include "dynamics/form_problem.h"
+
+#include <gtest/gtest.h>
+
+#include "contact/detection.h"
+#include "core/trigonometry.h"
+#include "support/scenes.h"
+
+namespace talus {
+namespace {
+
+constexpr double h = 1e-3;
+
+/// A disk above the plane y = 0 with the gap and the velocity given, and its contact problem.
+struct Scene {
+  World world = test::disk_on_plane(0.0);
+  ContactLawParameters law;
+  ContactProblem problem;
+
+  explicit Scene(double gap, double vy = 0.0) {
+    world.grains.y[0] += gap;
+    world.grains.vy[0] = vy;
+  }
+  void form_now() {
+    Contacts contacts;
+    NeighbourList list;
+    detect_contacts(list, world.grains, world.boundary, 1.0, contacts);
+    free_velocity(world, h, problem);
+    form_problem(world, contacts, law, h, problem);
+  }
+  double normal_constant() {
+    form_now();
+    return problem.cn[0];
+  }
+};
+
+TEST(FormProblem, free_velocities_are_those_of_free_fall) {
+  Scene scene(0.1, 2.0);
+  scene.world.tilt = radians(30.0);
+  scene.world.grains.vx[0] = 3.0;
+  scene.world.grains.omega[0] = 7.0;
+  add_disk(scene.world.grains, {0.5, -0.1}, 0.01, test::density, true);
+  scene.form_now();
+  const ContactProblem& p = scene.problem;
+  ASSERT_EQ(p.body_count(), 3);  // the disk, the glued grain, the plane
+  EXPECT_DOUBLE_EQ(p.vx[0], 3.0 + h * 9.81 * 0.5);
+  EXPECT_DOUBLE_EQ(p.vy[0], 2.0 - h * 9.81 * cosine(radians(30.0)));
+  EXPECT_EQ(p.omega[0], 7.0);
+  EXPECT_EQ(p.lever[0], test::radius);
+  for (Index i : {1, 2}) {
+    EXPECT_EQ(p.vx[i], 0.0);
+    EXPECT_EQ(p.vy[i], 0.0);
+    EXPECT_EQ(p.omega[i], 0.0);
+    EXPECT_EQ(p.inverse_mass[i], 0.0);
+    EXPECT_EQ(p.inverse_inertia[i], 0.0);
+  }
+  EXPECT_EQ(p.lever[2], 0.0);
+}
+
+TEST(FormProblem, an_open_gap_enters_as_gap_over_h) {
+  EXPECT_NEAR(Scene(2e-4).normal_constant(), 0.2, 1e-13);
+}
+
+TEST(FormProblem, a_share_of_an_overlap_is_taken_back) {
+  Scene scene(-2e-4);
+  scene.law.overlap_correction = 0.25;
+  EXPECT_NEAR(scene.normal_constant(), -0.05, 1e-13);
+  scene.law.overlap_correction = 0.0;
+  EXPECT_EQ(scene.normal_constant(), 0.0);
+}
+
+TEST(FormProblem, an_allowed_overlap_stays_and_a_share_of_the_rest_is_taken_back) {
+  Scene scene(-2e-4);
+  scene.law.allowed_overlap = 3e-4;
+  EXPECT_EQ(scene.normal_constant(), 0.0);
+  scene.law.allowed_overlap = 1.2e-4;
+  scene.law.overlap_correction = 0.25;
+  EXPECT_NEAR(scene.normal_constant(), -0.02, 1e-13);
+}
+
+// Restitution asks for U_n >= -e U_n-, so c_n = e U_n-: at 1 m/s and e = 0.5 that is -0.5.
+TEST(FormProblem, restitution_enters_where_the_contact_closes_within_the_step) {
+  Scene closes(2e-4, -1.0);
+  closes.law.restitution = 0.5;
+  EXPECT_NEAR(closes.normal_constant(), -0.5, 1e-13);
+  Scene stays_open(2e-3, -1.0);
+  stays_open.law.restitution = 0.5;
+  EXPECT_NEAR(stays_open.normal_constant(), 2.0, 1e-12);
+  Scene parts(-1e-6, 1.0);
+  parts.law.restitution = 0.5;
+  parts.law.overlap_correction = 0.0;
+  EXPECT_EQ(parts.normal_constant(), 0.0);
+}
+
+// c_t = e_t U_t-, U_t of the plane seen from the disk: along t = (1, 0), -v_x - r omega.
+TEST(FormProblem, tangential_restitution_enters_where_the_contact_closes) {
+  Scene scene(0.0, -1.0);
+  scene.world.grains.vx[0] = 2.0;
+  scene.world.grains.omega[0] = 100.0;
+  scene.law.tangential_restitution = 0.5;
+  scene.form_now();
+  EXPECT_NEAR(scene.problem.ct[0], 0.5 * (-2.0 - 100.0 * test::radius), 1e-14);
+  scene.world.grains.y[0] += 0.5;
+  scene.form_now();
+  EXPECT_EQ(scene.problem.ct[0], 0.0);
+}
+
+TEST(FormProblem, walls_have_the_friction_of_walls) {
+  Scene scene(0.0);
+  scene.law.friction = 0.4;
+  scene.law.wall_friction = 0.1;
+  scene.world.boundary.planes.push_back({{1.0, 0.0}, 0.0, true});
+  add_disk(scene.world.grains, {0.1, 3.0 * test::radius}, test::radius, test::density, true);
+  scene.form_now();
+  ASSERT_EQ(scene.problem.contact_count(), 3);
+  EXPECT_EQ(scene.problem.mu, (std::vector<double>{0.4, 0.4, 0.1}));
+}
+
+}  // namespace
+}  // namespace talus

@@ -1,0 +1,76 @@
+/// Seeds, and every variant with each of them; which runs are missing.
+
+#include "ensemble/plan.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "core/errors.h"
+#include "ensemble/pool.h"
+#include "support/temporary_folder.h"
+
+namespace talus {
+namespace {
+
+using Seeds = std::vector<std::uint64_t>;
+
+ExitCode code_of(const std::function<void()>& call) {
+  try {
+    call();
+  } catch (const Error& error) {
+    return error.code();
+  }
+  return ExitCode::done;
+}
+
+TEST(Seeds, are_ranges_and_numbers) {
+  EXPECT_EQ(parse_seeds("1-4"), (Seeds{1, 2, 3, 4}));
+  EXPECT_EQ(parse_seeds("7"), Seeds{7});
+  EXPECT_EQ(parse_seeds("8,1-3,2-4"), (Seeds{1, 2, 3, 4, 8}));
+  EXPECT_EQ(parse_seeds("9223372036854775807"), Seeds{9223372036854775807u});
+}
+
+TEST(Seeds, of_another_form_are_refused) {
+  for (const char* text :
+       {"", "a", "1-", "-1", "3-1", "1,,2", "1 2", "1.5", "1-20000", "99999999999999999999"})
+    EXPECT_EQ(code_of([&] { parse_seeds(text); }), ExitCode::usage) << text;
+}
+
+TEST(EnsemblePlan, has_every_variant_with_every_seed) {
+  const EnsemblePlan plan =
+      plan_ensemble({3, 7}, {{"a", "x.toml", {}, {}}, {"", "y.toml", {}, {}}}, "folder");
+  ASSERT_EQ(plan.members.size(), 4u);
+  const std::vector<std::string> names = {"a/seed-3", "seed-3", "a/seed-7", "seed-7"};
+  for (std::size_t m = 0; m < 4; ++m) {
+    EXPECT_EQ(plan.members[m].name, names[m]);
+    EXPECT_EQ(plan.members[m].path, "folder/" + names[m] + ".h5");
+    EXPECT_EQ(plan.members[m].variant, m % 2);
+    EXPECT_EQ(plan.members[m].scenario.seed, m < 2 ? 3u : 7u);
+  }
+}
+
+TEST(EnsemblePlan, gives_the_commands_of_what_is_missing) {
+  const EnsemblePlan plan = plan_ensemble({3}, {{"a", "x.toml", {"tilt.rate=2"}, {}}}, "/none");
+  const std::vector<Job> jobs = missing_runs(plan, "study");
+  ASSERT_EQ(jobs.size(), 1u);
+  EXPECT_EQ(jobs[0].arguments,
+            (std::vector<std::string>{"run", "x.toml", "-o", "/none/a/seed-3.h5", "--resume", "--threads",
+                                      "1", "--set", "tilt.rate=2", "--seed", "3"}));
+  EXPECT_EQ(jobs[0].log, "/none/a/seed-3.log");
+  EXPECT_GT(jobs[0].estimate, 0.0);
+}
+
+TEST(Refusal, has_the_exit_code_of_the_first_and_names_all_logs) {
+  try {
+    refuse({{"a.log", 65}, {"b.log", 137}});
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::bad_data);
+    EXPECT_NE(std::string(error.what()).find("2 runs ended with an error"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("b.log (exit code 137)"), std::string::npos);
+  }
+  EXPECT_EQ(code_of([] { refuse({{"b.log", 137}}); }), ExitCode::internal) << "ended by a signal";
+}
+
+}  // namespace
+}  // namespace talus

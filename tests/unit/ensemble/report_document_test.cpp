@@ -1,0 +1,60 @@
+/// A report as one HTML page.
+
+#include "ensemble/report_document.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "core/errors.h"
+#include "support/temporary_folder.h"
+
+namespace talus {
+namespace {
+
+ReportDocument small_report() {
+  return {
+      "Title & more",
+      {ReportHeading{2, "Part"}, ReportParagraph{"a < b with `x_1 < y`"}, ReportList{{"one", "two_2"}},
+       ReportCommands{{"talus run a.toml"}},
+       ReportTable{{{"name"}, {"value", true}},
+                   {{{"p_o | all"}, {"0.3", "agrees", Tone::good}}, {{""}, {"", "not run", Tone::muted}}}}}};
+}
+
+TEST(Html, escapes_everything_and_marks_cells) {
+  const std::string page = report_html(small_report(), ".");
+  for (const char* part :
+       {"<title>Title &amp; more</title>", "<h2>Part</h2>", "<p>a &lt; b with <code>x_1 &lt; y</code></p>",
+        "<li>two_2</li>", "<pre>talus run a.toml\n</pre>", "<th class=\"number\">value</th>",
+        "<td>p_o | all</td>", "<td class=\"number good\">0.3<span class=\"note\">agrees</span></td>",
+        "<td class=\"number muted\"><span class=\"note\">not run</span></td>"})
+    EXPECT_NE(page.find(part), std::string::npos) << part << "\n" << page;
+}
+
+class HtmlPicture : public testing::TestWithParam<std::pair<const char*, const char*>> {};
+
+TEST_P(HtmlPicture, is_built_in) {
+  const test::TemporaryFolder folder;
+  std::ofstream(folder.path("p.png"), std::ios::binary) << GetParam().first;
+  const ReportDocument document{"t", {ReportPicture{"p.png", "A \"picture\"", "Shows it.", true}}};
+  const std::string page = report_html(document, folder.path().string());
+  EXPECT_NE(page.find("<figure class=\"wide\"><img alt=\"A &quot;picture&quot;\" "
+                      "src=\"data:image/png;base64," +
+                      std::string(GetParam().second) + "\">"),
+            std::string::npos)
+      << page;
+  EXPECT_EQ(page.find("p.png"), std::string::npos) << "nothing beside the page";
+}
+
+// The test vectors of RFC 4648, and bytes with the highest bit.
+INSTANTIATE_TEST_SUITE_P(Base64, HtmlPicture,
+                         testing::Values(std::pair("f", "Zg=="), std::pair("fo", "Zm8="),
+                                         std::pair("foo", "Zm9v"), std::pair("foobar", "Zm9vYmFy"),
+                                         std::pair("\xff\xfe\xfb", "//77")));
+
+TEST(Html, without_its_picture_is_an_error) {
+  EXPECT_THROW(report_html({"t", {ReportPicture{"none.png", "", ""}}}, "."), Error);
+}
+
+}  // namespace
+}  // namespace talus

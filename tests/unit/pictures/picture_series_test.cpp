@@ -1,0 +1,222 @@
+/// What the maps of a frame are given of the frames around it.
+
+#include "pictures/picture_series.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "core/trigonometry.h"
+#include "pictures/picture_marks.h"
+#include "support/temporary_folder.h"
+
+namespace talus {
+namespace {
+
+constexpr Index grains = 40;
+constexpr double diameter = 1.0;
+
+/// A row of grains that touch, in a bed between walls.
+World row_of_grains() {
+  World world;
+  world.boundary.length = grains * diameter;
+  for (Index i = 0; i < grains; ++i)
+    add_disk(world.grains, {(i + 0.5) * diameter, 0.5 * diameter}, 0.5 * diameter, 1.0, false);
+  world.grains.free_count = grains;
+  return world;
+}
+
+/// The row at a tilt in degrees, shifted by a tenth of it; grains of these ranges are overloaded.
+Frame frame_at(double tilt, const std::vector<std::pair<Index, Index>>& overloaded, double height = 0.0) {
+  Frame frame;
+  frame.step = std::lround(100.0 * tilt);
+  frame.time = tilt;
+  frame.tilt = radians(tilt);
+  const std::vector<double> none(grains, 0.0);
+  for (auto* field : {&frame.y, &frame.angle, &frame.vx, &frame.vy, &frame.omega}) *field = none;
+  frame.image.assign(grains, 0);
+  frame.internal_moment.assign(grains, {1.0, 0.0, 0.0, 1.0});
+  frame.gamma.assign(grains, 0.01);
+  for (const auto& [first, last] : overloaded)
+    std::fill(frame.gamma.begin() + first, frame.gamma.begin() + last, 0.9);
+  for (Index i = 0; i < grains; ++i) {
+    frame.x.push_back((i + 0.5) * diameter + 0.1 * tilt);
+    frame.y[static_cast<std::size_t>(i)] = 0.5 * diameter + height;
+  }
+  return frame;
+}
+
+/// What runs may differ in while their frames are the same.
+struct Variation {
+  std::uint64_t seed = 1;
+  std::string scenario, start;
+  double stress_ratio = 0.1;
+};
+
+/// Frames at 0, 1, 2 deg of the tilt, and one of the flow that follows, which stands higher.
+std::string example_run(const test::TemporaryFolder& folder, const Variation& variation = {}) {
+  Checkpoint checkpoint;
+  checkpoint.world = row_of_grains();
+  RunHeader header;
+  header.statics.free_count = grains;
+  header.statics.radius = checkpoint.world.grains.radius;
+  header.statics.mass = checkpoint.world.grains.mass;
+  header.statics.length = checkpoint.world.boundary.length;
+  header.statics.depth = header.statics.mean_diameter = diameter;
+  header.statics.gravity = 9.81;
+  header.seed = variation.seed;
+  header.scenario_resolved = variation.scenario;
+  header.provenance = {{"start", variation.start}};
+  RunStore store = RunStore::create(folder.path("run.h5"), header, true);
+  Segment segment;
+  segment.frames = {frame_at(0.0, {{2, 12}}), frame_at(1.0, {{2, 12}, {15, 30}}),
+                    frame_at(2.0, {{2, 12}, {15, 30}}), frame_at(1.5, {{2, 12}}, 0.25)};
+  for (const Frame& frame : segment.frames) {
+    at(segment.observables.emplace_back(), Observable::tilt) = frame.tilt;
+    at(segment.observables.back(), Observable::stress_ratio) = variation.stress_ratio;
+  }
+  store.commit(segment, checkpoint);
+  return folder.path("run.h5");
+}
+
+MapPlan plan_of(const std::string& map, MapOptions options = {}) {
+  options.maps = {map};
+  options.theta_c = 20.0;
+  if (map.starts_with("clusters") || map.starts_with("gamma")) options.l_min = options.l_min.value_or(0.0);
+  options.joined = map.starts_with("clusters") ? std::optional<std::string>("neighbours") : std::nullopt;
+  return plan_maps(options);
+}
+
+std::string key_of(const DrawnRun& run) { return picture_key(run.series, 1, 0); }
+
+Colour fill_of(const FrameView& view, Index grain) {
+  return view.discs[static_cast<std::size_t>(grain)].fill;
+}
+
+TEST(PictureSeries, a_cluster_keeps_its_colour_whichever_frames_are_drawn) {
+  const test::TemporaryFolder folder;
+  DrawnRun run = open_drawn_run(example_run(folder), plan_of("clusters"), {});
+  const Colour alone = fill_of(picture(run, 2, 0), 5);  // drawn first
+  EXPECT_EQ(alone, fill_of(picture(run, 0, 0), 5));
+  EXPECT_EQ(alone, fill_of(picture(run, 3, 0), 5)) << "in the flow too";
+  const FrameView later = picture(run, 1, 0);
+  EXPECT_EQ(alone, fill_of(later, 5));
+  EXPECT_NE(alone, fill_of(later, 20)) << "the larger one that came later has another";
+}
+
+TEST(PictureSeries, all_frames_have_one_extent_and_the_largest_turn) {
+  const test::TemporaryFolder folder;
+  MapOptions options;
+  options.turned = true;
+  DrawnRun run = open_drawn_run(example_run(folder), plan_of("pressure", options), {});
+  EXPECT_EQ(run.series.extent.y_min, 0.0);
+  EXPECT_FLOAT_EQ(static_cast<float>(run.series.extent.y_max), 1.25f) << "of the flow, the highest";
+  EXPECT_EQ(picture(run, 0, 0).y_max, run.series.extent.y_max);
+  EXPECT_EQ(picture(run, 0, 0).turn_max, radians(2.0));
+}
+
+TEST(PictureSeries, what_moves_is_measured_from_the_frame_before_or_from_that_asked_for) {
+  const test::TemporaryFolder folder;
+  const std::string path = example_run(folder);
+  DrawnRun before = open_drawn_run(path, plan_of("displacement"), {});
+  EXPECT_EQ(picture(before, 2, 0).title, "Displacement per degree of tilt");
+  const Colour still = fill_of(picture(before, 0, 0), 5);
+  const Colour steady = fill_of(picture(before, 1, 0), 5);
+  EXPECT_NE(steady, still) << "at 0 deg nothing has moved yet";
+  EXPECT_EQ(fill_of(picture(before, 2, 0), 5), steady) << "each frame has moved as far as the one before";
+
+  MapOptions options;
+  options.since = 0.9;  // nearest: 1 deg
+  DrawnRun since = open_drawn_run(path, plan_of("displacement", options), {});
+  EXPECT_EQ(picture(since, 2, 0).title, "Displacement since 1.00°");
+  EXPECT_NE(fill_of(picture(since, 2, 0), 5), still);
+  EXPECT_EQ(fill_of(picture(since, 1, 0), 5), still) << "it is where it is measured from";
+  EXPECT_EQ(fill_of(picture(since, 0, 0), 5), still) << "before it nothing has moved";
+}
+
+TEST(PictureSeries, ranges_of_motion_fit_the_frames_that_are_drawn) {
+  const test::TemporaryFolder folder;
+  const std::string path = example_run(folder);
+  const auto ends = [&path](const std::vector<std::size_t>& frames) {
+    MapOptions options;
+    options.since = 0.0;
+    DrawnRun run = open_drawn_run(path, plan_of("displacement", options), {});
+    fit_motion(run, frames);
+    const ScaleRange range = run.series.plan.maps[0].motion.displacement[0].value_or(ScaleRange{0.0, 0.0});
+    return std::pair(std::lround(1000.0 * range.low), std::lround(1000.0 * range.high));
+  };
+  // In thousandths of D. All grains have moved by 0.1 D at 1 deg, and 0.2 D at 2 deg.
+  EXPECT_EQ(ends({1}), std::pair(51L, 100L)) << "half of the upper end, where all move alike";
+  EXPECT_EQ(ends({1, 2}), std::pair(100L, 200L));
+  EXPECT_EQ(ends({0}), std::pair(0L, 0L)) << "nothing has moved: the fixed range stays";
+  DrawnRun fixed = open_drawn_run(path, plan_of("displacement"), {});
+  DrawnRun fitted = open_drawn_run(path, plan_of("displacement"), {});
+  fit_motion(fitted, std::vector<std::size_t>{0, 1, 2});
+  EXPECT_NE(key_of(fixed), key_of(fitted));
+  EXPECT_EQ(picture(fitted, 2, 0).legends[0].bars[0].title, "in D per degree, 5 to 99 % of grains");
+}
+
+TEST(PictureSeries, traces_are_those_of_the_tilt) {
+  const test::TemporaryFolder folder;
+  MapOptions options;
+  options.traces = "overloaded,stress_ratio";
+  DrawnRun run = open_drawn_run(example_run(folder), plan_of("gamma", options), {});
+  const FrameView view = picture(run, 1, 0);
+  ASSERT_EQ(view.traces.size(), 2u);
+  EXPECT_EQ(view.traces[0].y, (std::vector{10.0 / 40, 25.0 / 40, 25.0 / 40}));
+  EXPECT_EQ(view.traces[1].y, (std::vector{0.1, 0.1, 0.1}));
+  EXPECT_DOUBLE_EQ(view.traces[0].mark, 1.0);
+}
+
+TEST(PictureSeries, keys_tell_runs_apart_whose_frames_are_the_same) {
+  MapOptions options;
+  options.traces = "stress_ratio";
+  const MapPlan plan = plan_of("pressure", options);
+  const auto key = [&plan](const Variation& variation) {
+    const test::TemporaryFolder folder;
+    return key_of(open_drawn_run(example_run(folder, variation), plan, {}));
+  };
+  const std::string own = key({});
+  EXPECT_EQ(own, key({})) << "wherever the file is";
+  EXPECT_NE(own, key({.seed = 2, .scenario = {}, .start = {}}));
+  EXPECT_NE(own, key({.scenario = "another", .start = {}}));
+  EXPECT_NE(own, key({.scenario = {}, .start = "2026-01-01T00:00:00Z"}));
+  EXPECT_NE(own, key({.scenario = {}, .start = {}, .stress_ratio = 0.2}));
+}
+
+TEST(PictureSeries, keys_tell_frames_and_settings_apart) {
+  const test::TemporaryFolder folder;
+  const std::string path = example_run(folder);
+  const DrawnRun run = open_drawn_run(path, plan_of("pressure"), {});
+  EXPECT_EQ(key_of(run), key_of(open_drawn_run(path, plan_of("pressure"), {})));
+  std::set<std::string> keys = {key_of(run), picture_key(run.series, 2, 0)};
+  std::size_t different = 2;
+  const auto add = [&](const std::string& map, const std::function<void(MapOptions&)>& change) {
+    MapOptions options;
+    change(options);
+    keys.insert(key_of(open_drawn_run(path, plan_of(map, options), {})));
+    EXPECT_EQ(keys.size(), ++different);
+  };
+  add("forces", [](MapOptions&) {});
+  add("pressure+forces", [](MapOptions&) {});
+  add("forces+pressure", [](MapOptions&) {});
+  add("pressure", [](MapOptions& o) { o.width = 800; });
+  add("pressure", [](MapOptions& o) { o.colours = "gray"; });
+  add("pressure", [](MapOptions& o) { o.range = {0.0, 1.0}; });
+  add("pressure", [](MapOptions& o) { o.crop = {0.0, 0.0, 5.0, 1.0}; });
+  add("pressure", [](MapOptions& o) { o.traces = "stress_ratio"; });
+  add("pressure", [](MapOptions& o) { o.traces = "volume_strain"; });
+  add("pressure", [](MapOptions& o) { o.turned = true; });
+  add("pressure", [](MapOptions& o) { o.transparent = true; });
+  add("pressure", [](MapOptions& o) { o.bare = true; });
+  add("rotation", [](MapOptions&) {});
+  add("rotation", [](MapOptions& o) { o.since = 0.0; });
+  add("coarse", [](MapOptions& o) { o.length = 3.0; });
+  add("coarse", [](MapOptions& o) { o.length = 4.0; });
+  add("overloaded", [](MapOptions&) {});
+  add("overloaded", [](MapOptions& o) { o.threshold = 2.0; });
+  add("overloaded", [](MapOptions& o) { o.l_min = 0.0; });
+}
+
+}  // namespace
+}  // namespace talus

@@ -1,0 +1,159 @@
+/// The problem of a step, through a file and back.
+
+#include "problems/problem_file.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "core/errors.h"
+#include "problems/fclib_file.h"
+#include "session/run.h"
+#include "solver/local_law.h"
+#include "support/scenes.h"
+#include "support/temporary_folder.h"
+
+namespace talus {
+namespace {
+
+const char* const tiny_bed =
+    "seed = 5\n[bed]\nlength = 10\ndepth = 2\n[tilt]\nend_angle = 0.02\nstep = 0.01\n[output]\nframe_every = "
+    "0.01\n";
+
+/// A run of the bed, complete or with its last commit only.
+std::string tiny_run(const test::TemporaryFolder& folder) {
+  const Scenario scenario = parse_scenario(tiny_bed, "tiny.toml");
+  Session session(scenario);
+  RunHeader header;
+  header.statics = run_statics(scenario, session.world());
+  header.scenario_given = tiny_bed;
+  header.scenario_resolved = resolved_toml(scenario);
+  header.seed = scenario.seed;
+  RunStore store = RunStore::create(folder.path("run.h5"), header, false);
+  EXPECT_EQ(run_to_end(session, store, {}), RunEnd::complete);
+  return folder.path("run.h5");
+}
+
+/// A bed on its way down: contacts that open, stick and slide.
+StepProblem falling_bed() {
+  StepSettings settings = test::bed_step(1e-8);
+  settings.law.restitution = 0.5;
+  const World world = test::fallen_bed(test::bed_plan(true, 24, 6, 1), settings, 100);
+  const test::FrozenStep frozen = test::next_problem(world, settings);
+  StepProblem step;
+  step.problem = frozen.problem;
+  step.guess = frozen.guess;
+  velocities_from_impulses(step.problem, step.guess);
+  step.scales = {settings.h, world.gravity, 0.1, 0.01, test::weight(world)};
+  return step;
+}
+
+void expect_same_bits(const std::vector<double>& one, const std::vector<double>& other) {
+  ASSERT_EQ(one.size(), other.size());
+  EXPECT_EQ(std::memcmp(one.data(), other.data(), one.size() * sizeof(double)), 0);
+}
+
+TEST(ProblemFile, a_step_is_read_back_bit_for_bit) {
+  const test::TemporaryFolder folder;
+  const StepProblem step = falling_bed();
+  ASSERT_GT(step.problem.contact_count(), 10);
+  write_problem(folder.path("p.h5"), step, "a falling bed");
+  const StoredProblem stored = read_problem(folder.path("p.h5"));
+  ASSERT_TRUE(stored.step.has_value());
+  const ContactProblem& problem = stored.step->problem;
+  for (auto field :
+       {&ContactProblem::vx, &ContactProblem::vy, &ContactProblem::omega, &ContactProblem::inverse_mass,
+        &ContactProblem::inverse_inertia, &ContactProblem::lever, &ContactProblem::nx, &ContactProblem::ny,
+        &ContactProblem::cn, &ContactProblem::ct, &ContactProblem::mu})
+    expect_same_bits(problem.*field, step.problem.*field);
+  EXPECT_EQ(problem.a, step.problem.a);
+  EXPECT_EQ(problem.b, step.problem.b);
+  for (auto field : {&ContactSolution::pn, &ContactSolution::pt, &ContactSolution::vx, &ContactSolution::vy,
+                     &ContactSolution::omega})
+    expect_same_bits(stored.step->guess.*field, step.guess.*field);
+  EXPECT_EQ(std::memcmp(&stored.step->scales, &step.scales, sizeof step.scales), 0);
+}
+
+TEST(ProblemFile, holds_the_local_form_of_the_step) {
+  const test::TemporaryFolder folder;
+  const StepProblem step = falling_bed();
+  write_problem(folder.path("p.h5"), step, "a falling bed");
+  const LocalProblem found = read_problem(folder.path("p.h5")).local;
+  const LocalProblem expected = local_problem(step.problem);
+  EXPECT_EQ(found.row_begin, expected.row_begin);
+  EXPECT_EQ(found.column, expected.column);
+  EXPECT_EQ(found.diagonal, expected.diagonal);
+  ASSERT_EQ(found.block.size(), expected.block.size());
+  EXPECT_EQ(
+      std::memcmp(found.block.data(), expected.block.data(), found.block.size() * sizeof(DelassusBlock)), 0);
+  EXPECT_EQ(std::memcmp(found.q.data(), expected.q.data(), found.q.size() * sizeof(RelativeVelocity)), 0);
+}
+
+TEST(ProblemFile, bodies_that_solvers_cannot_take_are_refused) {
+  const test::TemporaryFolder folder;
+  StepProblem step = falling_bed();
+  step.problem.inverse_mass[2] = -1.0;
+  write_problem(folder.path("p.h5"), step, "");
+  EXPECT_THROW(read_problem(folder.path("p.h5")), Error);
+  step = falling_bed();
+  std::swap(step.problem.a.front(), step.problem.a.back());
+  write_problem(folder.path("p.h5"), step, "");
+  EXPECT_THROW(read_problem(folder.path("p.h5")), Error);
+  step = falling_bed();
+  step.problem.b[0] = step.problem.a[0];
+  write_problem(folder.path("p.h5"), step, "");
+  EXPECT_THROW(read_problem(folder.path("p.h5")), Error);
+}
+
+// The last frame is the state of the checkpoint: its problem is the one that the next step would solve.
+TEST(StepProblem, of_the_last_frame_is_that_of_the_next_step) {
+  const test::TemporaryFolder folder;
+  const RunFile run = RunFile::open(tiny_run(folder));
+  ASSERT_EQ(run.frame_count(), 3u);
+  const StepProblem step = problem_after_frame(run, 2);
+  EXPECT_NEAR(step.scales.tilt, 0.03 * 3.14159265358979 / 180.0, 1e-15);
+
+  const Scenario scenario = parse_scenario(tiny_bed, "tiny.toml");
+  World world = run.checkpoint().world;
+  world.tilt = step.scales.tilt;
+  StepWorkspace workspace;
+  begin_step(world, step_settings(scenario), workspace);
+  EXPECT_EQ(step.problem.a, workspace.problem.a);
+  expect_same_bits(step.problem.vx, workspace.problem.vx);
+  expect_same_bits(step.problem.cn, workspace.problem.cn);
+  expect_same_bits(step.guess.pn, workspace.solution.pn);
+}
+
+// The step after frame 1 was taken by the run: its forces are those of frame 2, up to the error of the
+// solver.
+TEST(StepProblem, of_a_frame_in_single_precision_is_nearly_solved_by_its_memory) {
+  const test::TemporaryFolder folder;
+  const RunFile run = RunFile::open(tiny_run(folder));
+  const StepProblem step = problem_after_frame(run, 1);
+  EXPECT_GT(step.problem.contact_count(), 20);
+  EXPECT_LT(natural_map_residual(step.problem, step.guess).eta, 1e-3) << "the bed is at rest";
+  EXPECT_NEAR(carried_weight(step, step.guess), 1.0, 1e-3);
+  double mass = 0.0;
+  for (Index i = 0; i < run.header().statics.free_count; ++i) mass += run.header().statics.mass[i];
+  EXPECT_NEAR(step.scales.weight, 9.81 * mass, 1e-12 * step.scales.weight);
+}
+
+TEST(StepProblem, weight_is_carried_by_what_does_not_move) {
+  StepProblem step;
+  step.scales = {1e-3, 10.0, 0.0, 0.01, 20.0};
+  step.problem.vx = step.problem.vy = step.problem.omega = {0.0, 0.0, 0.0};
+  step.problem.inverse_mass = {1.0, 1.0, 0.0};
+  step.problem.a = {0, 0, 1};
+  step.problem.b = {1, 2, 2};
+  step.problem.nx = {0.0, 0.0, -0.6};
+  step.problem.ny = {1.0, -1.0, -0.8};
+  step.problem.mu = {0.5, 0.5, 0.5};
+  ContactSolution solution;
+  solution.pn = {5.0, 8e-3, 10e-3};  // between the two grains: not carried by the floor
+  solution.pt = {0.0, 0.0, 1e-3};
+  // Floor on grain 0: 8 N up. On grain 1: (10 (0.6, 0.8) - 1 (0.8, -0.6)) N, 8.6 N up. Of a weight of 20 N.
+  EXPECT_NEAR(carried_weight(step, solution), 16.6 / 20.0, 1e-14);
+}
+
+}  // namespace
+}  // namespace talus

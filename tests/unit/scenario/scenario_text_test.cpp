@@ -1,0 +1,152 @@
+/// A scenario written out reads back as the same, bit for bit.
+
+#include <gtest/gtest.h>
+
+#include <cfloat>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+
+#include "scenario/keys.h"
+#include "scenario/text.h"
+
+namespace talus {
+namespace {
+
+Scenario read_back(const Scenario& scenario) { return parse_scenario(resolved_toml(scenario), "resolved"); }
+
+/// A value in the range of the key that is not its default.
+KeyValue other_value(const ScenarioKey& key) {
+  if (const auto* choices = std::get_if<Choices>(&key.range)) return choices->names.back();
+  if (std::holds_alternative<IntegerRange>(key.range)) return std::int64_t{3};
+  if (std::holds_alternative<TextRange>(key.range)) return std::string("beds/dense.csv");
+  const auto& range = std::get<NumberRange>(key.range);
+  const double high = std::isinf(range.high) ? 5.0 : range.high;
+  return range.low + (high - range.low) / 3.0;
+}
+
+TEST(ResolvedScenario, has_every_key_with_unit_and_meaning) {
+  const std::string text = resolved_toml({});
+  for (const ScenarioKey& key : scenario_keys()) {
+    EXPECT_NE(text.find(key.name + " = "), std::string::npos) << key.name;
+    EXPECT_NE(text.find("# " + (key.unit.empty() ? "" : key.unit + "; ") + key.help), std::string::npos);
+  }
+  EXPECT_NE(text.find("density = 2500.0"), std::string::npos);
+}
+
+TEST(ResolvedScenario, reads_back_the_default) { EXPECT_EQ(read_back({}), Scenario{}); }
+
+TEST(ScenarioKeys, each_sets_its_own_field_only) {
+  for (const ScenarioKey& key : scenario_keys()) {
+    Scenario scenario;
+    key.set(scenario, other_value(key));
+    for (const ScenarioKey& other : scenario_keys())
+      EXPECT_EQ(other.get(scenario), &other == &key ? other_value(key) : other.get(Scenario{}))
+          << full_name(key) << " and " << full_name(other);
+  }
+}
+
+/// All fields, each with another value than its default. A field that is new in Scenario stops this from
+/// compiling: give it a key, and a value here.
+Scenario all_fields_changed() {
+  Scenario scenario;
+  auto& [seed, grains, contact, bed, deposition, tilt, solver, output, guards] = scenario;
+  seed = std::numeric_limits<std::int64_t>::max();
+  auto& [mean_diameter, size_ratio, density] = grains;
+  mean_diameter = 0.1 + 0.2;
+  size_ratio = std::nextafter(1.0, 2.0);
+  density = 1e6;
+  auto& [friction, wall_friction, restitution, tangential_restitution] = contact;
+  friction = DBL_TRUE_MIN;
+  wall_friction = 1e-300;
+  restitution = 1.0 / 3.0;
+  tangential_restitution = -2.0 / 3.0;
+  auto& [boundary, length, depth, floor] = bed;
+  boundary = BedBoundary::walls;
+  length = 123456.7 / 1e2;
+  depth = 17.0;
+  floor = BedFloor::smooth;
+  auto& [method, arrival_speed, deposition_rate, critical_angle, sites, file, deposition_frame, fraction,
+         deposition_friction, deposition_wall_friction, rest_velocity, max_time] = deposition;
+  method = DepositionMethod::file;
+  arrival_speed = 0.1;
+  deposition_rate = 10.0 / 3.0;
+  critical_angle = std::nextafter(90.0, 0.0);
+  sites = 1000;
+  file = "a \"quoted\" name\\with\ttab, \n line, \x1b and \x7f, \xc3\xa9 # [x] = 'y'";
+  deposition_frame = 1'000'000'000;
+  fraction = 0.123456789012345678;
+  deposition_friction = -0.0;
+  deposition_wall_friction = 0.0;
+  rest_velocity = DBL_MIN;
+  max_time = 3600.0;
+  auto& [rate, step, end_angle, after_failure, lowering_rate] = tilt;
+  rate = 0.7;
+  step = 0.0007;
+  end_angle = std::nextafter(60.0, 0.0);
+  after_failure = AfterFailure::lower;
+  lowering_rate = 0.03;
+  auto& [solver_method, tolerance, moving_tolerance, max_iterations, allowed_overlap, overlap_correction] =
+      solver;
+  solver_method = SolverMethod::gauss_seidel;
+  tolerance = 1e-12;
+  moving_tolerance = 1e-2;
+  max_iterations = 10'000'000;
+  allowed_overlap = 1e-3;
+  overlap_correction = 1e-7;
+  auto& [frame_every, observable_every, checkpoint_every] = output;
+  frame_every = 0.1;
+  observable_every = 1e-3;
+  checkpoint_every = 86400.0;
+  auto& [action, velocity, overlap, energy, unconverged] = guards;
+  action = GuardAction::warn;
+  velocity = DBL_MAX;
+  overlap = DBL_MIN;
+  energy = 1.0 / 7.0;
+  unconverged = 999'999'999;
+  return scenario;
+}
+
+TEST(ResolvedScenario, reads_back_extreme_values) {
+  const Scenario scenario = all_fields_changed();
+  const Scenario again = read_back(scenario);
+  EXPECT_EQ(again, scenario);
+  EXPECT_TRUE(std::signbit(*again.deposition.friction));
+  for (const ScenarioKey& key : scenario_keys())
+    EXPECT_NE(key.get(again), key.get(Scenario{})) << full_name(key) << " sets no field of its own";
+}
+
+TEST(ShortText, is_short_and_exact) {
+  EXPECT_EQ(short_text(0.0), "0");
+  EXPECT_EQ(short_text(0.001), "0.001");
+  EXPECT_EQ(short_text(100000.0), "100000");
+  EXPECT_EQ(short_text(1e-6), "1e-06");
+  EXPECT_EQ(short_text(-1e22), "-1e+22");
+  for (double value : {0.1 + 0.2, 1.0 / 3.0, DBL_MAX, DBL_TRUE_MIN, 9999999.999999998, 1.0000000000000002e-4})
+    EXPECT_EQ(std::strtod(short_text(value).c_str(), nullptr), value);
+}
+
+TEST(TomlText, of_a_number_is_no_integer) {
+  EXPECT_EQ(toml_text(200.0), "200.0");
+  EXPECT_EQ(toml_text(1e22), "1e+22");
+  EXPECT_EQ(toml_text(-0.0), "-0.0");
+  EXPECT_EQ(toml_text(std::int64_t{7}), "7");
+  EXPECT_EQ(toml_text(std::string("walls")), "\"walls\"");
+}
+
+TEST(TomlText, of_text_has_its_escapes) {
+  EXPECT_EQ(toml_text(std::string()), "\"\"");
+  EXPECT_EQ(toml_text(std::string("a \"b\" \\c")), R"("a \"b\" \\c")");
+  EXPECT_EQ(toml_text(std::string("\t\n\x1f\x7f")), R"("\u0009\u000a\u001f\u007f")");
+  EXPECT_EQ(toml_text(std::string("caf\xc3\xa9 #1")), "\"caf\xc3\xa9 #1\"");
+}
+
+TEST(Printable, shortens_and_escapes) {
+  EXPECT_EQ(printable("plain text"), "plain text");
+  EXPECT_EQ(printable("a\x1b[31m\n\x7f\xc3\xa9"), "a\\x1b[31m\\x0a\\x7f\\xc3\\xa9");
+  EXPECT_EQ(printable(std::string(61, 'x')), std::string(60, 'x') + "...");
+  EXPECT_EQ(printable("abcdef", 3), "abc...");
+}
+
+}  // namespace
+}  // namespace talus
