@@ -31,7 +31,7 @@ struct SweepMomentum {
   }
 };
 
-struct SweepSums {
+struct LocalSums {
   double change = 0.0;   ///< || P_new - Y ||^2
   double impulse = 0.0;  ///< || P_new ||^2
   double ascent =
@@ -42,9 +42,9 @@ struct SweepSums {
 
 /// One sweep over all contacts in their order, each solved exactly for the impulses of the moment: turns Y
 /// into P_new. `p` is P.
-SweepSums sweep(const LocalProblem& problem, const std::vector<LocalContact>& contacts,
+LocalSums sweep(const LocalProblem& problem, const std::vector<LocalContact>& contacts,
                 const std::vector<Impulse>& p, std::vector<Impulse>& y) {
-  SweepSums sums;
+  LocalSums sums;
   for (Index c = 0; c < problem.contact_count(); ++c) {
     const LocalContact& contact = contacts[c];
     const Impulse from = y[c];
@@ -88,7 +88,7 @@ SolverReport solve(const LocalProblem& problem, const SolverSettings& settings, 
   while (report.residual.eta > settings.tolerance && report.iterations < settings.max_iterations) {
     const int next_look = std::min(settings.max_iterations, report.iterations + 5 + report.iterations / 16);
     for (; report.iterations < next_look; ++report.iterations) {
-      const SweepSums sums = sweep(problem, contacts, p, y);
+      const LocalSums sums = sweep(problem, contacts, p, y);
       if (settings.kind == SolverKind::accelerated) momentum.update(sums.relative_change(), sums.ascent);
       extrapolate(momentum.beta, p, y);
     }

@@ -143,7 +143,7 @@ Keys solver_keys() {
       "solver", &Scenario::solver,
       {
           {{"method", "", Choices{{"accelerated", "gauss-seidel"}},
-            "projected gradient with momentum, or nonlinear Gauss-Seidel, the slow reference"},
+            "Gauss-Seidel with momentum, or without: the slow reference"},
            &P::method},
           {{"tolerance", "", from_to(1e-12, 1e-2),
             "natural-map residual asked of a step while the bed is at rest"},

@@ -7,45 +7,37 @@
 namespace talus {
 namespace {
 
-// Gradient steps in units of the inverse diagonal of W are stable below 2 / lambda_max(D^-1 W), with momentum
-// below 4/3 / lambda_max; beds of disks have lambda_max near 3.45. The step shrinks where a problem asks for
-// less.
-constexpr double first_step = 0.44;
-constexpr double smallest_step = 0.01;
-// Sliding makes the problem non-associated: the residual can grow along the momentum. When it has grown by
-// this much above the best since the last restart, the momentum is dropped.
+// Sliding makes the problem non-associated: the residual can grow along the momentum, and where closed
+// contacts ask for velocities that no motion has, forces drift along a self-stress, with momentum ever
+// faster. While the change of a sweep is by so much above its least, there is no momentum.
 constexpr double tolerated_growth = 1.3;
-constexpr int patience = 10;
-// The linearisation is renewed after so many iterations, then after twice as many each time: soon without a
-// guess, as || P || grows from nothing.
+// P0 is renewed after so many sweeps at the latest, as velocities in single precision gather their rounding
+// errors sweep by sweep; without a guess sooner at first, as || P || grows from nothing.
+constexpr int sweeps_to_renewal = 128;
 constexpr int first_renewal_cold = 16;
-constexpr int first_renewal_warm = 256;
 // The residual is looked at when its estimate is so many times the tolerance; when that was too early, the
-// next time is judged by how the two compared, with some caution.
-constexpr double hopeful = 1.5;
-constexpr double cautious = 0.9;
+// next time is judged by how the two compared. A little below the tolerance, so that the next steps of a
+// quiet bed find it solved.
+constexpr double hopeful = 1.1;
+constexpr double cautious = 0.85;
+// With a guess, what is left is smooth: the momentum begins near its largest.
+constexpr double first_theta_warm = 0.07;
 
-/// Decides after each iteration how to go on. Every thread keeps its own copy and comes to the same decision.
+/// Decides after each sweep how to go on. Every thread keeps its own copy and comes to the same decision.
 struct Momentum {
   double theta = 1.0;
   double beta = 0.0;
-  double step = first_step;
-  double best = 0.0;  ///< change per iteration, since the last restart
-  int since_restart = 0;
+  double best = 0.0;  ///< least change of a sweep
 
   void restart() {
     theta = 1.0;
     beta = 0.0;
-    since_restart = 0;
   }
 
-  /// Nesterov's sequence with adaptive restart (T16). `change` is that of an iteration, in units of the step.
+  /// Nesterov's sequence with adaptive restart (T16). `change` is that of a sweep.
   void update(double change, double ascent) {
-    if (since_restart == 0) best = change;
-    best = std::min(best, change);
+    best = best > 0.0 ? std::min(best, change) : change;
     const bool growing = change > tolerated_growth * best;
-    if (growing && since_restart < patience && since_restart > 0) step = std::max(smallest_step, 0.8 * step);
-    ++since_restart;
     if (ascent > 0.0 || growing) return restart();
     const double square = theta * theta;
     const double next = 0.5 * (std::sqrt(square * square + 4.0 * square) - square);
@@ -54,11 +46,11 @@ struct Momentum {
   }
 };
 
-IterationSums add_blocks(const std::vector<IterationSums>& blocks) {
-  IterationSums sum;
-  for (const IterationSums& block : blocks) {
-    sum.change += block.change;
-    sum.ascent += block.ascent;
+SweepSums add_parts(const std::vector<SweepSums>& parts) {
+  SweepSums sum;
+  for (const SweepSums& part : parts) {
+    sum.change += part.change;
+    sum.ascent += part.ascent;
   }
   return sum;
 }
@@ -66,15 +58,25 @@ IterationSums add_blocks(const std::vector<IterationSums>& blocks) {
 /// What one member of the team works on, and all members together wait for.
 struct TeamMember {
   const ContactProblem& problem;
+  ContactSolution& solution;
   AcceleratedWorkspace& w;
+  Linearisation& at;
   ThreadTeam* team;  ///< null: alone
-  GradientKernels kernels;
-  Index first_block, last_block, first_body, last_body;
+  int member, size;
+  SweepKernels kernels;
+  Index first_block, last_block, first_body, last_body, first_row = 0, last_row = 0;
 
-  TeamMember(const ContactProblem& of, AcceleratedWorkspace& workspace, ThreadTeam* of_team, int member)
-      : problem(of), w(workspace), team(of_team), kernels(gradient_kernels()) {
-    const auto blocks = static_cast<int>(w.sums.size());
-    const int size = team ? team->size() : 1;
+  TeamMember(const ContactProblem& of, ContactSolution& of_solution, AcceleratedWorkspace& workspace,
+             ThreadTeam* of_team, int of_member)
+      : problem(of),
+        solution(of_solution),
+        w(workspace),
+        at(workspace.linearisation),
+        team(of_team),
+        member(of_member),
+        size(of_team ? of_team->size() : 1),
+        kernels(sweep_kernels()) {
+    const auto blocks = static_cast<int>(at.sums.size());
     first_block = part_begin(blocks, member, size);
     last_block = part_begin(blocks, member + 1, size);
     first_body = part_begin(problem.body_count(), member, size);
@@ -87,80 +89,122 @@ struct TeamMember {
 
   /// P0 becomes the guess; returns its residual.
   ExactResidual begin() {
-    load_contacts(problem, first_block, last_block, w.linearisation);
+    load_contacts(problem, solution, first_block, last_block, at);
     wait_for_all();
-    return linearise();
+    return look();
+  }
+
+  ExactResidual look() {
+    sum_exact_velocities(problem, first_body, last_body, at);
+    wait_for_all();
+    look_at_contacts(problem, kernels.look, first_block, last_block, at);
+    wait_for_all();
+    return exact_residual(at);
+  }
+
+  void begin_sweeps() {
+    choose_swept(problem, first_block, last_block, at);
+    load_sweeps();
+  }
+
+  void sweep_more() {
+    add_pressed(problem, first_block, last_block, at);
+    load_sweeps();
+  }
+
+  void load_sweeps() {
+    wait_for_all();
+    if (member == 0) {
+      order_contacts(problem, at);
+      w.sums.assign(static_cast<std::size_t>(at.order.part_count()), {});
+    }
+    wait_for_all();
+    first_row = part_begin(at.order.row_count, member, size);
+    last_row = part_begin(at.order.row_count, member + 1, size);
+    clear_rows(first_row, last_row, at);
+    load_groups(problem, first_block, last_block, at);
+    wait_for_all();
   }
 
   /// P0 becomes the present P; returns its residual.
   ExactResidual renew() {
-    absorb_increments(problem, first_block, last_block, w.linearisation);
+    absorb_increments(problem, first_block, last_block, at);
+    absorb_velocities(first_row, last_row, at);
     wait_for_all();
-    return linearise();
+    return look();
   }
 
-  /// Velocities due to y, after a renewal.
   void go_on() {
-    kernels.bodies(body_arrays(w.linearisation), first_body, last_body);
+    linearise_groups(problem, first_block, last_block, at);
     wait_for_all();
   }
 
-  ExactResidual linearise() {
-    sum_exact_velocities(problem, first_body, last_body, w.linearisation);
-    wait_for_all();
-    linearise_contacts(problem, first_block, last_block, w.linearisation);
-    wait_for_all();
-    return exact_residual(w.linearisation);
+  /// The solution becomes P0.
+  void unload() {
+    unload_impulses(problem, first_block, last_block, at, solution);
+    unload_velocities(problem, first_body, last_body, at, solution);
   }
 
-  IterationSums iterate(const Momentum& momentum) {
-    const auto groups = static_cast<Index>(w.linearisation.contacts.size());
-    const ContactArrays arrays = contact_arrays(w.linearisation);
-    for (Index block = first_block; block < last_block; ++block)
-      kernels.contacts(arrays, block * groups_per_block, std::min(groups, (block + 1) * groups_per_block),
-                       static_cast<float>(momentum.step), static_cast<float>(momentum.beta), w.sums[block]);
+  SweepSums sweep(const Momentum& momentum) {
+    const auto beta = static_cast<float>(momentum.beta);
+    const SweepOrder& order = at.order;
+    const ContactArrays arrays = contact_arrays(at);
+    kernels.bodies(body_arrays(at), first_row, last_row, beta);
     wait_for_all();
-    const IterationSums sums = add_blocks(w.sums);
-    kernels.bodies(body_arrays(w.linearisation), first_body, last_body);
-    wait_for_all();
-    return sums;
+    for (int phase = 0; phase < SweepOrder::phases; ++phase) {
+      const Index first = order.phase_begin[phase], parts = order.phase_begin[phase + 1] - first;
+      if (order.part_begin[first] == order.part_begin[first + parts]) continue;
+      for (Index k = first + part_begin(parts, member, size); k < first + part_begin(parts, member + 1, size);
+           ++k)
+        kernels.contacts(arrays, order.part_begin[k], order.part_begin[k + 1], beta, w.sums[k]);
+      wait_for_all();
+    }
+    return add_parts(w.sums);
   }
 };
 
 /// The part of the work of one member of the team; all members return the same outcome.
-/// || p_new - y || / (step || P ||) stands in for the residual between renewals: it costs nothing, and tells
-/// when a look at the residual itself is worth its price. Only that decides.
-AcceleratedOutcome solve_part(TeamMember member, double tolerance, int max_iterations) {
-  Momentum momentum;
+/// || p_new - y || / (step || P ||) of a sweep stands in for the residual between renewals: it costs nothing,
+/// and tells when a look at the residual itself is worth its price. Only that decides.
+AcceleratedOutcome solve_part(TeamMember& member, double tolerance, int max_iterations) {
   AcceleratedOutcome outcome;
   ExactResidual at = member.begin();
+  outcome.residual = at.residual;
+  if (at.residual.eta <= tolerance || max_iterations <= 0) return outcome;
+  Momentum momentum;
+  if (!at.cold) momentum.theta = first_theta_warm;
   double aim = hopeful * tolerance;
-  int renewal = at.cold ? first_renewal_cold : first_renewal_warm;
+  int interval = at.cold ? first_renewal_cold : sweeps_to_renewal;
+  member.begin_sweeps();
   for (;;) {
-    outcome.residual = at.residual;
-    if (at.residual.eta <= tolerance || outcome.iterations >= max_iterations) return outcome;
-    if (outcome.iterations > 0) member.go_on();
     double estimate = 0.0;
+    const int renewal = std::min(max_iterations, outcome.iterations + interval);
     do {
-      const IterationSums sums = member.iterate(momentum);
+      const SweepSums sums = member.sweep(momentum);
       ++outcome.iterations;
-      const double change = std::sqrt(sums.change) / momentum.step;
+      const double change = std::sqrt(sums.change);
       estimate = change / at.norm;
       momentum.update(change, sums.ascent);
-    } while (estimate > aim && outcome.iterations < std::min(max_iterations, renewal));
+    } while (estimate > aim && outcome.iterations < renewal);
     at = member.renew();
-    if (estimate <= aim)
+    outcome.residual = at.residual;
+    if (at.residual.eta <= tolerance || outcome.iterations >= max_iterations) return outcome;
+    if (estimate > aim)
+      interval = std::min(2 * interval, sweeps_to_renewal);
+    else if (at.pressed == 0)
       aim = cautious * tolerance * std::min(hopeful, estimate / at.residual.eta);
-    else
-      renewal *= 2;
+    if (at.pressed > 0) {
+      member.sweep_more();
+      momentum = {};
+    } else {
+      member.go_on();
+    }
   }
 }
 
-/// A thread is worth its waiting only with some work of its own.
-constexpr int blocks_per_thread = 2;
-
-void ensure_team(AcceleratedWorkspace& w, int threads) {
-  const int useful = std::max(1, std::min(threads, static_cast<int>(w.sums.size()) / blocks_per_thread));
+/// No more threads than find work.
+void ensure_team(const ContactProblem& problem, AcceleratedWorkspace& w, int threads) {
+  const int useful = std::clamp(most_members(problem), 1, std::max(1, threads));
   if (w.team && w.team->size() == useful) return;
   w.team = std::make_unique<ThreadTeam>(useful);
   w.choice = {};
@@ -176,12 +220,15 @@ AcceleratedOutcome solve_accelerated(const ContactProblem& problem, double toler
                                      int threads, AcceleratedWorkspace& workspace,
                                      ContactSolution& solution) {
   prepare(problem, solution, workspace.linearisation);
-  workspace.sums.resize(workspace.linearisation.sums.size());
-  ensure_team(workspace, threads);
+  for (auto* field : {&solution.vx, &solution.vy, &solution.omega})
+    field->resize(static_cast<std::size_t>(problem.body_count()));
+  ensure_team(problem, workspace, threads);
   const auto begin = std::chrono::steady_clock::now();
   AcceleratedOutcome outcome;
   const auto take_part = [&](ThreadTeam* team, int member) {
-    const AcceleratedOutcome mine = solve_part({problem, workspace, team, member}, tolerance, max_iterations);
+    TeamMember part(problem, solution, workspace, team, member);
+    const AcceleratedOutcome mine = solve_part(part, tolerance, max_iterations);
+    part.unload();
     if (member == 0) outcome = mine;
   };
   ThreadTeam& team = *workspace.team;
@@ -193,7 +240,6 @@ AcceleratedOutcome solve_accelerated(const ContactProblem& problem, double toler
   if (team.size() > 1)
     workspace.choice.add(taken.count(), static_cast<double>(problem.contact_count()) *
                                             (outcome.iterations + iterations_for_the_rest));
-  unload_solution(problem, workspace.linearisation, solution);
   return outcome;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-/// The accelerated solver: projected gradient with Nesterov's momentum (T16). Each iteration is a Jacobi
-/// step, so it vectorises and runs on any number of threads with the same bits.
+/// The accelerated solver: Gauss-Seidel sweeps with Nesterov's momentum (T16), in groups of contacts that
+/// share no body, so that a sweep vectorises and runs on any number of threads with the same bits.
 
 #include <memory>
 
@@ -15,7 +15,7 @@ namespace talus {
 /// Arrays and threads kept between solves; no state that a result depends on.
 struct AcceleratedWorkspace {
   Linearisation linearisation;
-  std::vector<IterationSums> sums;  ///< one for each block of contacts
+  std::vector<SweepSums> sums;  ///< one for each part of the sweep
   std::unique_ptr<ThreadTeam> team;
   TeamChoice choice;  ///< between the team and its first member alone
 };

@@ -1,6 +1,7 @@
 #include "solver/linearisation.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "solver/contact_law.h"
@@ -8,21 +9,51 @@
 namespace talus {
 namespace {
 
-constexpr auto lanes = static_cast<std::size_t>(lane_count);
-// The modes that limit the step are tangential: grains that turn like gears. Steps a little shorter along the
-// tangent allow longer ones along the normal.
-constexpr double tangential_step = 0.8;
+// How far a contact goes towards its solution. The modes that limit the momentum are tangential, grains that
+// turn like gears, and noise that sweeps leave behind is least with short steps along the tangent
+// (docs/solver.md).
+constexpr double normal_relaxation = 0.9;
+constexpr double tangential_relaxation = 0.6;
+// A contact without an impulse is swept where its bodies separate by less than they move and this, in
+// velocity units.
+constexpr double may_close = 0.2;
+// Where so large a share would be swept, all are: their order can stay from step to step.
+constexpr double nearly_all = 0.85;
 
-/// The contacts of each body: as a they are consecutive, as b they are listed. From step to step they are
-/// mostly the same.
+constexpr auto row_bytes = static_cast<std::uint32_t>(sizeof(Row));
+
+/// Where the eight values of a field of its group have that of a contact.
+struct Slot {
+  Index group;
+  int lane;
+};
+Slot slot_of(const Linearisation& w, std::size_t c) {
+  return {w.order.slot[c] / lane_count, w.order.slot[c] % lane_count};
+}
+
+bool is_linked(const ContactProblem& problem, const ContactProblem& linked) {
+  return problem.a == linked.a && problem.b == linked.b && problem.mu == linked.mu &&
+         problem.inverse_mass == linked.inverse_mass && problem.inverse_inertia == linked.inverse_inertia &&
+         problem.lever == linked.lever;
+}
+
+/// The contacts of each body: as a they are consecutive, as b they are listed.
 void link(const ContactProblem& problem, Linearisation& w) {
   const auto bodies = static_cast<std::size_t>(problem.body_count());
-  if (w.first_a.size() == bodies + 1 && w.linked_a == problem.a && w.linked_b == problem.b) return;
-  w.linked_a = problem.a;
-  w.linked_b = problem.b;
+  w.are_new = w.first_a.size() != bodies + 1 || !is_linked(problem, w.linked);
+  if (!w.are_new) return;
+  for (auto field : {&ContactProblem::inverse_mass, &ContactProblem::inverse_inertia, &ContactProblem::lever,
+                     &ContactProblem::mu})
+    w.linked.*field = problem.*field;
+  w.linked.a = problem.a;
+  w.linked.b = problem.b;
+  w.ordered_swept.clear();
+  w.moves.resize(bodies);
+  for (std::size_t i = 0; i < bodies; ++i)
+    w.moves[i] = problem.inverse_mass[i] > 0.0 || problem.inverse_inertia[i] > 0.0 ? 1 : 0;
   w.first_a.assign(bodies + 1, 0);
   w.first_b.assign(bodies + 1, 0);
-  w.b_force.resize(problem.b.size());
+  w.as_b.resize(problem.b.size());
   for (std::size_t c = 0; c < problem.a.size(); ++c) {
     ++w.first_a[problem.a[c] + 1];
     ++w.first_b[problem.b[c] + 1];
@@ -32,15 +63,19 @@ void link(const ContactProblem& problem, Linearisation& w) {
     w.first_b[i + 1] += w.first_b[i];
   }
   for (std::size_t c = 0; c < problem.b.size(); ++c)
-    w.b_force[w.first_b[problem.b[c]]++] = static_cast<std::uint32_t>(c * sizeof(Row));
+    w.as_b[w.first_b[problem.b[c]]++] = static_cast<Index>(c);
   for (std::size_t i = bodies; i > 0; --i) w.first_b[i] = w.first_b[i - 1];
   w.first_b[0] = 0;
 }
 
+/// In four strands: one would wait for each addition.
 double sum_of_squares(const std::vector<double>& values) {
-  double sum = 0.0;
-  for (double value : values) sum += value * value;
-  return sum;
+  std::array<double, 4> strand{};
+  std::size_t i = 0;
+  for (; i + 4 <= values.size(); i += 4)
+    for (std::size_t k = 0; k < 4; ++k) strand[k] += values[i + k] * values[i + k];
+  for (; i < values.size(); ++i) strand[0] += values[i] * values[i];
+  return (strand[0] + strand[1]) + (strand[2] + strand[3]);
 }
 
 /// Units in which neither impulses nor velocities are large: single precision has room below one, to 1e-38,
@@ -62,93 +97,76 @@ void choose_units(const ContactProblem& problem, const ContactSolution& guess, L
   w.velocity_unit = w.impulse_unit * w.mobility_unit;
 }
 
-void load_bodies(const ContactProblem& problem, Linearisation& w) {
-  const auto bodies = static_cast<std::size_t>(problem.body_count());
-  const double unit = 1.0 / w.mobility_unit;
-  w.mobility.resize(bodies);
-  w.velocity.assign(bodies, {});
-  w.exact_velocity.resize(bodies);
-  for (std::size_t i = 0; i < bodies; ++i) {
-    const auto mass = static_cast<float>(problem.inverse_mass[i] * unit);
-    const double spin = problem.lever[i] * problem.lever[i] * problem.inverse_inertia[i];
-    w.mobility[i] = {mass, static_cast<float>(-spin * unit), mass, 0.0F};
-  }
+/// What a unit of P_t takes from the spin r omega of a body.
+double spin_mobility(const ContactProblem& problem, Index body) {
+  return problem.lever[body] * problem.lever[body] * problem.inverse_inertia[body];
 }
 
 ExactRow in_bed_axes(const ContactProblem& problem, std::size_t c, Impulse impulse) {
   const double nx = problem.nx[c];
   const double ny = problem.ny[c];
   return {impulse.normal * nx - impulse.tangential * ny, impulse.normal * ny + impulse.tangential * nx,
-          impulse.tangential};
+          impulse.tangential, 0.0};
 }
 
-void load_contact(const ContactProblem& problem, std::size_t c, Linearisation& w) {
-  ContactGroup& group = w.contacts[c / lanes];
-  const int k = lane_of(c);
-  const DelassusDiagonal diagonal = delassus_diagonal(problem, static_cast<Index>(c));
-  // Between two bodies that cannot move nothing happens, whatever the impulse.
-  w.wn[c] = diagonal.normal > 0.0 ? 1.0 / diagonal.normal : 0.0;
-  w.wt[c] = diagonal.tangential > 0.0 ? 1.0 / diagonal.tangential : 0.0;
-  group.nx[k] = static_cast<float>(problem.nx[c]);
-  group.ny[k] = static_cast<float>(problem.ny[c]);
-  group.mu[k] = static_cast<float>(problem.mu[c]);
-  group.wn[k] = static_cast<float>(w.wn[c] * w.mobility_unit);
-  group.wt[k] = static_cast<float>(tangential_step * w.wt[c] * w.mobility_unit);
-  group.a[k] = static_cast<std::uint32_t>(problem.a[c]) * static_cast<std::uint32_t>(sizeof(Row));
-  group.b[k] = static_cast<std::uint32_t>(problem.b[c]) * static_cast<std::uint32_t>(sizeof(Row));
-  const Impulse impulse = admissible(w.pn[c], w.pt[c], problem.mu[c]);
+void set_impulse(const ContactProblem& problem, std::size_t c, double pn, double pt, Linearisation& w) {
+  const Impulse impulse = admissible(pn, pt, problem.mu[c]);
   w.pn[c] = impulse.normal;
   w.pt[c] = impulse.tangential;
   w.exact_force[c] = in_bed_axes(problem, c, impulse);
 }
 
-/// y moves against P0, so that P0 + y stays.
-void absorb(const ContactProblem& problem, std::size_t c, Linearisation& w) {
-  const ContactGroup& group = w.contacts[c / lanes];
-  ImpulseGroup& increment = w.increment[c / lanes];
-  ImpulseGroup& ahead = w.ahead[c / lanes];
-  const int k = lane_of(c);
-  const Impulse impulse =
-      admissible(w.pn[c] + w.impulse_unit * static_cast<double>(increment.n[k]),
-                 w.pt[c] + w.impulse_unit * static_cast<double>(increment.t[k]), problem.mu[c]);
-  w.pn[c] = impulse.normal;
-  w.pt[c] = impulse.tangential;
-  const float yn = ahead.n[k] -= increment.n[k];
-  const float yt = ahead.t[k] -= increment.t[k];
-  increment.n[k] = increment.t[k] = 0.0F;
-  w.force[c / lanes].rows[c % lanes] = {yn * group.nx[k] - yt * group.ny[k], yt,
-                                        yn * group.ny[k] + yt * group.nx[k], 0.0F};
-  w.exact_force[c] = in_bed_axes(problem, c, impulse);
+void load_contact(const ContactProblem& problem, const ContactSolution& guess, std::size_t c,
+                  Linearisation& w) {
+  if (w.are_new) {
+    const DelassusDiagonal diagonal = delassus_diagonal(problem, static_cast<Index>(c));
+    // Between two bodies that cannot move nothing happens, whatever the impulse.
+    w.wn[c] = diagonal.normal > 0.0 ? 1.0 / diagonal.normal : 0.0;
+    w.wt[c] = diagonal.tangential > 0.0 ? 1.0 / diagonal.tangential : 0.0;
+  }
+  w.swept[c] = 0;
+  set_impulse(problem, c, guess.pn[c], guess.pt[c], w);
 }
+
+double speed(const ExactRow& velocity) { return std::fabs(velocity.x) + std::fabs(velocity.y); }
 
 struct InverseUnits {
-  double impulse, velocity;
+  double impulse, velocity, mobility;
 };
+InverseUnits inverse_units(const Linearisation& w) {
+  return {1.0 / w.impulse_unit, 1.0 / w.velocity_unit, 1.0 / w.mobility_unit};
+}
 
-/// Relative velocity, what is left until the contact slides, and its part of the residual.
-void linearise(const ContactProblem& problem, std::size_t c, const InverseUnits& units, Linearisation& w,
-               ResidualSums& sums) {
-  const ExactRow& va = w.exact_velocity[problem.a[c]];
-  const ExactRow& vb = w.exact_velocity[problem.b[c]];
-  const double nx = problem.nx[c];
-  const double ny = problem.ny[c];
-  const double dvx = vb.x - va.x;
-  const double dvy = vb.y - va.y;
-  const double un = dvx * nx + dvy * ny + problem.cn[c];
-  const double ut = dvy * nx - dvx * ny - (va.spin + vb.spin) + problem.ct[c];
-  const double pn = w.pn[c];
-  const double pt = w.pt[c];
+void load_group(const ContactProblem& problem, std::size_t c, const InverseUnits& units, Linearisation& w) {
+  const auto [g, k] = slot_of(w, c);
+  ContactGroup& group = w.contacts[g];
+  group.nx[k] = static_cast<float>(problem.nx[c]);
+  group.ny[k] = static_cast<float>(problem.ny[c]);
+  for (ImpulseGroup* impulse : {&w.increment[g], &w.last_move[g]}) impulse->n[k] = impulse->t[k] = 0.0F;
+  if (!w.have_new_order) return;
+  const Index a = problem.a[c], b = problem.b[c];
+  const double unit = units.mobility;
+  group.mu[k] = static_cast<float>(problem.mu[c]);
+  group.wn[k] = static_cast<float>(normal_relaxation * w.wn[c] * w.mobility_unit);
+  group.wt[k] = static_cast<float>(tangential_relaxation * w.wt[c] * w.mobility_unit);
+  group.mass_a[k] = static_cast<float>(-problem.inverse_mass[a] * unit);
+  group.spin_a[k] = static_cast<float>(-spin_mobility(problem, a) * unit);
+  group.mass_b[k] = static_cast<float>(problem.inverse_mass[b] * unit);
+  group.spin_b[k] = static_cast<float>(-spin_mobility(problem, b) * unit);
+  group.a[k] = static_cast<std::uint32_t>(w.order.row_a[c]) * row_bytes;
+  group.b[k] = static_cast<std::uint32_t>(w.order.row_b[c]) * row_bytes;
+}
 
-  sums.add({pn, pt}, solve_contact(pn, pt, un, ut, w.wn[c], w.wt[c], problem.mu[c]));
-
-  ContactGroup& group = w.contacts[c / lanes];
-  const int k = lane_of(c);
-  const double bound = problem.mu[c] * pn;
-  group.un[k] = static_cast<float>(un * units.velocity);
-  group.ut[k] = static_cast<float>(ut * units.velocity);
-  group.pn[k] = static_cast<float>(pn * units.impulse);
+/// Relative velocity at P0, and what is left until the contact opens or slides.
+void linearise(const ContactProblem& problem, std::size_t c, const InverseUnits& units, Linearisation& w) {
+  const auto [g, k] = slot_of(w, c);
+  ContactGroup& group = w.contacts[g];
+  const double pn = w.pn[c], pt = w.pt[c], bound = problem.mu[c] * pn;
+  group.un[k] = static_cast<float>(w.un[c] * units.velocity);
+  group.ut[k] = static_cast<float>(w.ut[c] * units.velocity);
+  group.least[k] = static_cast<float>(-pn * units.impulse);
+  group.below[k] = static_cast<float>((-bound - pt) * units.impulse);
   group.above[k] = static_cast<float>((bound - pt) * units.impulse);
-  group.below[k] = static_cast<float>((bound + pt) * units.impulse);
 }
 
 /// The contacts of a block: [block_begin(block), block_begin(block + 1)).
@@ -156,44 +174,143 @@ std::size_t block_begin(const ContactProblem& problem, Index block) {
   return static_cast<std::size_t>(std::min(problem.contact_count(), block * contacts_per_block));
 }
 
+/// Does something for each contact of some blocks that is swept.
+template <typename Do>
+void for_each_swept(const ContactProblem& problem, Index first_block, Index last_block,
+                    const Linearisation& w, const Do& what) {
+  const std::size_t last = block_begin(problem, last_block);
+  for (std::size_t c = block_begin(problem, first_block); c < last; ++c)
+    if (w.swept[c]) what(c);
+}
+
+/// Lanes without a contact get rows that do not move.
+void clear_groups(Index bodies, Linearisation& w) {
+  const auto groups = static_cast<std::size_t>(w.order.group_count());
+  const auto clear = [groups](auto& field) {
+    // How well groups are filled differs from step to step: some room, so that steady steps allocate nothing.
+    if (field.capacity() < groups) field.reserve(groups + groups / 4);
+    field.assign(groups, {});
+  };
+  clear(w.contacts);
+  clear(w.increment);
+  clear(w.last_move);
+  for (Index part = 0; part < w.order.part_count(); ++part)
+    for (Index g = w.order.part_begin[part]; g < w.order.part_begin[part + 1]; ++g)
+      for (int k = 0; k < lane_count; ++k) {
+        w.contacts[g].a[k] =
+            static_cast<std::uint32_t>(SweepOrder::still_row(bodies, part, 0, k)) * row_bytes;
+        w.contacts[g].b[k] =
+            static_cast<std::uint32_t>(SweepOrder::still_row(bodies, part, 1, k)) * row_bytes;
+      }
+}
+
 }  // namespace
 
 void prepare(const ContactProblem& problem, const ContactSolution& guess, Linearisation& w) {
   const auto contacts = static_cast<std::size_t>(problem.contact_count());
-  const std::size_t groups = (contacts + lanes - 1) / lanes;
   link(problem, w);
   choose_units(problem, guess, w);
-  load_bodies(problem, w);
-  w.contacts.resize(groups);
-  if (groups > 0) w.contacts.back() = {};  // padding: no weight, no impulse, between body 0 and itself
-  w.increment.resize(groups);
-  w.ahead.resize(groups);
-  w.force.resize(groups);
+  w.exact_velocity.resize(static_cast<std::size_t>(problem.body_count()));
   w.exact_force.resize(contacts);
-  w.pn = guess.pn;
-  w.pt = guess.pt;
-  w.wn.resize(contacts);
-  w.wt.resize(contacts);
-  w.sums.resize((groups + groups_per_block - 1) / groups_per_block);
+  for (auto* field : {&w.pn, &w.pt, &w.un, &w.ut, &w.wn, &w.wt}) field->resize(contacts);
+  w.swept.resize(contacts);
+  w.sums.resize((contacts + contacts_per_block - 1) / contacts_per_block);
 }
 
-void load_contacts(const ContactProblem& problem, Index first_block, Index last_block, Linearisation& w) {
+void load_contacts(const ContactProblem& problem, const ContactSolution& guess, Index first_block,
+                   Index last_block, Linearisation& w) {
   const std::size_t last = block_begin(problem, last_block);
-  for (std::size_t c = block_begin(problem, first_block); c < last; ++c) load_contact(problem, c, w);
-  const Index groups = std::min(static_cast<Index>(w.contacts.size()), last_block * groups_per_block);
-  for (Index g = first_block * groups_per_block; g < groups; ++g) w.increment[g] = w.ahead[g] = {};
+  for (std::size_t c = block_begin(problem, first_block); c < last; ++c) load_contact(problem, guess, c, w);
+}
+
+void look_at_contacts(const ContactProblem& problem, LookKernel kernel, Index first_block, Index last_block,
+                      Linearisation& w) {
+  const LookArrays arrays{problem.a.data(),  problem.b.data(),  problem.nx.data(), problem.ny.data(),
+                          problem.cn.data(), problem.ct.data(), problem.mu.data(), w.pn.data(),
+                          w.pt.data(),       w.wn.data(),       w.wt.data(),       w.exact_velocity.data(),
+                          w.un.data(),       w.ut.data()};
+  for (Index block = first_block; block < last_block; ++block) {
+    const std::size_t first = block_begin(problem, block), last = block_begin(problem, block + 1);
+    LookSums sums;
+    kernel(arrays, first, last, sums);
+    Index pressed = 0;
+    for (std::size_t c = first; c < last; ++c)
+      pressed += static_cast<Index>(w.un[c] < 0.0) & static_cast<Index>(w.swept[c] == 0);
+    w.sums[block] = {{sums.change, sums.impulse, sums.impulse_after, sums.largest}, pressed};
+  }
+}
+
+void choose_swept(const ContactProblem& problem, Index first_block, Index last_block, Linearisation& w) {
+  const std::size_t last = block_begin(problem, last_block);
+  const double least = may_close * w.velocity_unit;
+  for (std::size_t c = block_begin(problem, first_block); c < last; ++c) {
+    const double change =
+        least + speed(w.exact_velocity[problem.a[c]]) + speed(w.exact_velocity[problem.b[c]]);
+    w.swept[c] = w.pn[c] > 0.0 || w.un[c] < change ? 1 : 0;
+  }
+}
+
+void add_pressed(const ContactProblem& problem, Index first_block, Index last_block, Linearisation& w) {
+  const std::size_t last = block_begin(problem, last_block);
+  for (std::size_t c = block_begin(problem, first_block); c < last; ++c)
+    if (w.un[c] < 0.0) w.swept[c] = 1;
+}
+
+void order_contacts(const ContactProblem& problem, Linearisation& w) {
+  const auto chosen = std::count(w.swept.begin(), w.swept.end(), 1);
+  if (static_cast<double>(chosen) > nearly_all * problem.contact_count()) std::ranges::fill(w.swept, 1);
+  w.have_new_order = w.ordered_swept.empty() || w.ordered_swept != w.swept;
+  if (!w.have_new_order) return;
+  order_sweep(problem, w.first_a, w.moves, w.swept, w.order);
+  w.ordered_swept = w.swept;
+  clear_groups(problem.body_count(), w);
+  const auto rows = static_cast<std::size_t>(w.order.row_count);
+  for (auto* field : {&w.velocity, &w.before}) field->assign(rows, {});
+}
+
+void load_groups(const ContactProblem& problem, Index first_block, Index last_block, Linearisation& w) {
+  const InverseUnits units = inverse_units(w);
+  for_each_swept(problem, first_block, last_block, w, [&](std::size_t c) {
+    load_group(problem, c, units, w);
+    linearise(problem, c, units, w);
+  });
+}
+
+void clear_rows(Index first, Index last, Linearisation& w) {
+  std::fill(w.velocity.begin() + first, w.velocity.begin() + last, Row{});
+  std::fill(w.before.begin() + first, w.before.begin() + last, Row{});
 }
 
 void absorb_increments(const ContactProblem& problem, Index first_block, Index last_block, Linearisation& w) {
-  const std::size_t last = block_begin(problem, last_block);
-  for (std::size_t c = block_begin(problem, first_block); c < last; ++c) absorb(problem, c, w);
+  for_each_swept(problem, first_block, last_block, w, [&](std::size_t c) {
+    const auto [g, k] = slot_of(w, c);
+    ImpulseGroup& increment = w.increment[g];
+    set_impulse(problem, c, w.pn[c] + w.impulse_unit * static_cast<double>(increment.n[k]),
+                w.pt[c] + w.impulse_unit * static_cast<double>(increment.t[k]), w);
+    increment.n[k] = increment.t[k] = 0.0F;
+  });
+}
+
+void absorb_velocities(Index first, Index last, Linearisation& w) {
+  for (Index i = first; i < last; ++i) {
+    Row& velocity = w.velocity[i];
+    Row& before = w.before[i];
+    before = {before.x - velocity.x, before.spin - velocity.spin, before.y - velocity.y, 0.0F};
+    velocity = {};
+  }
+}
+
+void linearise_groups(const ContactProblem& problem, Index first_block, Index last_block, Linearisation& w) {
+  const InverseUnits units = inverse_units(w);
+  for_each_swept(problem, first_block, last_block, w,
+                 [&](std::size_t c) { linearise(problem, c, units, w); });
 }
 
 void sum_exact_velocities(const ContactProblem& problem, Index first, Index last, Linearisation& w) {
   for (Index i = first; i < last; ++i) {
     ExactRow sum;
     for (Index k = w.first_b[i]; k < w.first_b[i + 1]; ++k) {
-      const ExactRow& force = w.exact_force[w.b_force[k] / sizeof(Row)];
+      const ExactRow& force = w.exact_force[w.as_b[k]];
       sum.x += force.x;
       sum.y += force.y;
       sum.spin += force.spin;
@@ -207,39 +324,38 @@ void sum_exact_velocities(const ContactProblem& problem, Index first, Index last
     const double lever = problem.lever[i];
     const double mobility = problem.inverse_mass[i];
     w.exact_velocity[i] = {problem.vx[i] + mobility * sum.x, problem.vy[i] + mobility * sum.y,
-                           lever * (problem.omega[i] - problem.inverse_inertia[i] * lever * sum.spin)};
-  }
-}
-
-void linearise_contacts(const ContactProblem& problem, Index first_block, Index last_block,
-                        Linearisation& w) {
-  const InverseUnits units{1.0 / w.impulse_unit, 1.0 / w.velocity_unit};
-  for (Index block = first_block; block < last_block; ++block) {
-    ResidualSums sums;
-    const std::size_t last = block_begin(problem, block + 1);
-    for (std::size_t c = block_begin(problem, block); c < last; ++c) linearise(problem, c, units, w, sums);
-    w.sums[block] = sums;
+                           lever * (problem.omega[i] - problem.inverse_inertia[i] * lever * sum.spin), 0.0};
   }
 }
 
 ExactResidual exact_residual(const Linearisation& w) {
   ResidualSums sum;
-  for (const ResidualSums& block : w.sums) {
+  ExactResidual all;
+  for (const auto& [block, pressed] : w.sums) {
     sum.change += block.change;
     sum.impulse += block.impulse;
     sum.impulse_after += block.impulse_after;
     sum.largest = std::max(sum.largest, block.largest);
+    all.pressed += pressed;
   }
-  if (!(sum.scale() > 0.0)) return {};
-  return {sum.residual(), std::sqrt(sum.scale()) / w.impulse_unit, !(sum.impulse > 0.0)};
+  if (!(sum.scale() > 0.0)) return all;
+  all.residual = sum.residual();
+  all.norm = std::sqrt(sum.scale()) / w.impulse_unit;
+  all.cold = !(sum.impulse > 0.0);
+  return all;
 }
 
-void unload_solution(const ContactProblem& problem, const Linearisation& w, ContactSolution& solution) {
-  const auto bodies = static_cast<std::size_t>(problem.body_count());
-  solution.pn = w.pn;
-  solution.pt = w.pt;
-  for (auto* field : {&solution.vx, &solution.vy, &solution.omega}) field->resize(bodies);
-  for (std::size_t i = 0; i < bodies; ++i) {
+void unload_impulses(const ContactProblem& problem, Index first_block, Index last_block,
+                     const Linearisation& w, ContactSolution& solution) {
+  const auto first = static_cast<std::ptrdiff_t>(block_begin(problem, first_block));
+  const auto last = static_cast<std::ptrdiff_t>(block_begin(problem, last_block));
+  std::copy(w.pn.begin() + first, w.pn.begin() + last, solution.pn.begin() + first);
+  std::copy(w.pt.begin() + first, w.pt.begin() + last, solution.pt.begin() + first);
+}
+
+void unload_velocities(const ContactProblem& problem, Index first, Index last, const Linearisation& w,
+                       ContactSolution& solution) {
+  for (Index i = first; i < last; ++i) {
     const double lever = problem.lever[i];
     solution.vx[i] = w.exact_velocity[i].x;
     solution.vy[i] = w.exact_velocity[i].y;
@@ -248,12 +364,9 @@ void unload_solution(const ContactProblem& problem, const Linearisation& w, Cont
 }
 
 ContactArrays contact_arrays(Linearisation& w) {
-  return {w.contacts.data(), w.increment.data(), w.ahead.data(), w.velocity.data(), w.force.data()};
+  return {w.contacts.data(), w.increment.data(), w.last_move.data(), w.velocity.data()};
 }
 
-BodyArrays body_arrays(Linearisation& w) {
-  return {w.mobility.data(), w.force.data(),   w.first_a.data(),
-          w.first_b.data(),  w.b_force.data(), w.velocity.data()};
-}
+BodyArrays body_arrays(Linearisation& w) { return {w.velocity.data(), w.before.data()}; }
 
 }  // namespace talus

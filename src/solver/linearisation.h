@@ -1,68 +1,102 @@
 #pragma once
 /// The two precisions of the accelerated solver. Impulses P0, velocities and the residual are double; the
-/// iterations look for an increment p = P - P0 in single precision, at half the bytes and twice the lanes. P0
+/// sweeps look for an increment p = P - P0 in single precision, at half the bytes and twice the lanes. P0
 /// is moved to P0 + p now and then, so nothing is lost to single precision, whatever the tolerance.
 /// (Mixed-precision iterative refinement, Wilkinson 1963.)
 
 #include <cstdint>
 #include <vector>
 
-#include "solver/gradient_kernels.h"
 #include "solver/problem.h"
 #include "solver/residual.h"
+#include "solver/sweep_kernels.h"
+#include "solver/sweep_order.h"
 
 namespace talus {
 
-/// Velocity of a body, or impulse of a contact in the axes of the bed; the spin is r omega.
-struct ExactRow {
-  double x = 0.0, y = 0.0, spin = 0.0;
+/// Contacts are shared out in blocks of this many; the sums of a block do not depend on who computes them.
+inline constexpr Index contacts_per_block = 512;
+
+struct BlockSums {
+  ResidualSums residual;
+  Index pressed = 0;  ///< contacts that are not swept and whose bodies approach each other
 };
 
-/// Arrays kept between solves. Contacts are padded to whole groups.
+/// Arrays kept between solves.
 struct Linearisation {
-  // Single precision: what the iterations work on.
-  std::vector<ContactGroup> contacts;
-  std::vector<ImpulseGroup> increment, ahead;
-  std::vector<ForceGroup> force;
-  std::vector<Row> mobility, velocity;
-  std::vector<Index> first_a, first_b;
-  std::vector<std::uint32_t> b_force;
-  // Double precision, at P0.
-  std::vector<double> pn, pt, wn, wt;
+  // Double precision, at P0, in the order of the problem.
+  std::vector<double> pn, pt, un, ut, wn, wt;
   std::vector<ExactRow> exact_force, exact_velocity;
-  std::vector<ResidualSums> sums;  ///< one for each block of contacts
-  // What b_force was made for.
-  std::vector<Index> linked_a, linked_b;
+  std::vector<BlockSums> sums;
+  /// Body i is the first body of contacts first_a[i] ... first_a[i + 1] - 1, and the second body of those
+  /// listed in entries first_b[i] ... first_b[i + 1] - 1 of as_b.
+  std::vector<Index> first_a, first_b, as_b;
+  std::vector<std::uint8_t> moves;  ///< whether anything moves the body
+  std::vector<std::uint8_t> swept;  ///< whether the contact takes part in the sweeps
+
+  // Single precision, in the order of the sweep.
+  SweepOrder order;
+  std::vector<ContactGroup> contacts;
+  std::vector<ImpulseGroup> increment, last_move;
+  std::vector<Row> velocity, before;
+
+  // What was computed for the contacts and bodies of the last problem is good for this one where they are the
+  // same, as in most steps of a quiet bed.
+  ContactProblem linked;                    ///< without velocities, normals and c
+  std::vector<std::uint8_t> ordered_swept;  ///< what the order was made for; empty: none
+  bool are_new = true;                      ///< contacts or bodies are not those of the last problem
+  bool have_new_order = true;               ///< nothing that was loaded into groups can stay
   /// Units of the single precision: impulse (N s), and velocity (m/s) that it gives a mean body.
   double impulse_unit = 1.0, velocity_unit = 1.0, mobility_unit = 1.0;
 };
 
-/// Sizes the arrays, links bodies to their contacts, and takes P0 from the guess. Contacts are not loaded
-/// yet.
+/// Sizes the arrays, links bodies to their contacts, and chooses the units.
 void prepare(const ContactProblem& problem, const ContactSolution& guess, Linearisation& w);
 
-// What follows is shared out: each member of a team takes some blocks of contacts or some bodies, and waits
-// for the others before the next part.
+// What follows is shared out, but for order_contacts: each member of a team takes some blocks of contacts or
+// some bodies, and waits for the others before the next part.
 
-/// Loads contacts, without increments, and makes the guess admissible.
-void load_contacts(const ContactProblem& problem, Index first_block, Index last_block, Linearisation& w);
-
-// P0 moves to P0 + p in three parts. y, and with it the momentum, stays where it was.
-
-void absorb_increments(const ContactProblem& problem, Index first_block, Index last_block, Linearisation& w);
+/// P0 becomes the guess, made admissible.
+void load_contacts(const ContactProblem& problem, const ContactSolution& guess, Index first_block,
+                   Index last_block, Linearisation& w);
 void sum_exact_velocities(const ContactProblem& problem, Index first, Index last, Linearisation& w);
-void linearise_contacts(const ContactProblem& problem, Index first_block, Index last_block, Linearisation& w);
+/// Relative velocities at P0 and sums of blocks.
+void look_at_contacts(const ContactProblem& problem, LookKernel kernel, Index first_block, Index last_block,
+                      Linearisation& w);
 
 /// The natural-map residual at P0, as natural_map_residual has it.
 struct ExactResidual {
   Residual residual;
   double norm = 0.0;  ///< || P0 ||, or || P' || where P0 vanishes, in impulse units
   bool cold = true;   ///< P0 vanishes
+  Index pressed = 0;  ///< as in BlockSums
 };
 ExactResidual exact_residual(const Linearisation& w);
 
-/// P0 and its velocities.
-void unload_solution(const ContactProblem& problem, const Linearisation& w, ContactSolution& solution);
+/// Chooses the contacts to sweep at first: those with an impulse, and those that may close while the
+/// velocities change. Where another one would, it shows: it is pressed.
+void choose_swept(const ContactProblem& problem, Index first_block, Index last_block, Linearisation& w);
+/// Adds the pressed contacts.
+void add_pressed(const ContactProblem& problem, Index first_block, Index last_block, Linearisation& w);
+/// Puts the contacts to be swept in their order, unless they are; by one member for all.
+void order_contacts(const ContactProblem& problem, Linearisation& w);
+/// Loads what is swept, around P0, without increments.
+void load_groups(const ContactProblem& problem, Index first_block, Index last_block, Linearisation& w);
+void clear_rows(Index first, Index last, Linearisation& w);
+
+// P0 moves to P0 + p in five parts: increments and velocities are absorbed, then velocities summed and
+// contacts looked at as above, then linearised. The momentum stays what it was.
+
+void absorb_increments(const ContactProblem& problem, Index first_block, Index last_block, Linearisation& w);
+void absorb_velocities(Index first, Index last, Linearisation& w);
+void linearise_groups(const ContactProblem& problem, Index first_block, Index last_block, Linearisation& w);
+
+/// P0.
+void unload_impulses(const ContactProblem& problem, Index first_block, Index last_block,
+                     const Linearisation& w, ContactSolution& solution);
+/// Its velocities.
+void unload_velocities(const ContactProblem& problem, Index first, Index last, const Linearisation& w,
+                       ContactSolution& solution);
 
 ContactArrays contact_arrays(Linearisation& w);
 BodyArrays body_arrays(Linearisation& w);

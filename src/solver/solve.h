@@ -9,7 +9,7 @@ namespace talus {
 
 enum class SolverKind {
   gauss_seidel,  ///< reference: nonlinear Gauss-Seidel in the order of the contacts
-  accelerated,   ///< projected gradient with Nesterov's momentum, vectorised and threaded
+  accelerated,   ///< the same with Nesterov's momentum, vectorised and threaded
 };
 
 struct SolverSettings {

@@ -61,7 +61,7 @@ std::vector<RockedBed> rocked_beds() {
   RockedBed gauss_seidel = bed("gauss-seidel", 30, 10, true, 10'000);
   gauss_seidel.solver = SolverKind::gauss_seidel;
   gauss_seidel.plan.rough_floor = false;
-  return {bed("periodic", 30, 10, true, 100'000), walls, gauss_seidel, bed("large", 2400, 60, true, 300)};
+  return {bed("periodic", 30, 10, true, 100'000), walls, gauss_seidel, bed("large", 20000, 500, true, 300)};
 }
 
 RockedRun rock(const RockedBed& bed, std::int64_t steps, int threads,

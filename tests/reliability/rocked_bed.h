@@ -21,7 +21,7 @@ struct RockedBed {
 };
 
 /// Three small beds (30 grains; the two that are solved as runs are take 1e5 steps), and one in which four
-/// threads have work (2400 grains, 300 steps).
+/// threads have work (20 000 grains, 300 steps).
 std::vector<RockedBed> rocked_beds();
 
 /// What a run has gone through, so that equal hashes mean something.

@@ -25,7 +25,7 @@ test::FrozenStep packing(std::uint64_t seed) {
   // the problem solvable to any tolerance: a loop that does not fit drains or loads its forces sweep by
   // sweep.
   for (double& cn : frozen.problem.cn)
-    if (std::fabs(cn) < 1e-8 / settings.h) cn = 0.0;
+    if (std::fabs(cn) < 2e-8 / settings.h) cn = 0.0;
   return frozen;
 }
 

@@ -1,2 +1,0 @@
-#define KERNEL_NAME gradient_kernels_baseline
-#include "solver/gradient_kernels.inc"

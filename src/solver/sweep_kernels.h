@@ -1,0 +1,112 @@
+#pragma once
+/// The inner loops of the accelerated solver, in single precision, compiled for the baseline processor and
+/// again for AVX2, and chosen at run time. Both do the same operations on eight lanes in the same order, so
+/// they give the same bits. Only plain data here: an inline function of the library compiled for AVX2 could
+/// end up in the baseline program.
+
+#include <cstddef>
+#include <cstdint>
+
+#include "core/types.h"
+
+namespace talus {
+
+/// Four floats, as wide as a vector register of the baseline: velocity of a body. Its spin is r omega, which
+/// makes disks of any size alike.
+struct alignas(16) Row {
+  float x, spin, y, unused;
+};
+
+/// Contacts are worked on eight at a time.
+inline constexpr int lane_count = 8;
+using Lane = float[lane_count];
+
+/// Eight contacts, no two of which share a body, around the impulses P0 at which the problem was linearised,
+/// in the units of the solve. The increment p = P - P0 is what the sweeps look for: in single precision, it
+/// can be found to any digit. A lane without a contact is all zero, between rows that do not move.
+struct alignas(64) ContactGroup {
+  Lane nx, ny;
+  Lane un, ut;        ///< relative velocity at P0
+  Lane least;         ///< -P0_n: the least normal increment
+  Lane below, above;  ///< -mu P0_n - P0_t and mu P0_n - P0_t: the contact slides there, but for mu p_n
+  Lane mu;
+  Lane wn, wt;  ///< inverse of the Delassus diagonal, times the relaxation
+  Lane mass_a,
+      spin_a;  ///< mobilities of the bodies: what a unit impulse in the axes of the bed adds to x and
+  Lane mass_b, spin_b;                         ///< y, and P_t to the spin; mass_a and both spins are negative
+  std::uint32_t a[lane_count], b[lane_count];  ///< where the rows of the two bodies begin, bytes
+};
+
+/// So many groups are swept side by side: none of their contacts share a body. A processor cannot tell soon
+/// enough that what it reads for a group is not what it is about to write for the one before, so that groups
+/// one by one would wait for each other.
+inline constexpr int groups_abreast = 2;
+
+/// Impulses of eight contacts.
+struct alignas(64) ImpulseGroup {
+  Lane n, t;
+};
+
+/// Sums over contacts at the extrapolated point y.
+struct SweepSums {
+  double change = 0.0;  ///< || p_new - y ||^2
+  double ascent = 0.0;  ///< (y - p_new) . (p_new - p): > 0 where the momentum points uphill
+};
+
+struct ContactArrays {
+  const ContactGroup* contacts;
+  ImpulseGroup* increment;  ///< in: p of the last sweep; out: the new p
+  ImpulseGroup* last_move;  ///< in: what the last sweep added to p; out: what this one has added
+  Row* velocity;            ///< of the bodies; in: due to y = p + momentum * last_move; out: due to the new p
+};
+
+/// Velocity of a body, or impulse of a contact in the axes of the bed, in double precision; the spin is r
+/// omega.
+struct alignas(32) ExactRow {
+  double x = 0.0, y = 0.0, spin = 0.0, unused = 0.0;
+};
+
+/// Fields of contacts in the order of the problem.
+struct LookArrays {
+  const Index *a, *b;
+  const double *nx, *ny, *cn, *ct, *mu;
+  const double *pn, *pt;  ///< P0
+  const double *wn, *wt;  ///< inverse of the Delassus diagonal
+  const ExactRow* velocity;
+  double *un, *ut;  ///< out: relative velocities
+};
+
+/// The sums of ResidualSums (residual.h).
+struct LookSums {
+  double change = 0.0, impulse = 0.0, impulse_after = 0.0, largest = 0.0;
+};
+
+struct BodyArrays {
+  Row* velocity;  ///< in: due to p; out: due to y
+  Row* before;    ///< in: due to p before the last sweep; out: due to p
+};
+
+/// A sweep with momentum (T16) over groups first ... last - 1, one after another: each contact is solved with
+/// the velocities that the ones before it leave.
+using ContactKernel = void (*)(const ContactArrays& arrays, Index first, Index last, float momentum,
+                               SweepSums& sums);
+/// Velocities of bodies first ... last - 1 at the extrapolated point.
+using BodyKernel = void (*)(const BodyArrays& arrays, Index first, Index last, float momentum);
+
+/// Relative velocities of contacts first ... last - 1 at P0, and what solving each of them exactly would
+/// change (T13, T14).
+using LookKernel = void (*)(const LookArrays& arrays, std::size_t first, std::size_t last, LookSums& sums);
+
+struct SweepKernels {
+  ContactKernel contacts;
+  BodyKernel bodies;
+  LookKernel look;
+};
+
+/// The fastest kernels that this processor has.
+SweepKernels sweep_kernels();
+
+SweepKernels sweep_kernels_baseline();
+SweepKernels sweep_kernels_avx2();
+
+}  // namespace talus

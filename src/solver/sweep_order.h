@@ -1,0 +1,54 @@
+#pragma once
+/// In which order a sweep visits the contacts, and which of them it may visit at the same time.
+
+#include <array>
+#include <vector>
+
+#include "solver/problem.h"
+#include "solver/sweep_kernels.h"
+
+namespace talus {
+
+/// Contacts are swept in their order, from the first body to the last, as far as that matters: a contact
+/// comes after all earlier ones that share a body with it. So that this can be done eight contacts at a time
+/// and by several threads,
+///   - bodies are cut into domains of consecutive bodies with about as many contacts each;
+///   - a sweep has three phases: even domains with the contacts between them and their odd neighbours; odd
+///     domains; what is left. The parts of a phase share no body that moves, so they can be swept at once;
+///   - within a part, contacts go in groups of eight, a few of them side by side, that share no body that
+///   moves;
+///     each goes in the first that has room.
+/// All of this follows from the problem alone, so that the bits of a result do not depend on threads.
+struct SweepOrder {
+  static constexpr int phases = 3;
+  std::vector<Index> slot;          ///< of a contact: lane_count * group + lane
+  std::vector<Index> row_a, row_b;  ///< rows of its bodies
+  std::vector<Index> part_begin;    ///< the groups of part k: part_begin[k] ... part_begin[k + 1] - 1
+  std::array<Index, phases + 1> phase_begin{};  ///< the parts of a phase
+  Index row_count = 0;                          ///< bodies, and rows that do not move
+
+  /// The row of the first or second body in a lane of a part, where that does not move: one row for all would
+  /// make each group wait for the one before.
+  static Index still_row(Index bodies, Index part, Index side, Index lane) {
+    return bodies + (2 * part + side) * lane_count + lane;
+  }
+  Index part_count() const { return static_cast<Index>(part_begin.size()) - 1; }
+  Index group_count() const { return part_begin.back(); }
+
+  // Memory to work in: places are groups side by side before those that stay empty are left out.
+  std::vector<Index> part, owner, first_place, room;
+  std::vector<std::uint8_t> fill;
+  std::array<std::vector<Index>, phases> next_place;
+};
+
+/// Orders the contacts with swept[c] != 0; the others have no slot. `first_a[i]` is the number of contacts
+/// whose first body is before body i; moves[i] is 0 for a body that nothing moves. Contacts must be sorted by
+/// their first body.
+void order_sweep(const ContactProblem& problem, const std::vector<Index>& first_a,
+                 const std::vector<std::uint8_t>& moves, const std::vector<std::uint8_t>& swept,
+                 SweepOrder& order);
+
+/// How many members of a team find work in each phase of a sweep.
+int most_members(const ContactProblem& problem);
+
+}  // namespace talus

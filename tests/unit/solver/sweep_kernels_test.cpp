@@ -1,0 +1,264 @@
+// The fast kernels against each other, bit for bit, and against the same arithmetic written plainly.
+
+#include "solver/sweep_kernels.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <vector>
+
+#include "core/random.h"
+#include "solver/residual.h"
+
+namespace talus {
+namespace {
+
+struct Scene {
+  std::vector<ContactGroup> contacts;
+  std::vector<ImpulseGroup> increment, last_move;
+  std::vector<Row> velocity, before;
+  SweepSums sums;
+
+  Index groups() const { return static_cast<Index>(contacts.size()); }
+  Index rows() const { return static_cast<Index>(velocity.size()); }
+  ContactArrays contact_arrays() {
+    return {contacts.data(), increment.data(), last_move.data(), velocity.data()};
+  }
+  BodyArrays body_arrays() { return {velocity.data(), before.data()}; }
+};
+
+constexpr float beta = 0.7F;
+
+/// Contacts between random bodies, none of which is twice among groups that are swept side by side: open,
+/// sticking and sliding ones.
+Scene random_scene(Index groups, Index bodies) {
+  Random random(7);
+  const auto uniform = [&] { return static_cast<float>(2.0 * random.uniform() - 1.0); };
+  Scene scene;
+  scene.contacts.resize(groups);
+  scene.increment.resize(groups);
+  scene.last_move.resize(groups);
+  std::vector<Index> order;
+  std::vector<float> mass;
+  for (Index i = 0; i < bodies; ++i) {
+    order.push_back(i);
+    mass.push_back(1.0F + 0.2F * uniform());
+    scene.velocity.push_back({uniform(), uniform(), uniform(), 0.0F});
+    scene.before.push_back({uniform(), uniform(), uniform(), 0.0F});
+  }
+  for (Index g = 0; g < groups; ++g) {
+    if (g % groups_abreast == 0)
+      for (std::size_t i = order.size() - 1; i > 0; --i)
+        std::swap(order[i], order[static_cast<std::size_t>(random.uniform() * static_cast<double>(i + 1))]);
+    ContactGroup& group = scene.contacts[g];
+    for (int k = 0; k < lane_count; ++k) {
+      const int place = 2 * (g % groups_abreast * lane_count + k);
+      const Index a = order[place], b = order[place + 1];
+      const float angle = 3.0F * uniform();
+      group.nx[k] = std::cos(angle);
+      group.ny[k] = std::sin(angle);
+      group.un[k] = uniform();
+      group.ut[k] = uniform();
+      const float pn = std::max(0.0F, uniform());
+      group.least[k] = -pn;
+      group.mu[k] = 0.5F;
+      const float tangential = 0.5F * pn * uniform();
+      group.above[k] = 0.5F * pn - tangential;
+      group.below[k] = -0.5F * pn - tangential;
+      group.wn[k] = 0.5F;
+      group.wt[k] = 0.17F;
+      group.mass_a[k] = -mass[a];
+      group.mass_b[k] = mass[b];
+      group.spin_a[k] = -2.0F * mass[a];
+      group.spin_b[k] = -2.0F * mass[b];
+      group.a[k] = static_cast<std::uint32_t>(a * sizeof(Row));
+      group.b[k] = static_cast<std::uint32_t>(b * sizeof(Row));
+      scene.increment[g].n[k] = 0.1F * uniform();
+      scene.increment[g].t[k] = 0.1F * uniform();
+      scene.last_move[g].n[k] = 0.1F * uniform();
+      scene.last_move[g].t[k] = 0.1F * uniform();
+    }
+  }
+  return scene;
+}
+
+/// Bodies, then contacts, some sweeps long, in two shares each.
+void run(Scene& scene, const SweepKernels& kernels) {
+  for (int k = 0; k < 5; ++k) {
+    const Index half = scene.groups() / 2;
+    SweepSums first, second;
+    kernels.bodies(scene.body_arrays(), 0, scene.rows() / 3, beta);
+    kernels.bodies(scene.body_arrays(), scene.rows() / 3, scene.rows(), beta);
+    kernels.contacts(scene.contact_arrays(), 0, half, beta, first);
+    kernels.contacts(scene.contact_arrays(), half, scene.groups(), beta, second);
+    scene.sums = {first.change + second.change, first.ascent + second.ascent};
+  }
+}
+
+/// The contact in a lane, with the velocities that the ones before it leave.
+void plain_contact(Scene& scene, Index g, int k, SweepSums& sums) {
+  const ContactGroup& group = scene.contacts[g];
+  Row& va = scene.velocity[group.a[k] / sizeof(Row)];
+  Row& vb = scene.velocity[group.b[k] / sizeof(Row)];
+  const float nx = group.nx[k], ny = group.ny[k];
+  const float un = (vb.x - va.x) * nx + (vb.y - va.y) * ny + group.un[k];
+  const float ut = (vb.y - va.y) * nx - (vb.x - va.x) * ny - (vb.spin + va.spin) + group.ut[k];
+  float &n = scene.increment[g].n[k], &t = scene.increment[g].t[k];
+  float &last_n = scene.last_move[g].n[k], &last_t = scene.last_move[g].t[k];
+  const float yn = n + beta * last_n, yt = t + beta * last_t;
+  const float pn = std::max(yn - un * group.wn[k], group.least[k]);
+  const float pt =
+      std::clamp(yt - ut * group.wt[k], group.below[k] - group.mu[k] * pn, group.above[k] + group.mu[k] * pn);
+  const float en = pn - yn, et = pt - yt;
+  last_n = pn - n;
+  last_t = pt - t;
+  n = pn;
+  t = pt;
+  sums.change += en * en + et * et;
+  sums.ascent -= en * last_n + et * last_t;
+  const float x = en * nx - et * ny, y = en * ny + et * nx;
+  va = {va.x + x * group.mass_a[k], va.spin + et * group.spin_a[k], va.y + y * group.mass_a[k], 0.0F};
+  vb = {vb.x + x * group.mass_b[k], vb.spin + et * group.spin_b[k], vb.y + y * group.mass_b[k], 0.0F};
+}
+
+template <class T>
+bool same_bits(const std::vector<T>& x, const std::vector<T>& y) {
+  return x.size() == y.size() && std::memcmp(x.data(), y.data(), x.size() * sizeof(T)) == 0;
+}
+
+TEST(SweepKernels, give_the_same_bits_whatever_the_processor) {
+  Scene baseline = random_scene(20, 64);
+  Scene fastest = baseline;
+  run(baseline, sweep_kernels_baseline());
+  run(fastest, sweep_kernels());
+  EXPECT_TRUE(same_bits(baseline.increment, fastest.increment));
+  EXPECT_TRUE(same_bits(baseline.last_move, fastest.last_move));
+  EXPECT_TRUE(same_bits(baseline.velocity, fastest.velocity));
+  EXPECT_TRUE(same_bits(baseline.before, fastest.before));
+  EXPECT_EQ(baseline.sums.change, fastest.sums.change);
+  EXPECT_EQ(baseline.sums.ascent, fastest.sums.ascent);
+}
+
+TEST(SweepKernels, contacts_do_what_the_plain_arithmetic_does_one_by_one) {
+  Scene scene = random_scene(20, 64);
+  Scene plain = scene;
+  SweepSums sums;
+  sweep_kernels().contacts(scene.contact_arrays(), 0, scene.groups(), beta, scene.sums);
+  for (Index g = 0; g < plain.groups(); ++g)
+    for (int k = 0; k < lane_count; ++k) plain_contact(plain, g, k, sums);
+  int open = 0, sliding = 0;
+  for (Index g = 0; g < scene.groups(); ++g)
+    for (int k = 0; k < lane_count; ++k) {
+      const ImpulseGroup &got = scene.increment[g], &expected = plain.increment[g];
+      EXPECT_EQ(got.n[k], expected.n[k]);
+      EXPECT_EQ(got.t[k], expected.t[k]);
+      EXPECT_EQ(scene.last_move[g].n[k], plain.last_move[g].n[k]);
+      EXPECT_EQ(scene.last_move[g].t[k], plain.last_move[g].t[k]);
+      const ContactGroup& contact = scene.contacts[g];
+      open += got.n[k] == contact.least[k] ? 1 : 0;
+      sliding += got.t[k] == contact.above[k] + contact.mu[k] * got.n[k] ? 1 : 0;
+    }
+  EXPECT_GT(open, 10);
+  EXPECT_GT(sliding, 10);
+  for (Index i = 0; i < scene.rows(); ++i) {
+    EXPECT_EQ(scene.velocity[i].x, plain.velocity[i].x);
+    EXPECT_EQ(scene.velocity[i].y, plain.velocity[i].y);
+    EXPECT_EQ(scene.velocity[i].spin, plain.velocity[i].spin);
+  }
+  EXPECT_NEAR(scene.sums.change, sums.change, 1e-5 * sums.change);
+  EXPECT_NEAR(scene.sums.ascent, sums.ascent, 1e-5 * sums.change);
+}
+
+TEST(SweepKernels, bodies_go_on_as_they_went) {
+  Scene scene = random_scene(2, 64);
+  const Scene old = scene;
+  sweep_kernels().bodies(scene.body_arrays(), 0, scene.rows(), beta);
+  for (Index i = 0; i < scene.rows(); ++i) {
+    EXPECT_EQ(scene.velocity[i].x, old.velocity[i].x + beta * (old.velocity[i].x - old.before[i].x));
+    EXPECT_EQ(scene.velocity[i].y, old.velocity[i].y + beta * (old.velocity[i].y - old.before[i].y));
+    EXPECT_EQ(scene.velocity[i].spin,
+              old.velocity[i].spin + beta * (old.velocity[i].spin - old.before[i].spin));
+    EXPECT_EQ(scene.before[i].x, old.velocity[i].x);
+    EXPECT_EQ(scene.before[i].y, old.velocity[i].y);
+    EXPECT_EQ(scene.before[i].spin, old.velocity[i].spin);
+  }
+}
+
+/// Contacts of random bodies in double precision.
+struct Contacts {
+  std::vector<Index> a, b;
+  std::vector<double> nx, ny, cn, ct, mu, pn, pt, wn, wt, un, ut;
+  std::vector<ExactRow> velocity;
+
+  LookArrays arrays() {
+    return {a.data(),  b.data(),  nx.data(), ny.data(), cn.data(),       ct.data(), mu.data(),
+            pn.data(), pt.data(), wn.data(), wt.data(), velocity.data(), un.data(), ut.data()};
+  }
+};
+
+Contacts random_contacts(Index count, Index bodies) {
+  Random random(3);
+  const auto uniform = [&] { return 2.0 * random.uniform() - 1.0; };
+  Contacts contacts;
+  for (Index i = 0; i < bodies; ++i) contacts.velocity.push_back({uniform(), uniform(), uniform()});
+  for (Index c = 0; c < count; ++c) {
+    contacts.a.push_back(static_cast<Index>(random.uniform() * bodies));
+    contacts.b.push_back(static_cast<Index>(random.uniform() * bodies));
+    const double angle = 3.0 * uniform();
+    contacts.nx.push_back(std::cos(angle));
+    contacts.ny.push_back(std::sin(angle));
+    contacts.cn.push_back(uniform());
+    contacts.ct.push_back(0.1 * uniform());
+    contacts.mu.push_back(0.5);
+    contacts.pn.push_back(std::max(0.0, uniform()));
+    contacts.pt.push_back(0.5 * contacts.pn.back() * uniform());
+    contacts.wn.push_back(0.5);
+    contacts.wt.push_back(0.17);
+  }
+  contacts.un.assign(contacts.a.size(), 0.0);
+  contacts.ut = contacts.un;
+  return contacts;
+}
+
+TEST(SweepKernels, look_with_the_same_bits_whatever_the_processor) {
+  Contacts baseline = random_contacts(203, 40);
+  Contacts fastest = baseline;
+  LookSums sums[2];
+  sweep_kernels_baseline().look(baseline.arrays(), 0, 203, sums[0]);
+  sweep_kernels().look(fastest.arrays(), 0, 203, sums[1]);
+  EXPECT_EQ(baseline.un, fastest.un);
+  EXPECT_EQ(baseline.ut, fastest.ut);
+  EXPECT_EQ(std::memcmp(&sums[0], &sums[1], sizeof(LookSums)), 0);
+}
+
+TEST(SweepKernels, look_at_contacts_as_the_contact_law_does) {
+  for (const Index first : {0, 5})
+    for (const Index last : {5, 6, 7, 8, 200}) {
+      Contacts contacts = random_contacts(200, 40);
+      LookSums sums;
+      sweep_kernels().look(contacts.arrays(), first, last, sums);
+      ResidualSums plain;
+      for (Index c = 0; c < 200; ++c) {
+        const ExactRow &va = contacts.velocity[contacts.a[c]], &vb = contacts.velocity[contacts.b[c]];
+        const double nx = contacts.nx[c], ny = contacts.ny[c];
+        const double un = (vb.x - va.x) * nx + (vb.y - va.y) * ny + contacts.cn[c];
+        const double ut = (vb.y - va.y) * nx - (vb.x - va.x) * ny - (va.spin + vb.spin) + contacts.ct[c];
+        const bool seen = c >= first && c < last;
+        EXPECT_DOUBLE_EQ(contacts.un[c], seen ? un : 0.0);
+        EXPECT_DOUBLE_EQ(contacts.ut[c], seen ? ut : 0.0);
+        if (seen)
+          plain.add({contacts.pn[c], contacts.pt[c]},
+                    solve_contact(contacts.pn[c], contacts.pt[c], un, ut, contacts.wn[c], contacts.wt[c],
+                                  contacts.mu[c]));
+      }
+      EXPECT_NEAR(sums.change, plain.change, 1e-14 * plain.change);
+      EXPECT_NEAR(sums.impulse, plain.impulse, 1e-14 * plain.impulse);
+      EXPECT_NEAR(sums.impulse_after, plain.impulse_after, 1e-14 * plain.impulse_after);
+      EXPECT_DOUBLE_EQ(sums.largest, plain.largest);
+    }
+}
+
+}  // namespace
+}  // namespace talus

@@ -1,0 +1,145 @@
+// In which order contacts are swept, on random graphs of contacts.
+
+#include "solver/sweep_order.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <vector>
+
+#include "core/random.h"
+
+namespace talus {
+namespace {
+
+struct Graph {
+  ContactProblem problem;
+  std::vector<Index> first_a;
+  std::vector<std::uint8_t> moves, swept;
+};
+
+/// Contacts of each body with some of the `reach` next ones; every tenth body does not move, every seventh
+/// contact is not swept.
+Graph graph(Index bodies, Index contacts_each, Index reach) {
+  Random random(11);
+  Graph graph;
+  graph.first_a.assign(static_cast<std::size_t>(bodies) + 1, 0);
+  for (auto* field : {&graph.problem.vx, &graph.problem.vy})
+    field->assign(static_cast<std::size_t>(bodies), 0.0);
+  for (Index i = 0; i < bodies; ++i) {
+    graph.moves.push_back(i % 10 == 3 ? 0 : 1);
+    std::set<Index> others;
+    for (Index k = 0; k < contacts_each; ++k)
+      others.insert(std::min(bodies - 1, i + 1 + static_cast<Index>(random.uniform() * reach)));
+    for (const Index b : others) {
+      if (b == i) continue;
+      graph.problem.a.push_back(i);
+      graph.problem.b.push_back(b);
+      graph.swept.push_back(graph.problem.a.size() % 7 == 2 ? 0 : 1);
+    }
+    graph.first_a[i + 1] = graph.problem.contact_count();
+  }
+  return graph;
+}
+
+SweepOrder order_of(const Graph& graph) {
+  SweepOrder order;
+  order_sweep(graph.problem, graph.first_a, graph.moves, graph.swept, order);
+  return order;
+}
+
+class OrderOfSweep : public testing::TestWithParam<Graph> {
+ protected:
+  const Graph& graph_ = GetParam();
+  const SweepOrder order_ = order_of(graph_);
+
+  /// Does something with each contact that is swept, and each of its bodies that moves.
+  template <typename Do>
+  void for_each_end(const Do& what) const {
+    for (Index c = 0; c < graph_.problem.contact_count(); ++c)
+      for (const Index body : {graph_.problem.a[c], graph_.problem.b[c]})
+        if (graph_.swept[c] && graph_.moves[body]) what(c, body);
+  }
+  Index part_of(Index c) const {
+    const auto& begin = order_.part_begin;
+    return static_cast<Index>(std::ranges::upper_bound(begin, order_.slot[c] / lane_count) - begin.begin()) -
+           1;
+  }
+  int phase_of(Index c) const {
+    int phase = 0;
+    while (part_of(c) >= order_.phase_begin[phase + 1]) ++phase;
+    return phase;
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(Graphs, OrderOfSweep,
+                         testing::Values(graph(0, 1, 1), graph(40, 1, 3), graph(3000, 2, 60),
+                                         graph(20000, 2, 400), graph(3000, 2, 3000)));
+
+TEST_P(OrderOfSweep, has_one_slot_for_each_contact) {
+  std::set<Index> slots;
+  Index swept = 0;
+  for (Index c = 0; c < graph_.problem.contact_count(); ++c) {
+    if (!graph_.swept[c]) continue;
+    ++swept;
+    slots.insert(order_.slot[c]);
+    EXPECT_LT(order_.slot[c], order_.group_count() * lane_count);
+  }
+  EXPECT_EQ(static_cast<Index>(slots.size()), swept);
+}
+
+TEST_P(OrderOfSweep, never_has_a_body_twice_in_groups_side_by_side) {
+  std::set<std::pair<Index, Index>> met;
+  for_each_end([&](Index c, Index body) {
+    EXPECT_TRUE(met.insert({order_.slot[c] / (lane_count * groups_abreast), body}).second) << "contact " << c;
+  });
+}
+
+TEST_P(OrderOfSweep, never_has_a_body_in_two_parts_of_a_phase) {
+  std::map<std::pair<int, Index>, Index> part;
+  for_each_end([&](Index c, Index body) {
+    EXPECT_EQ(part.try_emplace({phase_of(c), body}, part_of(c)).first->second, part_of(c)) << "contact " << c;
+  });
+}
+
+TEST_P(OrderOfSweep, visits_the_contacts_of_a_body_as_they_come_in_the_problem) {
+  std::map<std::pair<Index, Index>, Index> last;  // group of the last contact of a body in a part
+  for_each_end([&](Index c, Index body) {
+    const Index abreast = order_.slot[c] / (lane_count * groups_abreast);
+    const auto [at, first] = last.try_emplace({part_of(c), body}, abreast);
+    EXPECT_TRUE(first || at->second < abreast) << "contact " << c;
+    at->second = abreast;
+  });
+}
+
+TEST_P(OrderOfSweep, has_rows_of_their_own_for_bodies_that_do_not_move) {
+  const Index bodies = graph_.problem.body_count();
+  for (Index c = 0; c < graph_.problem.contact_count(); ++c) {
+    if (!graph_.swept[c]) continue;
+    const Index a = graph_.problem.a[c], b = graph_.problem.b[c];
+    EXPECT_EQ(order_.row_a[c] < bodies, graph_.moves[a] != 0);
+    EXPECT_EQ(order_.row_b[c] < bodies, graph_.moves[b] != 0);
+    EXPECT_LT(std::max(order_.row_a[c], order_.row_b[c]), order_.row_count);
+  }
+}
+
+TEST(OrderOfSweep, fills_its_groups_on_a_large_bed) {
+  const Graph large = graph(20000, 2, 400);
+  const auto swept = std::ranges::count(large.swept, 1);
+  EXPECT_GT(static_cast<double>(swept), 0.9 * lane_count * order_of(large).group_count());
+}
+
+TEST(OrderOfSweep, has_work_for_several_threads_on_a_large_bed_only) {
+  EXPECT_EQ(most_members(graph(300, 2, 20).problem), 1);
+  const Graph large = graph(20000, 2, 400);
+  const SweepOrder order = order_of(large);
+  EXPECT_GE(most_members(large.problem), 2);
+  EXPECT_EQ(most_members(large.problem), order.phase_begin[1]);
+  const Index left = order.part_begin[order.phase_begin[3]] - order.part_begin[order.phase_begin[2]];
+  EXPECT_LT(left, order.group_count() / 20) << "what no part of a phase can take";
+}
+
+}  // namespace
+}  // namespace talus
