@@ -3,11 +3,14 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <fmt/core.h>
 #include <limits>
 #include <memory>
+#include <optional>
 
 #include "app/commands.h"
 #include "app/json.h"
+#include "app/moving_step.h"
 #include "core/output_file.h"
 #include "problems/local_solvers.h"
 #include "problems/problem_file.h"
@@ -16,10 +19,15 @@
 namespace talus {
 namespace {
 
+/// Who asked for the tolerance of a solve.
+enum class AskedBy { option, run, default_value };
+
 struct SolveArguments {
   std::string problem;
   std::string output;
   SolverSettings settings;
+  std::optional<double> tolerance;
+  AskedBy asked_by = AskedBy::default_value;
   bool cold = false;
   bool overwrite = false;
   bool json = false;
@@ -29,6 +37,7 @@ struct SolveResult {
   Index contacts = 0;
   Index bodies = 0;  ///< 0 where they are not known
   SolverReport report;
+  std::optional<StepTolerance> of_run;
   double siconos_error = 0.0;
   double carried_weight = std::numeric_limits<double>::quiet_NaN();
   double seconds = 0.0;
@@ -41,6 +50,27 @@ struct SolveResult {
 
 const char* name_of(SolverKind kind) {
   return kind == SolverKind::gauss_seidel ? "gauss-seidel" : "accelerated";
+}
+
+const char* name_of(AskedBy asked_by) {
+  if (asked_by == AskedBy::default_value) return "default";
+  return asked_by == AskedBy::option ? "option" : "run";
+}
+
+const char* words_of(AskedBy asked_by) {
+  if (asked_by == AskedBy::default_value) return "default";
+  return asked_by == AskedBy::option ? "--tol" : "the run";
+}
+
+/// The problem of a run is solved as the run would, unless an option says otherwise.
+void choose_tolerance(const StoredProblem& stored, SolveArguments& arguments) {
+  if (arguments.tolerance) {
+    arguments.settings.tolerance = *arguments.tolerance;
+    arguments.asked_by = AskedBy::option;
+  } else if (stored.step && stored.step->tolerance) {
+    arguments.settings.tolerance = stored.step->tolerance->asked;
+    arguments.asked_by = AskedBy::run;
+  }
 }
 
 /// Wall seconds that `work` takes.
@@ -61,6 +91,7 @@ void solve_bodies(const StepProblem& step, const SolveArguments& arguments, Solv
   result.seconds =
       seconds_of([&] { result.report = solve(step.problem, arguments.settings, workspace, solution); });
   result.bodies = step.problem.body_count();
+  result.of_run = step.tolerance;
   result.siconos_error = siconos_error(step.problem, solution);
   result.carried_weight = carried_weight(step, solution);
   result.solution = local_form(step.problem, solution);
@@ -85,6 +116,8 @@ SolveResult solve(const StoredProblem& stored, const SolveArguments& arguments) 
 
 void print_json(const SolveArguments& arguments, const SolveResult& result) {
   using json::number, json::quoted;
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  const StepTolerance of_run = result.of_run.value_or(StepTolerance{none, none, none});
   const std::string text = json::object({
       {"problem", quoted(arguments.problem)},
       {"solver", quoted(name_of(arguments.settings.kind))},
@@ -92,12 +125,16 @@ void print_json(const SolveArguments& arguments, const SolveResult& result) {
       {"start", quoted(arguments.cold ? "zero" : "guess")},
       {"contacts", number(result.contacts)},
       {"tolerance", number(arguments.settings.tolerance)},
+      {"asked_by", quoted(name_of(arguments.asked_by))},
       {"converged", json::truth(result.report.converged)},
       {"iterations", number(result.report.iterations)},
       {"eta", number(result.report.residual.eta)},
       {"siconos_error", number(result.siconos_error)},
       {"largest_residual", number(result.report.residual.largest)},
       {"carried_weight", number(result.carried_weight)},
+      {"bed_velocity", number(of_run.velocity)},
+      {"run_tolerance", number(of_run.asked)},
+      {"run_tolerance_at_rest", number(of_run.at_rest)},
       {"seconds", number(result.seconds)},
       {"ns_per_contact_iteration", number(result.nanoseconds_per_contact())},
   });
@@ -119,18 +156,22 @@ void print_text(const SolveArguments& arguments, const SolveResult& result) {
               result.bodies > 0 ? "bodies" : "W, q and mu alone", arguments.cold ? "zero" : "the guess");
   std::printf("%-25s%d\n", "contacts", result.contacts);
   std::printf("%-25s%d\n", "iterations", report.iterations);
-  std::printf("%-25s%.3e (%s, asked for %.1e)\n", "residual eta", report.residual.eta,
-              report.converged ? "converged" : "NOT CONVERGED", arguments.settings.tolerance);
+  std::printf("%-25s%.3e (%s, asked for %.1e by %s)\n", "residual eta", report.residual.eta,
+              report.converged ? "converged" : "NOT CONVERGED", arguments.settings.tolerance,
+              words_of(arguments.asked_by));
   print_number("largest of one contact", "%.3e", report.residual.largest);
   print_number("Siconos's error", "%.3e", result.siconos_error);
   print_number("weight carried", "%.6f", result.carried_weight);
   print_number("seconds", "%.6f", result.seconds);
   print_number("ns / contact / iteration", "%.2f", result.nanoseconds_per_contact());
+  if (result.of_run && is_moving(*result.of_run))
+    std::printf("%s\n", remark_on_moving(*result.of_run, report.residual.eta).c_str());
 }
 
-void run(const SolveArguments& arguments) {
+void run(SolveArguments& arguments) {
   if (!arguments.output.empty()) output_target(arguments.output, {arguments.overwrite, {arguments.problem}});
   const StoredProblem stored = read_problem(arguments.problem);
+  choose_tolerance(stored, arguments);
   const SolveResult result = solve(stored, arguments);
   if (arguments.json)
     print_json(arguments, result);
@@ -141,7 +182,8 @@ void run(const SolveArguments& arguments) {
   write_solution(arguments.problem, arguments.output, result.solution);
 }
 
-void add_settings(CLI::App& command, SolverSettings& settings) {
+void add_settings(CLI::App& command, SolveArguments& arguments) {
+  SolverSettings& settings = arguments.settings;
   settings.max_iterations = 100000;
   const std::map<std::string, SolverKind> kinds = {{"accelerated", SolverKind::accelerated},
                                                    {"gauss-seidel", SolverKind::gauss_seidel}};
@@ -151,8 +193,11 @@ void add_settings(CLI::App& command, SolverSettings& settings) {
           "accelerated, or the reference gauss-seidel")
       ->default_str("accelerated")
       ->check(CLI::IsMember({"accelerated", "gauss-seidel"}));
-  command.add_option("--tol", settings.tolerance, "Natural-map residual eta to reach")
-      ->capture_default_str()
+  command
+      .add_option("--tol", arguments.tolerance,
+                  fmt::format("Natural-map residual eta to reach; without it what the run asked of the step, "
+                              "and {} where the file does not tell",
+                              short_text(settings.tolerance)))
       ->check(CLI::Range(1e-15, 1.0));
   command.add_option("--max-iterations", settings.max_iterations, "Iterations, at most")
       ->capture_default_str()
@@ -175,14 +220,14 @@ void add_solve_command(CLI::App& app) {
       ->add_option("PROBLEM", arguments->problem,
                    "Problem file: of talus dump, or an FCLIB local problem in 2D")
       ->required();
-  add_settings(*command, arguments->settings);
+  add_settings(*command, *arguments);
   command->add_flag("--cold", arguments->cold, "Start from zero instead of the guess in the file");
   command->add_option("-o,--output", arguments->output, "Copy of the problem to write, with its /solution");
   command->add_flag("--overwrite", arguments->overwrite, "Replace an existing file");
   command->add_flag("--json", arguments->json, "As JSON; seconds are those of the solver alone");
   command->footer(
       "A solver that does not converge is a result: it is reported with its residual, and the exit code is "
-      "0.");
+      "0. Where the bed was moving in the step, a sentence says so and compares it with what the run asked.");
   command->callback([arguments] { run(*arguments); });
 }
 

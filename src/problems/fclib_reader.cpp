@@ -67,7 +67,7 @@ class FclibFile {
 /// The groups and data sets that a problem is read from.
 std::vector<DataSetField> problem_fields() {
   std::vector<DataSetField> fields;
-  for (const char* group : {"/fclib_local", "/fclib_local/V", "/fclib_local/R", "/talus"})
+  for (const char* group : {"/fclib_local", "/fclib_local/V", "/fclib_local/R", "/talus", "/talus/run"})
     fields.push_back({group, ElementType::text, {}, {}, {}});
   for (const DataSetField& field : fclib_schema())
     if (field.type != ElementType::text && !field.path.starts_with("/solution/")) fields.push_back(field);
@@ -175,6 +175,7 @@ void read_additions(const FclibFile& file, FclibProblem& problem) {
   const std::size_t bodies = file.read<double>("/talus/bodies/vx").size();
   for (const DataSetField& field : fclib_schema()) {
     if (!field.path.starts_with("/talus/")) continue;
+    if (field.path.starts_with("/talus/run/") && !file.has("/talus/run")) continue;  // of an older Talus
     const std::size_t size = expected_size(field, problem, bodies);
     const std::string why = field.shape == "1"   ? "a single one"
                             : field.shape == "B" ? "one for each body of /talus/bodies/vx"

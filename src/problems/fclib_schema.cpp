@@ -53,6 +53,10 @@ std::vector<DataSetField> make_schema() {
       {"/talus/scales/tilt", float64, "1", "rad", "angle of the bed to the horizontal in this step"},
       {"/talus/scales/mean_diameter", float64, "1", "m", "mean diameter of the free grains, D"},
       {"/talus/scales/weight", float64, "1", "N", "weight of the free grains, per metre of thickness"},
+      {"/talus/run/velocity", float64, "1", "g h",
+       "rms velocity of the free grains before the step, rim velocity included"},
+      {"/talus/run/tolerance", float64, "1", "1", "residual eta that the run asks of this step"},
+      {"/talus/run/tolerance_at_rest", float64, "1", "1", "residual eta that the run asks of a bed at rest"},
   };
 }
 

@@ -39,6 +39,16 @@ constexpr std::array<ScaleField, 5> scale_fields = {{
     {"/talus/scales/weight", &StepScales::weight},
 }};
 
+struct ToleranceField {
+  const char* path;
+  double StepTolerance::*value;
+};
+constexpr std::array<ToleranceField, 3> tolerance_fields = {{
+    {"/talus/run/velocity", &StepTolerance::velocity},
+    {"/talus/run/tolerance", &StepTolerance::asked},
+    {"/talus/run/tolerance_at_rest", &StepTolerance::at_rest},
+}};
+
 constexpr const char* first_body = "/talus/contacts/a";
 constexpr const char* second_body = "/talus/contacts/b";
 
@@ -95,11 +105,24 @@ void check_bodies(const std::string& path, const ContactProblem& problem) {
   }
 }
 
+/// None in files that were written before they told it.
+std::optional<StepTolerance> tolerance_of(const std::string& path, const FclibProblem& file) {
+  if (!file.reals.contains(tolerance_fields[0].path)) return std::nullopt;
+  StepTolerance tolerance;
+  for (const ToleranceField& field : tolerance_fields) {
+    tolerance.*field.value = file.reals.at(field.path)[0];
+    if (tolerance.*field.value < 0.0)
+      throw Error(ExitCode::bad_data, fmt::format("{}: data set {} is negative", path, field.path));
+  }
+  return tolerance;
+}
+
 StepProblem step_problem_of(const std::string& path, const FclibProblem& file,
                             const std::vector<Impulse>& guess) {
   StepProblem step;
   for (const RealField& field : real_fields) step.problem.*field.values = file.reals.at(field.path);
   for (const ScaleField& field : scale_fields) step.scales.*field.value = file.reals.at(field.path)[0];
+  step.tolerance = tolerance_of(path, file);
   step.problem.a = file.integers.at(first_body);
   step.problem.b = file.integers.at(second_body);
   step.problem.mu = file.mu;
@@ -125,6 +148,9 @@ void write_problem(const std::string& path, const StepProblem& step, const std::
   file.guess_r = flat(guess.p);
   for (const RealField& field : real_fields) file.reals[field.path] = step.problem.*field.values;
   for (const ScaleField& field : scale_fields) file.reals[field.path] = {step.scales.*field.value};
+  if (step.tolerance)
+    for (const ToleranceField& field : tolerance_fields)
+      file.reals[field.path] = {(*step.tolerance).*field.value};
   file.integers[first_body] = step.problem.a;
   file.integers[second_body] = step.problem.b;
   write_fclib(path, file, flat(guess.u));

@@ -88,10 +88,18 @@ StepProblem form_step(World& world, const StepSettings& settings, double closed_
   return step;
 }
 
+/// What the run asks of the next step of a world.
+StepTolerance tolerance_of(const World& world, const Scenario& scenario) {
+  const StepSettings settings = step_settings(scenario, world);
+  return {rms_velocity(world.grains) / (world.gravity * settings.h), settings.solver.tolerance,
+          scenario.solver.tolerance};
+}
+
 /// A frame as the start of a step.
 struct FrameStart {
   World world;
   StepSettings settings;
+  StepTolerance tolerance;
   double mean_diameter = 0.0;  ///< m
   double closed_below = 0.0;   ///< m; 0 where positions are not rounded
   double next_tilt = 0.0;      ///< rad
@@ -102,6 +110,7 @@ FrameStart start_at_frame(const RunFile& run, std::size_t k) {
   start.world = world_at_frame(run, k);
   const InForce now = in_force(run, scenario, start.world.step);
   start.settings = step_settings(scenario);
+  start.tolerance = tolerance_of(start.world, scenario);
   start.settings.law.friction = now.friction;
   start.mean_diameter = scenario.grains.mean_diameter;
   if (start.world.step != run.checkpoint().world.step) start.closed_below = gap_resolution(start.world);
@@ -136,7 +145,10 @@ StepProblem problem_after_frame(const RunFile& run, std::size_t k) {
   FrameStart start = start_at_frame(run, k);
   start.world.tilt = start.next_tilt;
   Contacts contacts;
-  return form_step(start.world, start.settings, start.closed_below, start.mean_diameter, contacts);
+  StepProblem step =
+      form_step(start.world, start.settings, start.closed_below, start.mean_diameter, contacts);
+  step.tolerance = start.tolerance;
+  return step;
 }
 
 FrozenBed freeze(World world, const StepSettings& settings, double mean_diameter) {

@@ -1,6 +1,8 @@
 #pragma once
 /// The contact problem of the step that follows a stored frame, formed again from the run file.
 
+#include <optional>
+
 #include "dynamics/step.h"
 #include "io/run_file.h"
 #include "scenario/scenario.h"
@@ -16,10 +18,18 @@ struct StepScales {
   double weight = 0.0;         ///< of the free grains, N per metre of thickness
 };
 
+/// How well a run wants a step to be solved, which depends on how fast the bed moves (session/session.h).
+struct StepTolerance {
+  double velocity = 0.0;  ///< rms of the free grains before the step, over g h
+  double asked = 0.0;     ///< residual eta that the run asks of this step
+  double at_rest = 0.0;   ///< residual eta that it asks of a bed at rest
+};
+
 struct StepProblem {
   ContactProblem problem;
   ContactSolution guess;  ///< impulses of the force memory, and the velocities that they give
   StepScales scales;
+  std::optional<StepTolerance> tolerance;  ///< of the run; none where no run asks for one
 };
 
 /// The world at frame k: from the checkpoint, to the last bit, where that is the same step; else from the

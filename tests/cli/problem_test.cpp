@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 
 #include "process.h"
 
@@ -62,6 +63,35 @@ TEST_F(Problem, is_solved_from_the_guess_and_from_zero) {
     }
 }
 
+TEST_F(Problem, is_solved_to_what_the_run_asked_unless_told_otherwise) {
+  const Outcome as_run = talus({"solve", "p.h5", "--json"});
+  EXPECT_EQ(json_value(as_run.out, "tolerance"), "3e-07");
+  EXPECT_EQ(json_value(as_run.out, "asked_by"), "run");
+  EXPECT_EQ(json_value(as_run.out, "run_tolerance"), "3e-07") << "the bed is at rest";
+  EXPECT_LT(std::stod(json_value(as_run.out, "bed_velocity")), 0.003);
+  EXPECT_EQ(json_value(talus({"solve", "p.h5", "--tol", "1e-5", "--json"}).out, "asked_by"), "option");
+  const Outcome text = talus({"solve", "p.h5"});
+  EXPECT_NE(text.out.find("(converged, asked for 3.0e-07 by the run)"), std::string::npos) << text.out;
+  EXPECT_EQ(text.out.find("moving"), std::string::npos) << text.out;
+}
+
+TEST_F(Problem, of_a_file_that_tells_no_tolerance_is_solved_to_the_default) {
+  if (!has_h5py()) GTEST_SKIP() << "python3-h5py is not installed";
+  const std::pair<const char*, const char*> cases[] = {{"older", "bodies"}, {"rows", "local"}};
+  for (const auto& [how, form] : cases) {
+    if (!h5py(std::string("change p.h5 other.h5 ") + how, folder)) return;
+    const Outcome outcome = talus({"solve", "other.h5", "--json"});
+    ASSERT_EQ(outcome.exit_code, 0) << how << ": " << outcome.err;
+    EXPECT_EQ(json_value(outcome.out, "form"), form);
+    EXPECT_EQ(json_value(outcome.out, "tolerance"), "1e-06");
+    EXPECT_EQ(json_value(outcome.out, "asked_by"), "default");
+    EXPECT_EQ(json_value(outcome.out, "bed_velocity"), "null");
+    const std::string text = talus({"solve", "other.h5"}).out;
+    EXPECT_NE(text.find("asked for 1.0e-06 by default)"), std::string::npos) << text;
+    EXPECT_EQ(text.find("moving"), std::string::npos) << text;
+  }
+}
+
 TEST_F(Problem, that_does_not_converge_is_a_result) {
   const Outcome outcome = talus({"solve", "p.h5", "--cold", "--max-iterations", "3"});
   EXPECT_EQ(outcome.exit_code, 0);
@@ -112,6 +142,7 @@ TEST_F(Problem, that_is_spoilt_is_refused_with_the_place) {
       {"text", "/fclib_local/vectors/mu does not hold numbers"},
       {"order", "/fclib_local/W/p does not ascend"},
       {"bodies", "/talus/bodies/lever is missing"},
+      {"tolerance", "/talus/run/tolerance is missing"},
   };
   for (const auto& [how, message] : cases) {
     if (!h5py(std::string("change p.h5 bad.h5 ") + how, folder)) return;
@@ -139,6 +170,82 @@ TEST_F(Problem, refusals_leave_with_the_code_of_their_cause) {
   EXPECT_EQ(talus({"dump", "bed.h5", "--frame", "0", "-o", "p.h5"}).exit_code, 73);
   EXPECT_EQ(talus({"dump", "bed.h5", "--at", "0.5", "-o", "p.h5", "--overwrite"}).exit_code, 0);
   EXPECT_FALSE(std::filesystem::exists(folder.path("x.h5")));
+}
+
+/// The same bed when it has just failed.
+class MovingBed : public testing::Test {
+ protected:
+  void SetUp() override {
+    write_file(folder, "bed.toml",
+               "seed = 1\n[bed]\nlength = 12\ndepth = 5\n[tilt]\nstep = 0.01\n[output]\nframe_every = 1\n");
+    ASSERT_EQ(talus({"run", "bed.toml", "-o", "bed.h5"}).exit_code, 0);
+    const std::string frames = json_value(talus({"info", "bed.h5", "--json"}).out, "frames");
+    const std::string last = std::to_string(std::stoi(frames) - 1);
+    ASSERT_EQ(talus({"dump", "bed.h5", "--frame", last, "-o", "p.h5"}).exit_code, 0);
+  }
+  Outcome talus(const std::vector<std::string>& arguments) { return run_talus(arguments, folder.path()); }
+
+  TemporaryFolder folder;
+};
+
+TEST_F(MovingBed, is_named_with_the_tolerances_that_a_solve_has_reached) {
+  const Outcome as_run = talus({"solve", "p.h5", "--json"});
+  ASSERT_EQ(as_run.exit_code, 0) << as_run.err;
+  EXPECT_GT(std::stod(json_value(as_run.out, "bed_velocity")), 0.1);
+  EXPECT_GT(std::stod(json_value(as_run.out, "run_tolerance")), 1e-5);
+  EXPECT_EQ(json_value(as_run.out, "run_tolerance_at_rest"), "3e-07");
+  EXPECT_EQ(json_value(as_run.out, "tolerance"), json_value(as_run.out, "run_tolerance"));
+  EXPECT_EQ(json_value(as_run.out, "converged"), "true");
+
+  const std::pair<std::vector<std::string>, const char*> cases[] = {
+      {{}, "this solve has reached only the first."},
+      {{"--tol", "1e-7"}, "this solve has reached both of them."},
+      {{"--cold", "--max-iterations", "3"}, "this solve has reached neither of them."},
+  };
+  for (const auto& [options, end] : cases) {
+    std::vector<std::string> arguments = {"solve", "p.h5"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const Outcome outcome = talus(arguments);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("The bed was moving in this step, at "), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find(end), std::string::npos) << outcome.out;
+  }
+}
+
+/// The commands of a page that dump or solve a problem, in words, without their comments.
+std::vector<std::vector<std::string>> problem_commands(const std::string& page) {
+  std::ifstream file(std::string(TALUS_SOURCE_DIR "/") + page);
+  std::vector<std::vector<std::string>> found;
+  for (std::string line; std::getline(file, line);) {
+    std::istringstream text(line.substr(0, line.find('#')));
+    std::string program;
+    text >> program;
+    const std::vector<std::string> words{std::istream_iterator<std::string>(text), {}};
+    const bool is_talus = program == "talus" || program.ends_with("/talus");
+    if (is_talus && !words.empty() && (words[0] == "dump" || words[0] == "solve")) found.push_back(words);
+  }
+  return found;
+}
+
+// In this bed the step at 10 deg is one at rest that does not come to 3e-7 from zero.
+TEST(ProblemExamples, of_the_documents_end_as_they_say) {
+  const TemporaryFolder folder;
+  write_file(folder, "bed.toml",
+             "seed = 4\n[bed]\nlength = 30\ndepth = 10\n[tilt]\nstep = 0.01\nend_angle = 10.5\n");
+  ASSERT_EQ(run_talus({"run", "bed.toml", "-o", "RUN.h5"}, folder.path()).exit_code, 0);
+  std::filesystem::create_directory(folder.path("runs"));
+  std::filesystem::copy(folder.path("RUN.h5"), folder.path("runs/paper.h5"));
+  for (const char* page : {"README.md", "docs/problem_files.md"}) {
+    const std::vector<std::vector<std::string>> commands = problem_commands(page);
+    EXPECT_GE(commands.size(), 2u) << page;
+    for (const std::vector<std::string>& command : commands) {
+      const Outcome outcome = run_talus(command, folder.path());
+      EXPECT_EQ(outcome.exit_code, 0) << page << ": " << outcome.err;
+      if (command[0] != "solve") continue;
+      EXPECT_NE(outcome.out.find("(converged, "), std::string::npos) << page << ":\n" << outcome.out;
+    }
+  }
+  EXPECT_TRUE(std::filesystem::exists(folder.path("SOLVED.h5")));
 }
 
 }  // namespace

@@ -100,6 +100,8 @@ def change(source, target, how):
             to_form(file, how)
         if how in ("rows", "columns", "triplets", "plain"):
             del file["talus"]
+        elif how == "older":
+            del file["talus/run"]
         elif how == "space":
             replace(file, "fclib_local/spacedim", [3])
         elif how == "no-problem":
@@ -122,6 +124,8 @@ def change(source, target, how):
             file["fclib_local/W/p"][2] = 1 << 20
         elif how == "bodies":
             del file["talus/bodies/lever"]
+        elif how == "tolerance":
+            del file["talus/run/tolerance"]
 
 
 if sys.argv[1] == "check":

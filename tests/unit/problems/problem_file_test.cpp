@@ -89,6 +89,28 @@ TEST(ProblemFile, holds_the_local_form_of_the_step) {
   EXPECT_EQ(std::memcmp(found.q.data(), expected.q.data(), found.q.size() * sizeof(RelativeVelocity)), 0);
 }
 
+TEST(ProblemFile, keeps_what_the_run_asks_of_the_step) {
+  const test::TemporaryFolder folder;
+  StepProblem step = falling_bed();
+  write_problem(folder.path("p.h5"), step, "of an older Talus");
+  EXPECT_FALSE(read_problem(folder.path("p.h5")).step->tolerance.has_value());
+  step.tolerance = {0.25, 2.5e-5, 3e-7};
+  write_problem(folder.path("p.h5"), step, "");
+  const StoredProblem stored = read_problem(folder.path("p.h5"));
+  ASSERT_TRUE(stored.step->tolerance.has_value());
+  EXPECT_EQ(stored.step->tolerance->velocity, 0.25);
+  EXPECT_EQ(stored.step->tolerance->asked, 2.5e-5);
+  EXPECT_EQ(stored.step->tolerance->at_rest, 3e-7);
+}
+
+TEST(ProblemFile, a_negative_tolerance_is_refused) {
+  const test::TemporaryFolder folder;
+  StepProblem step = falling_bed();
+  step.tolerance = {0.25, -2.5e-5, 3e-7};
+  write_problem(folder.path("p.h5"), step, "");
+  EXPECT_THROW(read_problem(folder.path("p.h5")), Error);
+}
+
 TEST(ProblemFile, bodies_that_solvers_cannot_take_are_refused) {
   const test::TemporaryFolder folder;
   StepProblem step = falling_bed();
@@ -122,6 +144,21 @@ TEST(StepProblem, of_the_last_frame_is_that_of_the_next_step) {
   expect_same_bits(step.problem.vx, workspace.problem.vx);
   expect_same_bits(step.problem.cn, workspace.problem.cn);
   expect_same_bits(step.guess.pn, workspace.solution.pn);
+}
+
+// The tolerance of a step is that of the velocities before it, as in the run.
+TEST(StepProblem, has_the_tolerance_that_the_run_asks) {
+  const test::TemporaryFolder folder;
+  const RunFile run = RunFile::open(tiny_run(folder));
+  const Scenario scenario = parse_scenario(tiny_bed, "tiny.toml");
+  for (const std::size_t k : {1u, 2u}) {
+    const World world = world_at_frame(run, k);
+    const StepProblem step = problem_after_frame(run, k);
+    ASSERT_TRUE(step.tolerance.has_value());
+    EXPECT_EQ(step.tolerance->velocity, rms_velocity(world.grains) / (world.gravity * step.scales.h));
+    EXPECT_EQ(step.tolerance->asked, step_settings(scenario, world).solver.tolerance);
+    EXPECT_EQ(step.tolerance->at_rest, scenario.solver.tolerance);
+  }
 }
 
 // The step after frame 1 was taken by the run: its forces are those of frame 2, up to the error of the

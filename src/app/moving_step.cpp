@@ -1,0 +1,26 @@
+#include "app/moving_step.h"
+
+#include <fmt/core.h>
+
+namespace talus {
+
+namespace {
+
+/// As the solvers judge it (solver/solve.cpp).
+bool reached(double eta, double tolerance) { return eta <= tolerance * (1.0 + 1e-9); }
+
+}  // namespace
+
+bool is_moving(const StepTolerance& of_run) { return of_run.asked > of_run.at_rest; }
+
+std::string remark_on_moving(const StepTolerance& of_run, double eta) {
+  const char* which = reached(eta, of_run.at_rest) ? "both of them"
+                      : reached(eta, of_run.asked) ? "only the first"
+                                                   : "neither of them";
+  return fmt::format(
+      "The bed was moving in this step, at {:.2g} g h (rms), so the run asked for {:.1e} and not for the "
+      "{:.1e} of a bed at rest; this solve has reached {}.",
+      of_run.velocity, of_run.asked, of_run.at_rest, which);
+}
+
+}  // namespace talus
