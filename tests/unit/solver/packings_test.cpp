@@ -92,5 +92,23 @@ TEST_P(Packing, the_same_problem_has_the_same_bits) {
   }
 }
 
+// What a workspace keeps for the same contacts is not used where anything else has changed.
+TEST_P(Packing, the_same_contacts_of_other_bodies_have_the_same_bits) {
+  const test::FrozenStep frozen = packing(static_cast<std::uint64_t>(GetParam()));
+  const SolverSettings settings = settings_of(SolverKind::accelerated, 1e-8, 100);
+  for (auto field : {&ContactProblem::mu, &ContactProblem::inverse_mass, &ContactProblem::inverse_inertia,
+                     &ContactProblem::lever}) {
+    ContactProblem other = frozen.problem;
+    for (double& value : other.*field) value *= 0.9;
+    SolverWorkspace fresh, used;
+    ContactSolution first = frozen.guess, second = frozen.guess, before = frozen.guess;
+    solve(other, settings, fresh, first);
+    solve(frozen.problem, settings, used, before);
+    solve(other, settings, used, second);
+    EXPECT_EQ(first.pn, second.pn);
+    EXPECT_EQ(first.omega, second.omega);
+  }
+}
+
 }  // namespace
 }  // namespace talus

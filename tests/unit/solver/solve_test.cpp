@@ -105,6 +105,23 @@ TEST_P(Solve, contacts_that_share_only_fixed_bodies_do_not_feel_each_other) {
   for (Index i = 0; i < 40; ++i) EXPECT_NEAR(solution.pn[i], 1.0 + i, 1e-9);
 }
 
+// A disk that is hit gets so fast that it would run beyond the gap to a fixed one, though it was at rest, and
+// the gap closes at 3 m/s only: that contact is not among those swept at first.
+TEST_P(Solve, a_contact_that_closes_late_is_found) {
+  ContactProblem problem;
+  test::add_body(problem, 1.0, 0.1, 10.0, 0.0, 0.0);
+  test::add_body(problem, 1.0, 0.1, 0.0, 0.0, 0.0);
+  test::add_body(problem, 0.0, 0.1, 0.0, 0.0, 0.0);
+  test::add_contact(problem, 0, 1, 1.0, 0.0, 0.5);
+  test::add_contact(problem, 1, 2, 1.0, 0.0, 0.5, 3.0);
+  ContactSolution solution = test::no_guess(problem);
+  EXPECT_TRUE(solve_to(problem, solution, 1e-12).converged);
+  EXPECT_NEAR(solution.vx[0], 3.0, 1e-10);
+  EXPECT_NEAR(solution.vx[1], 3.0, 1e-10);
+  EXPECT_NEAR(solution.pn[0], 7.0, 1e-10);
+  EXPECT_NEAR(solution.pn[1], 4.0, 1e-10);
+}
+
 // n disks stopped in a row by a fixed one: contact k carries the momentum of all behind it.
 TEST_P(Solve, a_row_of_disks_adds_up_its_momentum) {
   ContactProblem problem;
