@@ -210,9 +210,9 @@ void ensure_team(const ContactProblem& problem, AcceleratedWorkspace& w, int thr
   w.choice = {};
 }
 
-/// What a solve costs beside its iterations, in iterations: 0.5 ms to 0.043 ms for the paper's bed on one
-/// core.
-constexpr int iterations_for_the_rest = 11;
+/// What a solve costs beside its iterations, in iterations: some 35 ns for each contact, to 2 ns of an
+/// iteration.
+constexpr int iterations_for_the_rest = 17;
 
 }  // namespace
 
