@@ -114,6 +114,10 @@ std::optional<StepTolerance> tolerance_of(const std::string& path, const FclibPr
     if (tolerance.*field.value < 0.0)
       throw Error(ExitCode::bad_data, fmt::format("{}: data set {} is negative", path, field.path));
   }
+  for (const double asked : {tolerance.asked, tolerance.at_rest})
+    if (!(asked > 0.0))
+      throw Error(ExitCode::bad_data,
+                  fmt::format("{}: a tolerance in /talus/run is 0: no solve reaches that", path));
   return tolerance;
 }
 

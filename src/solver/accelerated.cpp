@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <utility>
 
 namespace talus {
 namespace {
@@ -91,6 +92,7 @@ struct TeamMember {
   ExactResidual begin() {
     load_contacts(problem, solution, first_block, last_block, at);
     wait_for_all();
+    if (member == 0) at.are_loaded = true;
     return look();
   }
 
@@ -102,28 +104,35 @@ struct TeamMember {
     return exact_residual(at);
   }
 
-  void begin_sweeps() {
+  /// False where memory is missing: all members see it, and return.
+  bool begin_sweeps() {
     choose_swept(problem, first_block, last_block, at);
-    load_sweeps();
+    return load_sweeps();
   }
 
-  void sweep_more() {
+  bool sweep_more() {
     add_pressed(problem, first_block, last_block, at);
-    load_sweeps();
+    return load_sweeps();
   }
 
-  void load_sweeps() {
+  bool load_sweeps() {
     wait_for_all();
-    if (member == 0) {
-      order_contacts(problem, at);
-      w.sums.assign(static_cast<std::size_t>(at.order.part_count()), {});
-    }
+    // The others wait: an exception that passed them by would leave them waiting for ever.
+    if (member == 0) try {
+        order_contacts(problem, at);
+        w.sums.assign(static_cast<std::size_t>(at.order.part_count()), {});
+      } catch (...) {
+        at.ordered_swept.clear();  // its groups are not loaded
+        w.failure = std::current_exception();
+      }
     wait_for_all();
+    if (w.failure) return false;
     first_row = part_begin(at.order.row_count, member, size);
     last_row = part_begin(at.order.row_count, member + 1, size);
     clear_rows(first_row, last_row, at);
     load_groups(problem, first_block, last_block, at);
     wait_for_all();
+    return true;
   }
 
   /// P0 becomes the present P; returns its residual.
@@ -175,7 +184,7 @@ AcceleratedOutcome solve_part(TeamMember& member, double tolerance, int max_iter
   if (!at.cold) momentum.theta = first_theta_warm;
   double aim = hopeful * tolerance;
   int interval = at.cold ? first_renewal_cold : sweeps_to_renewal;
-  member.begin_sweeps();
+  if (!member.begin_sweeps()) return outcome;
   for (;;) {
     double estimate = 0.0;
     const int renewal = std::min(max_iterations, outcome.iterations + interval);
@@ -194,7 +203,7 @@ AcceleratedOutcome solve_part(TeamMember& member, double tolerance, int max_iter
     else if (at.pressed == 0)
       aim = cautious * tolerance * std::min(hopeful, estimate / at.residual.eta);
     if (at.pressed > 0) {
-      member.sweep_more();
+      if (!member.sweep_more()) return outcome;
       momentum = {};
     } else {
       member.go_on();
@@ -236,6 +245,7 @@ AcceleratedOutcome solve_accelerated(const ContactProblem& problem, double toler
     team.run([&](int member) { take_part(&team, member); });
   else
     take_part(nullptr, 0);
+  if (workspace.failure) std::rethrow_exception(std::exchange(workspace.failure, nullptr));
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
   if (team.size() > 1)
     workspace.choice.add(taken.count(), static_cast<double>(problem.contact_count()) *

@@ -2,6 +2,7 @@
 /// The accelerated solver: Gauss-Seidel sweeps with Nesterov's momentum (T16), in groups of contacts that
 /// share no body, so that a sweep vectorises and runs on any number of threads with the same bits.
 
+#include <exception>
 #include <memory>
 
 #include "solver/linearisation.h"
@@ -17,7 +18,8 @@ struct AcceleratedWorkspace {
   Linearisation linearisation;
   std::vector<SweepSums> sums;  ///< one for each part of the sweep
   std::unique_ptr<ThreadTeam> team;
-  TeamChoice choice;  ///< between the team and its first member alone
+  TeamChoice choice;           ///< between the team and its first member alone
+  std::exception_ptr failure;  ///< what ended the work of a member, for the caller of the team
 };
 
 struct AcceleratedOutcome {

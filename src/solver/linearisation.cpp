@@ -40,13 +40,9 @@ bool is_linked(const ContactProblem& problem, const ContactProblem& linked) {
 /// The contacts of each body: as a they are consecutive, as b they are listed.
 void link(const ContactProblem& problem, Linearisation& w) {
   const auto bodies = static_cast<std::size_t>(problem.body_count());
-  w.are_new = w.first_a.size() != bodies + 1 || !is_linked(problem, w.linked);
+  w.are_new = !w.are_loaded || w.first_a.size() != bodies + 1 || !is_linked(problem, w.linked);
   if (!w.are_new) return;
-  for (auto field : {&ContactProblem::inverse_mass, &ContactProblem::inverse_inertia, &ContactProblem::lever,
-                     &ContactProblem::mu})
-    w.linked.*field = problem.*field;
-  w.linked.a = problem.a;
-  w.linked.b = problem.b;
+  w.are_loaded = false;
   w.ordered_swept.clear();
   w.moves.resize(bodies);
   for (std::size_t i = 0; i < bodies; ++i)
@@ -66,6 +62,11 @@ void link(const ContactProblem& problem, Linearisation& w) {
     w.as_b[w.first_b[problem.b[c]]++] = static_cast<Index>(c);
   for (std::size_t i = bodies; i > 0; --i) w.first_b[i] = w.first_b[i - 1];
   w.first_b[0] = 0;
+  for (auto field : {&ContactProblem::inverse_mass, &ContactProblem::inverse_inertia, &ContactProblem::lever,
+                     &ContactProblem::mu})
+    w.linked.*field = problem.*field;
+  w.linked.b = problem.b;
+  w.linked.a = problem.a;
 }
 
 /// In four strands: one would wait for each addition.
@@ -208,13 +209,13 @@ void clear_groups(Index bodies, Linearisation& w) {
 
 void prepare(const ContactProblem& problem, const ContactSolution& guess, Linearisation& w) {
   const auto contacts = static_cast<std::size_t>(problem.contact_count());
-  link(problem, w);
-  choose_units(problem, guess, w);
   w.exact_velocity.resize(static_cast<std::size_t>(problem.body_count()));
   w.exact_force.resize(contacts);
   for (auto* field : {&w.pn, &w.pt, &w.un, &w.ut, &w.wn, &w.wt}) field->resize(contacts);
   w.swept.resize(contacts);
   w.sums.resize((contacts + contacts_per_block - 1) / contacts_per_block);
+  link(problem, w);
+  choose_units(problem, guess, w);
 }
 
 void load_contacts(const ContactProblem& problem, const ContactSolution& guess, Index first_block,
@@ -261,11 +262,12 @@ void order_contacts(const ContactProblem& problem, Linearisation& w) {
   if (static_cast<double>(chosen) > nearly_all * problem.contact_count()) std::ranges::fill(w.swept, 1);
   w.have_new_order = w.ordered_swept.empty() || w.ordered_swept != w.swept;
   if (!w.have_new_order) return;
+  w.ordered_swept.clear();
   order_sweep(problem, w.first_a, w.moves, w.swept, w.order);
-  w.ordered_swept = w.swept;
   clear_groups(problem.body_count(), w);
   const auto rows = static_cast<std::size_t>(w.order.row_count);
   for (auto* field : {&w.velocity, &w.before}) field->assign(rows, {});
+  w.ordered_swept = w.swept;
 }
 
 void load_groups(const ContactProblem& problem, Index first_block, Index last_block, Linearisation& w) {
@@ -338,7 +340,7 @@ ExactResidual exact_residual(const Linearisation& w) {
     sum.largest = std::max(sum.largest, block.largest);
     all.pressed += pressed;
   }
-  if (!(sum.scale() > 0.0)) return all;
+  if (sum.scale() == 0.0) return all;
   all.residual = sum.residual();
   all.norm = std::sqrt(sum.scale()) / w.impulse_unit;
   all.cold = !(sum.impulse > 0.0);

@@ -45,7 +45,8 @@ struct Linearisation {
   ContactProblem linked;                    ///< without velocities, normals and c
   std::vector<std::uint8_t> ordered_swept;  ///< what the order was made for; empty: none
   bool are_new = true;                      ///< contacts or bodies are not those of the last problem
-  bool have_new_order = true;               ///< nothing that was loaded into groups can stay
+  bool are_loaded = false;     ///< what follows from contacts and bodies is there; not after a failure
+  bool have_new_order = true;  ///< nothing that was loaded into groups can stay
   /// Units of the single precision: impulse (N s), and velocity (m/s) that it gives a mean body.
   double impulse_unit = 1.0, velocity_unit = 1.0, mobility_unit = 1.0;
 };

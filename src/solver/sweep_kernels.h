@@ -21,9 +21,10 @@ struct alignas(16) Row {
 inline constexpr int lane_count = 8;
 using Lane = float[lane_count];
 
-/// Eight contacts, no two of which share a body, around the impulses P0 at which the problem was linearised,
-/// in the units of the solve. The increment p = P - P0 is what the sweeps look for: in single precision, it
-/// can be found to any digit. A lane without a contact is all zero, between rows that do not move.
+/// Eight contacts, no two of which share a body that moves, around the impulses P0 at which the problem was
+/// linearised, in the units of the solve. The increment p = P - P0 is what the sweeps look for: in single
+/// precision, it can be found to any digit. A lane without a contact is all zero, between rows that do not
+/// move.
 struct alignas(64) ContactGroup {
   Lane nx, ny;
   Lane un, ut;        ///< relative velocity at P0
@@ -31,15 +32,15 @@ struct alignas(64) ContactGroup {
   Lane below, above;  ///< -mu P0_n - P0_t and mu P0_n - P0_t: the contact slides there, but for mu p_n
   Lane mu;
   Lane wn, wt;  ///< inverse of the Delassus diagonal, times the relaxation
-  Lane mass_a,
-      spin_a;  ///< mobilities of the bodies: what a unit impulse in the axes of the bed adds to x and
-  Lane mass_b, spin_b;                         ///< y, and P_t to the spin; mass_a and both spins are negative
+  // Mobilities of the bodies: what a unit impulse in the axes of the bed adds to x and y, and P_t to the
+  // spin; mass_a and both spins are negative.
+  Lane mass_a, spin_a, mass_b, spin_b;
   std::uint32_t a[lane_count], b[lane_count];  ///< where the rows of the two bodies begin, bytes
 };
 
-/// So many groups are swept side by side: none of their contacts share a body. A processor cannot tell soon
-/// enough that what it reads for a group is not what it is about to write for the one before, so that groups
-/// one by one would wait for each other.
+/// So many groups are swept side by side: none of their contacts share a body that moves. A processor cannot
+/// tell soon enough that what it reads for a group is not what it is about to write for the one before, so
+/// that groups one by one would wait for each other.
 inline constexpr int groups_abreast = 2;
 
 /// Impulses of eight contacts.

@@ -15,9 +15,8 @@ namespace talus {
 ///   - bodies are cut into domains of consecutive bodies with about as many contacts each;
 ///   - a sweep has three phases: even domains with the contacts between them and their odd neighbours; odd
 ///     domains; what is left. The parts of a phase share no body that moves, so they can be swept at once;
-///   - within a part, contacts go in groups of eight, a few of them side by side, that share no body that
-///   moves;
-///     each goes in the first that has room.
+///   - within a part, contacts go in groups of eight, a few groups side by side, that share no body that
+///     moves; each contact goes in the first group that has room.
 /// All of this follows from the problem alone, so that the bits of a result do not depend on threads.
 struct SweepOrder {
   static constexpr int phases = 3;

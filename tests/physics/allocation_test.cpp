@@ -12,15 +12,20 @@
 namespace {
 
 std::atomic<long> allocations = 0;
+std::atomic<long> until_one_fails = 0;  ///< 1: the next one fails; 0: none does
+
+bool fails() { return until_one_fails > 0 && --until_one_fails == 0; }
 
 void* counted(std::size_t size) {
   ++allocations;
+  if (fails()) throw std::bad_alloc();
   if (void* memory = std::malloc(size > 0 ? size : 1)) return memory;
   throw std::bad_alloc();
 }
 
 void* counted(std::size_t size, std::align_val_t alignment) {
   ++allocations;
+  if (fails()) throw std::bad_alloc();
   const auto unit = static_cast<std::size_t>(alignment);
   if (void* memory = std::aligned_alloc(unit, (size + unit - 1) / unit * unit)) return memory;
   throw std::bad_alloc();
@@ -81,6 +86,41 @@ TEST_P(Allocation, a_steady_step_allocates_nothing) {
     EXPECT_EQ(allocations_of_steps(world, settings, workspace, 50), 0);
     EXPECT_GE(workspace.neighbours.rebuilds, rebuilds + 10);
   }
+}
+
+// Whichever allocation of a solve fails, both threads come back, and the workspace can be used again.
+TEST(FailingAllocation, of_two_threads_ends_the_solve_and_leaves_the_workspace_usable) {
+  const StepSettings settings = test::bed_step(1e-3);
+  const World world = test::fallen_bed(test::bed_plan(true, 1600, 100, 5), settings, 400);
+  const auto [contacts, problem, guess] = test::next_problem(world, settings);
+  ASSERT_GT(problem.contact_count(), 2500);
+  SolverSettings solver;
+  solver.threads = 2;
+  solver.tolerance = 1e-9;
+  solver.max_iterations = 20;
+  SolverWorkspace fresh;
+  ContactSolution expected = guess;
+  solve(problem, solver, fresh, expected);
+  int failed = 0;
+  for (long k = 1; k < 1000; ++k) {
+    SCOPED_TRACE(k);
+    SolverWorkspace workspace;
+    ContactSolution solution = guess;
+    until_one_fails = k;
+    bool ended = true;
+    try {
+      solve(problem, solver, workspace, solution);
+    } catch (const std::bad_alloc&) {
+      ended = false;
+    }
+    until_one_fails = 0;
+    ContactSolution again = guess;
+    solve(problem, solver, workspace, again);
+    EXPECT_EQ(again.pn, expected.pn);
+    if (ended) break;
+    ++failed;
+  }
+  EXPECT_GT(failed, 30);
 }
 
 }  // namespace
