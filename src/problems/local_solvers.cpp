@@ -4,32 +4,10 @@
 #include <cmath>
 
 #include "solver/local_law.h"
+#include "solver/momentum.h"
 
 namespace talus {
 namespace {
-
-// Sliding makes the problem non-associated: the change of a sweep can grow along the momentum. When it has
-// grown by this much above the least since the last restart, the momentum is dropped.
-constexpr double tolerated_growth = 1.1;
-
-/// Nesterov's sequence with adaptive restart (O'Donoghue and Candes 2015).
-struct SweepMomentum {
-  double theta = 1.0;
-  double beta = 0.0;
-  double least_change = INFINITY;  ///< since the last restart
-
-  void update(double change, double ascent) {
-    least_change = std::min(least_change, change);
-    if (ascent > 0.0 || change > tolerated_growth * least_change) {
-      *this = {};
-      return;
-    }
-    const double square = theta * theta;
-    const double next = 0.5 * (std::sqrt(square * square + 4.0 * square) - square);
-    beta = theta * (1.0 - theta) / (square + next);
-    theta = next;
-  }
-};
 
 struct LocalSums {
   double change = 0.0;   ///< || P_new - Y ||^2
@@ -81,7 +59,7 @@ SolverReport solve(const LocalProblem& problem, const SolverSettings& settings, 
   const std::vector<LocalContact> contacts = local_contacts(problem);
   std::vector<Impulse>& p = solution.p;
   std::vector<Impulse> y = p;
-  SweepMomentum momentum;
+  Momentum momentum;
   SolverReport report;
   report.residual = look_at(problem, solution);
   // The residual costs as much as a sweep, so it is looked at now and then.

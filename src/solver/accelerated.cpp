@@ -5,13 +5,11 @@
 #include <cmath>
 #include <utility>
 
+#include "solver/momentum.h"
+
 namespace talus {
 namespace {
 
-// Sliding makes the problem non-associated: the residual can grow along the momentum, and where closed
-// contacts ask for velocities that no motion has, forces drift along a self-stress, with momentum ever
-// faster. While the change of a sweep is by so much above its least, there is no momentum.
-constexpr double tolerated_growth = 1.3;
 // P0 is renewed after so many sweeps at the latest, as velocities in single precision gather their rounding
 // errors sweep by sweep; without a guess sooner at first, as || P || grows from nothing.
 constexpr int sweeps_to_renewal = 128;
@@ -23,29 +21,6 @@ constexpr double hopeful = 1.1;
 constexpr double cautious = 0.85;
 // With a guess, what is left is smooth: the momentum begins near its largest.
 constexpr double first_theta_warm = 0.07;
-
-/// Decides after each sweep how to go on. Every thread keeps its own copy and comes to the same decision.
-struct Momentum {
-  double theta = 1.0;
-  double beta = 0.0;
-  double best = 0.0;  ///< least change of a sweep
-
-  void restart() {
-    theta = 1.0;
-    beta = 0.0;
-  }
-
-  /// Nesterov's sequence with adaptive restart (T16). `change` is that of a sweep.
-  void update(double change, double ascent) {
-    best = best > 0.0 ? std::min(best, change) : change;
-    const bool growing = change > tolerated_growth * best;
-    if (ascent > 0.0 || growing) return restart();
-    const double square = theta * theta;
-    const double next = 0.5 * (std::sqrt(square * square + 4.0 * square) - square);
-    beta = theta * (1.0 - theta) / (square + next);
-    theta = next;
-  }
-};
 
 SweepSums add_parts(const std::vector<SweepSums>& parts) {
   SweepSums sum;
@@ -172,9 +147,10 @@ struct TeamMember {
   }
 };
 
-/// The part of the work of one member of the team; all members return the same outcome.
-/// || p_new - y || / (step || P ||) of a sweep stands in for the residual between renewals: it costs nothing,
-/// and tells when a look at the residual itself is worth its price. Only that decides.
+/// The part of the work of one member of the team. Each keeps a momentum of its own, and all come to the same
+/// decisions and return the same outcome. || p_new - y || / || P || of a sweep stands in for the residual
+/// between renewals: it costs nothing, and tells when a look at the residual itself is worth its price. Only
+/// that decides.
 AcceleratedOutcome solve_part(TeamMember& member, double tolerance, int max_iterations) {
   AcceleratedOutcome outcome;
   ExactResidual at = member.begin();

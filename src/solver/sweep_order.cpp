@@ -73,21 +73,14 @@ void make_places(const std::vector<std::uint8_t>& swept, Index parts, SweepOrder
   order.fill.assign(places, 0);
 }
 
-}  // namespace
-
-void order_sweep(const ContactProblem& problem, const std::vector<Index>& first_a,
-                 const std::vector<std::uint8_t>& moves, const std::vector<std::uint8_t>& swept,
-                 SweepOrder& order) {
-  const auto contacts = static_cast<std::size_t>(problem.contact_count());
-  const Index bodies = problem.body_count(), domains = domains_for(problem.contact_count());
-  const Index parts = domains + 1;
-  share_out(problem, first_a, moves, swept, domains, order);
-  make_places(swept, parts, order);
-
+/// Puts each contact, in their order, into the first place with room after all that share a body with it, and
+/// gives it a slot, counted from the first place of its part.
+void take_places(const ContactProblem& problem, const std::vector<std::uint8_t>& moves,
+                 const std::vector<std::uint8_t>& swept, SweepOrder& order) {
+  const Index bodies = problem.body_count();
   // Places are counted from the first of a part: a body that the part has not met waits for none.
   for (auto& next : order.next_place) next.assign(static_cast<std::size_t>(bodies), 0);
-  for (auto* field : {&order.slot, &order.row_a, &order.row_b}) field->resize(contacts);
-  for (std::size_t c = 0; c < contacts; ++c) {
+  for (std::size_t c = 0; c < swept.size(); ++c) {
     if (!swept[c]) continue;
     const Index part = order.part[c], a = problem.a[c], b = problem.b[c];
     const int phase = part < order.phase_begin[1] ? 0 : part < order.phase_begin[2] ? 1 : 2;
@@ -102,16 +95,32 @@ void order_sweep(const ContactProblem& problem, const std::vector<Index>& first_
     order.row_a[c] = moves[a] ? a : SweepOrder::still_row(bodies, part, 0, lane % lane_count);
     order.row_b[c] = moves[b] ? b : SweepOrder::still_row(bodies, part, 1, lane % lane_count);
   }
+}
 
+/// Leaves out the places that stay empty: the last ones of each part.
+void close_ranks(const std::vector<std::uint8_t>& swept, Index parts, SweepOrder& order) {
   order.part_begin.assign(1, 0);
   for (Index part = 0; part < parts; ++part) {
     const auto begin = order.fill.begin() + order.first_place[part];
     const auto end = std::find(begin, order.fill.begin() + order.first_place[part + 1], 0);
     order.part_begin.push_back(order.part_begin.back() + groups_abreast * static_cast<Index>(end - begin));
   }
-  for (std::size_t c = 0; c < contacts; ++c)
+  for (std::size_t c = 0; c < swept.size(); ++c)
     if (swept[c]) order.slot[c] += lane_count * order.part_begin[order.part[c]];
-  order.row_count = SweepOrder::still_row(bodies, parts, 0, 0);
+}
+
+}  // namespace
+
+void order_sweep(const ContactProblem& problem, const std::vector<Index>& first_a,
+                 const std::vector<std::uint8_t>& moves, const std::vector<std::uint8_t>& swept,
+                 SweepOrder& order) {
+  const Index domains = domains_for(problem.contact_count()), parts = domains + 1;
+  for (auto* field : {&order.slot, &order.row_a, &order.row_b}) field->resize(swept.size());
+  share_out(problem, first_a, moves, swept, domains, order);
+  make_places(swept, parts, order);
+  take_places(problem, moves, swept, order);
+  close_ranks(swept, parts, order);
+  order.row_count = SweepOrder::still_row(problem.body_count(), parts, 0, 0);
 }
 
 int most_members(const ContactProblem& problem) { return (domains_for(problem.contact_count()) + 1) / 2; }
