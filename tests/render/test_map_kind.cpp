@@ -6,19 +6,10 @@
 #include "core/errors.h"
 #include "pictures/map_kind.h"
 #include "pictures/traces.h"
+#include "support/exit_code.h"
 
 namespace talus {
 namespace {
-
-template <typename Call>
-ExitCode code_of(const Call& call) {
-  try {
-    call();
-  } catch (const Error& error) {
-    return error.code();
-  }
-  return ExitCode::done;
-}
 
 TEST(MapKinds, HaveNamesOfTheirOwnThatAreFoundAgain) {
   std::set<std::string_view> names;
@@ -46,7 +37,7 @@ TEST(MapLayers, AreOneOrTwoDifferentMaps) {
   EXPECT_EQ(layers_name({MapKind::pressure, MapKind::critical}), "pressure+critical");
   for (const char* name :
        {"", "Gamma", "gamma+", "+gamma", "gamma+forces+critical", "forces+forces", "gamma,forces"})
-    EXPECT_EQ(code_of([&] { map_layers(name); }), ExitCode::usage) << name;
+    EXPECT_EQ(test::exit_code_of([&] { map_layers(name); }), ExitCode::usage) << name;
 }
 
 TEST(MapLayers, UnknownNamesAreAnsweredWithThoseThereAre) {
@@ -70,7 +61,7 @@ TEST(TraceKinds, HaveNamesThatAreFoundAgain) {
             (std::vector<TraceKind>{TraceKind::stress_ratio, TraceKind::overloaded}));
   EXPECT_EQ(trace_kinds("overloaded+volume_strain").size(), 2u);
   for (const char* name : {"", "p_o", "overloaded,", "overloaded,overloaded"})
-    EXPECT_EQ(code_of([&] { trace_kinds(name); }), ExitCode::usage) << name;
+    EXPECT_EQ(test::exit_code_of([&] { trace_kinds(name); }), ExitCode::usage) << name;
 }
 
 }  // namespace

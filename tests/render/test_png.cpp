@@ -11,6 +11,7 @@
 #include "core/errors.h"
 #include "render/png.h"
 #include "render/read_png.h"
+#include "support/exit_code.h"
 #include "support/temporary_folder.h"
 
 namespace talus {
@@ -27,12 +28,7 @@ Image pattern(int width, int height, int channels = 1) {
 }
 
 ExitCode code_of_writing(const std::string& path, const Image& image, const PngTexts& texts = {}) {
-  try {
-    write_png(path, image, texts);
-  } catch (const Error& error) {
-    return error.code();
-  }
-  return ExitCode::done;
+  return test::exit_code_of([&] { write_png(path, image, texts); });
 }
 
 std::string bytes_of(const std::string& path) {

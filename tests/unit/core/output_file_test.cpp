@@ -9,6 +9,7 @@
 
 #include "core/descriptor.h"
 #include "core/errors.h"
+#include "support/exit_code.h"
 #include "support/temporary_folder.h"
 
 namespace talus {
@@ -61,11 +62,8 @@ TEST(OutputFile, is_written_by_one_at_a_time) {
 }
 
 /// The code of the refusal of an output, `done` where it is accepted.
-ExitCode code_of(const std::string& path, const OutputRule& rule = {}) try {
-  output_target(path, rule);
-  return ExitCode::done;
-} catch (const Error& error) {
-  return error.code();
+ExitCode code_of(const std::string& path, const OutputRule& rule = {}) {
+  return test::exit_code_of([&] { output_target(path, rule); });
 }
 
 TEST(OutputTarget, is_a_file_or_what_a_link_leads_to) {

@@ -8,21 +8,13 @@
 
 #include "core/errors.h"
 #include "ensemble/pool.h"
+#include "support/exit_code.h"
 #include "support/temporary_folder.h"
 
 namespace talus {
 namespace {
 
 using Seeds = std::vector<std::uint64_t>;
-
-ExitCode code_of(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const Error& error) {
-    return error.code();
-  }
-  return ExitCode::done;
-}
 
 TEST(Seeds, are_ranges_and_numbers) {
   EXPECT_EQ(parse_seeds("1-4"), (Seeds{1, 2, 3, 4}));
@@ -34,7 +26,7 @@ TEST(Seeds, are_ranges_and_numbers) {
 TEST(Seeds, of_another_form_are_refused) {
   for (const char* text :
        {"", "a", "1-", "-1", "3-1", "1,,2", "1 2", "1.5", "1-20000", "99999999999999999999"})
-    EXPECT_EQ(code_of([&] { parse_seeds(text); }), ExitCode::usage) << text;
+    EXPECT_EQ(test::exit_code_of([&] { parse_seeds(text); }), ExitCode::usage) << text;
 }
 
 TEST(EnsemblePlan, has_every_variant_with_every_seed) {
@@ -69,7 +61,7 @@ TEST(Refusal, has_the_exit_code_of_the_first_and_names_all_logs) {
     EXPECT_NE(std::string(error.what()).find("2 runs ended with an error"), std::string::npos);
     EXPECT_NE(std::string(error.what()).find("b.log (exit code 137)"), std::string::npos);
   }
-  EXPECT_EQ(code_of([] { refuse({{"b.log", 137}}); }), ExitCode::internal) << "ended by a signal";
+  EXPECT_EQ(test::exit_code_of([] { refuse({{"b.log", 137}}); }), ExitCode::internal) << "ended by a signal";
 }
 
 }  // namespace

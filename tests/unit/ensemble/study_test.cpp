@@ -7,21 +7,13 @@
 #include <fstream>
 
 #include "core/errors.h"
+#include "support/exit_code.h"
 #include "support/temporary_folder.h"
 
 namespace talus {
 namespace {
 
 using Settings = std::vector<std::string>;
-
-ExitCode code_of(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const Error& error) {
-    return error.code();
-  }
-  return ExitCode::done;
-}
 
 class StudyPlanTest : public testing::Test {
  protected:
@@ -50,7 +42,7 @@ TEST(StudyAxis, has_one_variation_for_each_value) {
 TEST(StudyAxis, of_another_form_is_refused) {
   for (const char* text :
        {"", "tilt.step", "tilt.step=", "=1", "a.b=1,,2", "a.b:c.d=1", "a.b=1:2", "a.b:=1:2"})
-    EXPECT_EQ(code_of([&] { parse_axis(text); }), ExitCode::usage) << text;
+    EXPECT_EQ(test::exit_code_of([&] { parse_axis(text); }), ExitCode::usage) << text;
 }
 
 TEST_F(StudyPlanTest, changes_one_factor_at_a_time) {
@@ -101,8 +93,8 @@ TEST_F(StudyPlanTest, words_are_values_too) {
 
 TEST_F(StudyPlanTest, what_no_scenario_takes_is_refused) {
   for (const char* axis : {"tilt.stp=1", "tilt.step=-1", "tilt.step=word", "seed=5"})
-    EXPECT_EQ(code_of([&] { plan({}, {axis}); }), ExitCode::bad_data) << axis;
-  EXPECT_EQ(code_of([&] { plan({"contact.friction=-1"}, {}); }), ExitCode::bad_data);
+    EXPECT_EQ(test::exit_code_of([&] { plan({}, {axis}); }), ExitCode::bad_data) << axis;
+  EXPECT_EQ(test::exit_code_of([&] { plan({"contact.friction=-1"}, {}); }), ExitCode::bad_data);
 }
 
 }  // namespace
