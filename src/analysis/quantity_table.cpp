@@ -127,7 +127,7 @@ QuantityRows cluster_rows() {
        clusters},
       {&FrameThreshold::largest_share, "clusters/largest_share", "T F", "1",
        "share of the overloaded grains in their largest cluster", clusters,
-       curve("largest cluster", "Share of overloaded grains in their largest cluster")},
+       curve("largest cluster", "Share of the largest cluster")},
       {&FrameThreshold::mean_cluster, "clusters/mean", "T F", "1", "mean size of the clusters, in grains",
        clusters},
       {&FrameThreshold::second_moment, "clusters/second_moment", "T F", "1",
