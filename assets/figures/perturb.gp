@@ -1,14 +1,15 @@
 # The threshold over the distance to theta_c, as a velocity and as an energy. A bar is a bracket, its point the
-# middle on the scale of the axis. One symbol for each seed; triangles are states with one end only.
+# middle on the scale of the axis. One symbol for each seed; triangles are states with one end only. Lines join what follows
+# without a gap. Bars are vectors: those of gnuplot blank what lies around them.
 file = figure . ".csv"
 set logscale y
-set pointintervalbox 0
 set format y "10^{%T}"
 set xrange [0:*]
 set xlabel "{/:Italic θ_c} − {/:Italic θ}  (deg)"
-set key at screen 0.5, screen 0.99 center top horizontal Left reverse maxrows 2 maxcols 6 samplen 1 width 1
+set key at screen 0.5, screen 0.99 center top vertical Left reverse maxrows 2 samplen 1 width 1
 
 both(low, high) = low > 0 && high > 0     # false where one of them is NaN or 0
+middle(low, high) = both(column(low), column(high)) ? sqrt(column(low) * column(high)) : NaN
 none(name) = stringcolumn(name) eq "NaN"
 is_of(s) = column("seed") == word(seeds, s) + 0
 type(s) = int((s - 1) % 8) + 1
@@ -27,10 +28,12 @@ do for [panel = 1:2] {
   low = quantity . "_without"
   high = quantity . "_with"
   if (panel == 1) { set ylabel "{/:Italic v} / ({/:Italic gD})^{1/2}" } else { set ylabel "{/:Italic E} / {/:Italic mgD}"; unset key }
-  plot for [s = 1:words(seeds)] file using (x(s)):(both(column(low), column(high)) ? sqrt(column(low) * column(high)) : NaN):(column(low)):(column(high)) \
-         with yerrorbars linetype type(s) dashtype solid linewidth 1 pointsize 0.3 notitle, \
-       for [s = 1:words(seeds)] file using (x(s)):(none(high) ? column(low) : NaN) with points linetype type(s) pointtype 8 pointsize 0.6 notitle, \
+  plot for [s = 1:words(seeds)] file using (x(s)):(none(high) ? column(low) : NaN) with points linetype type(s) linewidth 1 pointtype 8 pointsize 0.6 notitle, \
        for [s = 1:words(seeds)] file using (x(s)):(column(low) == 0 && !none(high) ? column(high) : NaN) with points linetype type(s) pointtype 10 pointsize 0.6 notitle, \
+       for [s = 1:words(seeds)] file using (x(s)):(middle(low, high)) with lines linetype type(s) linewidth 0.7 notitle, \
+       for [s = 1:words(seeds)] file using (x(s)):(both(column(low), column(high)) ? column(low) : NaN):(0):(column(high) - column(low)) \
+         with vectors nohead linetype type(s) dashtype solid linewidth 1 notitle, \
+       for [s = 1:words(seeds)] file using (x(s)):(middle(low, high)) with points linetype type(s) notitle, \
        for [s = 1:words(seeds)] NaN with points linetype type(s) title "seed " . word(seeds, s)
 }
 unset multiplot
