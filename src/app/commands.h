@@ -16,6 +16,7 @@ void add_panel_command(CLI::App& app);
 void add_dump_command(CLI::App& app);
 void add_solve_command(CLI::App& app);
 void add_forces_command(CLI::App& app);
+void add_ensemble_command(CLI::App& app);
 void add_study_command(CLI::App& app);
 void add_perturb_command(CLI::App& app);
 void add_figures_command(CLI::App& app);

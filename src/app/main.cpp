@@ -49,6 +49,7 @@ void run(int argc, char** argv, CLI::App& app) {
   talus::add_dump_command(app);
   talus::add_solve_command(app);
   talus::add_forces_command(app);
+  talus::add_ensemble_command(app);
   talus::add_study_command(app);
   talus::add_perturb_command(app);
   talus::add_figures_command(app);

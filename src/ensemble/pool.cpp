@@ -165,18 +165,20 @@ std::vector<FailedJob> run_jobs(const std::vector<Job>& jobs, const PoolOptions&
   }
   const HeldSignals signals;
   Pool pool{jobs, options};
-  bool stopped = false;
-  while (!pool.running.empty() || (!stopped && pool.next < jobs.size())) {
-    while (!stopped && pool.next < jobs.size() &&
+  bool stopped = false, given_up = false;
+  while (!pool.running.empty() || (!stopped && !given_up && pool.next < jobs.size())) {
+    while (!stopped && !given_up && pool.next < jobs.size() &&
            pool.running.size() < static_cast<std::size_t>(options.at_once)) {
       const Job& job = jobs[pool.next++];
       pool.running.emplace(start(job, signals.before()), Running{&job, Clock::now()});
     }
     const int signal = signals.wait();
-    if (signal == SIGINT || signal == SIGTERM || signal == SIGHUP) {
-      stopped = true;
+    const bool asked = signal == SIGINT || signal == SIGTERM || signal == SIGHUP;
+    const bool gives_up = !asked && !given_up && options.give_up && options.give_up();
+    stopped = stopped || asked;
+    given_up = given_up || gives_up;
+    if (asked || gives_up)
       for (const auto& [process, running] : pool.running) kill(process, SIGTERM);
-    }
     collect(pool);
     show(pool);
   }

@@ -36,6 +36,9 @@ struct PoolOptions {
   std::size_t all = 0;  ///< of which those that are no jobs are complete
   /// Called at each end of a job, and about twice a second.
   std::function<void(const PoolProgress&)> show;
+  /// Asked as often: whether the jobs under way are to be ended and no more begun, without an error. They end
+  /// as on a signal, with exit code 75.
+  std::function<bool()> give_up = {};
 };
 
 struct FailedJob {

@@ -7,62 +7,13 @@
 
 #include "core/errors.h"
 #include "core/hash.h"
+#include "ensemble/axes.h"
 #include "io/run_file.h"
 #include "scenario/keys.h"
 #include "scenario/text.h"
 #include "session/run_header.h"
 
 namespace talus {
-namespace {
-
-[[noreturn]] void refuse_axis(const std::string& text) {
-  throw Error(
-      ExitCode::usage,
-      fmt::format("--vary {}: expected KEY=VALUE,VALUE... such as tilt.step=0.002,0.0005; keys that change "
-                  "together are joined by colons, as in tilt.rate:tilt.step=2:0.002,0.5:0.0005",
-                  printable(text)));
-}
-
-std::string key_of(const std::string& setting) { return setting.substr(0, setting.find('=')); }
-
-/// `settings` without those whose keys the variation sets.
-std::vector<std::string> kept(std::vector<std::string> settings, const std::vector<std::string>& variation) {
-  for (const std::string& change : variation)
-    std::erase_if(settings, [&](const std::string& setting) { return key_of(setting) == key_of(change); });
-  return settings;
-}
-
-/// The values that a scenario has for the keys of a variation. They are not as they were spelled: 1e-6 and
-/// 0.000001 are one variation.
-std::string name_of(const std::vector<std::string>& variation, const Scenario& scenario) {
-  std::string name;
-  for (const std::string& setting : variation) {
-    const ScenarioKey* key = find_key(key_of(setting));
-    if (!name.empty()) name += ",";
-    name += fmt::format("{}={}", full_name(*key), plain_text(key->get(scenario)));
-  }
-  return name;
-}
-
-}  // namespace
-
-std::vector<std::vector<std::string>> parse_axis(const std::string& text) {
-  const std::size_t equals = text.find('=');
-  if (equals == std::string::npos) refuse_axis(text);
-  const std::vector<std::string> keys = split(text.substr(0, equals), ':');
-  std::vector<std::vector<std::string>> variations;
-  for (const std::string& item : split(text.substr(equals + 1), ',')) {
-    const std::vector<std::string> values = split(item, ':');
-    if (values.size() != keys.size()) refuse_axis(text);
-    std::vector<std::string> settings;
-    for (std::size_t k = 0; k < keys.size(); ++k) {
-      if (keys[k].empty() || values[k].empty()) refuse_axis(text);
-      settings.push_back(fmt::format("{}={}", keys[k], values[k]));
-    }
-    variations.push_back(std::move(settings));
-  }
-  return variations;
-}
 
 StudyPlan plan_study(const std::string& scenario_file, const std::vector<std::string>& settings,
                      const std::vector<std::string>& axes, const std::string& seeds,
@@ -71,21 +22,22 @@ StudyPlan plan_study(const std::string& scenario_file, const std::vector<std::st
   std::vector<Variant> variants;
   std::vector<std::string> varied;
   const auto add = [&](const std::vector<std::string>& variation) {
-    std::vector<std::string> all = kept(settings, variation);
+    std::vector<std::string> all = settings_without(settings, variation);
     std::vector<std::string> with_seed = all;
     with_seed.push_back(fmt::format("seed={}", all_seeds.front()));
     const Scenario scenario = read_scenario(scenario_file, with_seed, nullptr, variation);
     all.insert(all.end(), variation.begin(), variation.end());
     for (const std::string& setting : variation)
-      if (std::ranges::find(varied, key_of(setting)) == varied.end()) varied.push_back(key_of(setting));
+      if (std::ranges::find(varied, key_of_setting(setting)) == varied.end())
+        varied.push_back(key_of_setting(setting));
     if (std::ranges::find(variants, scenario, &Variant::scenario) != variants.end()) return;
-    const std::string name = variation.empty() ? "baseline" : name_of(variation, scenario);
+    const std::string name = variation.empty() ? "baseline" : variation_name(variation, scenario);
     variants.push_back({name, scenario_file, all, scenario});
   };
   add({});
   for (const std::string& axis : axes)
     for (const std::vector<std::string>& variation : parse_axis(axis)) add(variation);
-  const std::string baseline = name_of(varied, variants.front().scenario);
+  const std::string baseline = variation_name(varied, variants.front().scenario);
   return {plan_ensemble(all_seeds, std::move(variants), folder), baseline};
 }
 

@@ -19,12 +19,6 @@ struct StudyPlan : EnsemblePlan {
   std::string baseline;  ///< its values of the keys that vary: "solver.tolerance=3e-07,tilt.step=0.001"
 };
 
-/// The settings of each value of an axis. "tilt.step=0.002,0.0005" gives {tilt.step=0.002} and
-/// {tilt.step=0.0005}. Keys joined by colons change together: "tilt.rate:tilt.step=2:0.002,0.5:0.0005" gives
-/// {tilt.rate=2, tilt.step=0.002} and {tilt.rate=0.5, tilt.step=0.0005}. Throws Error(usage) where the text
-/// has another form; keys and values are not looked at.
-std::vector<std::vector<std::string>> parse_axis(const std::string& text);
-
 /// Reads the scenario with each variation of each axis; the runs are files below `folder`. `settings` hold
 /// for all runs; an axis takes its keys out of them. A variation that is the baseline or an earlier variation
 /// again is left out. Throws as read_scenario, parse_axis and parse_seeds do.

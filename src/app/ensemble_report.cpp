@@ -1,0 +1,192 @@
+#include "app/ensemble_report.h"
+
+#include <array>
+#include <cmath>
+#include <fmt/core.h>
+
+#include "app/json.h"
+#include "core/statistics.h"
+#include "core/text.h"
+#include "core/visible_text.h"
+#include "ensemble/claim.h"
+#include "ensemble/plus_minus.h"
+#include "ensemble/until.h"
+
+namespace talus {
+namespace {
+
+/// What is shown of a run, of all that members.csv holds.
+constexpr std::array<const char*, 6> shown_quantities = {
+    "theta_c", "first_slide", "theta_d/lc_jump", "theta_d/percolation", "theta_d/dilation", "theta_r"};
+
+constexpr std::array<const char*, 4> stage_names = {"waiting", "claimed", "failed", "done"};
+
+std::vector<double> values_of(const EnsembleView& view, std::size_t variant, const std::string& quantity) {
+  std::vector<double> values;
+  for (std::size_t m = 0; m < view.plan.members.size(); ++m)
+    if (view.plan.members[m].variant == variant && view.states[m].stage == MemberStage::done)
+      values.push_back(number_called(view.numbers[m], quantity));
+  return values;
+}
+
+std::string unit_of(const EnsembleView& view, const std::string& quantity) {
+  for (const MemberNumbers& member : view.numbers)
+    for (const NamedNumber& number : member.numbers)
+      if (number.name == quantity) return number.unit;
+  return "";
+}
+
+/// "  theta_c = 19.41 ± 0.28 deg, standard deviation 0.80, 8 of 8"; empty where no member has it.
+std::string mean_line(const EnsembleView& view, std::size_t variant, const std::string& quantity) {
+  const std::vector<double> values = values_of(view, variant, quantity);
+  const Statistics found = statistics_of(values);
+  if (found.count == 0) return "";
+  const bool has_error = found.count > 1 && found.error > 0.0;
+  const std::string value =
+      has_error ? plus_minus(found.mean, found.error) : fmt::format("{:.4g}", found.mean);
+  const std::string spread =
+      has_error ? fmt::format(", standard deviation {:.2g}", found.deviation) : std::string();
+  return fmt::format("  {} = {} {}{}, {} of {} members\n", quantity, value, unit_of(view, quantity), spread,
+                     found.count, view.plan.seeds.size());
+}
+
+std::string means_text(const EnsembleView& view) {
+  std::string text;
+  for (std::size_t v = 0; v < view.plan.variants.size(); ++v) {
+    std::string lines;
+    for (const char* quantity : shown_quantities) lines += mean_line(view, v, quantity);
+    if (lines.empty()) continue;
+    const std::string& name = view.plan.variants[v].name;
+    text += fmt::format("{}:\n{}", name.empty() ? "means, with their standard errors" : visible(name), lines);
+  }
+  return text;
+}
+
+/// Who has taken a member.
+std::string holder_text(const Member& member, const MemberState& state) {
+  const std::optional<ClaimHolder> holder = read_claim(member.path, *state.claim);
+  return holder ? visible(holder->worker) : "a process that has just begun";
+}
+
+std::string members_text(const EnsembleView& view) {
+  std::string text;
+  bool failed = false;
+  for (std::size_t m = 0; m < view.plan.members.size(); ++m) {
+    const Member& member = view.plan.members[m];
+    if (view.states[m].stage == MemberStage::claimed)
+      text += fmt::format("under way: {}, {}\n", visible(member.name), holder_text(member, view.states[m]));
+    if (view.states[m].stage != MemberStage::failed) continue;
+    const MemberFailure failure = read_failure(member.path);
+    text += fmt::format("failed: {}, exit code {}: {}\n", visible(member.name), failure.exit_code,
+                        failure.message.empty() ? "it printed nothing" : failure.message);
+    failed = true;
+  }
+  if (failed) text += fmt::format("again: talus ensemble retry {}\n", shell_quoted(view.folder));
+  return text;
+}
+
+std::string variant_json(const EnsembleView& view, std::size_t variant) {
+  json::Members members;
+  for (const char* quantity : shown_quantities) {
+    const Statistics found = statistics_of(values_of(view, variant, quantity));
+    members.emplace_back(quantity, json::object({{"unit", json::quoted(unit_of(view, quantity))},
+                                                 {"n", json::number(found.count)},
+                                                 {"mean", json::number(found.mean)},
+                                                 {"deviation", json::number(found.deviation)},
+                                                 {"error", json::number(found.error)}},
+                                                3));
+  }
+  return json::object(members, 2);
+}
+
+std::string member_json(const EnsembleView& view, std::size_t m) {
+  const MemberState& state = view.states[m];
+  const Member& member = view.plan.members[m];
+  json::Members members = {{"stage", json::quoted(stage_names.at(static_cast<std::size_t>(state.stage)))}};
+  if (state.stage == MemberStage::claimed)
+    members.emplace_back("by", json::quoted(holder_text(member, state)));
+  if (state.stage == MemberStage::done) {
+    members.emplace_back("state_hash", json::quoted(view.numbers[m].state_hash));
+    members.emplace_back("seconds", json::number(view.numbers[m].seconds));
+  }
+  if (state.stage == MemberStage::failed) {
+    const MemberFailure failure = read_failure(member.path);
+    members.emplace_back("exit_code", json::number(failure.exit_code));
+    members.emplace_back("message", json::quoted(failure.message));
+  }
+  return json::object(members, 2);
+}
+
+/// A cell of CSV: in quotes where it holds a comma or a quote.
+std::string cell(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
+}  // namespace
+
+EnsembleView view_of_ensemble(const std::string& folder) {
+  EnsembleView view{folder, read_ensemble(folder), {}, {}, {}};
+  view.plan = plan_of(view.manifest, folder);
+  view.states = look_at_members(view.plan);
+  view.numbers = numbers_of(view.plan, view.states);
+  return view;
+}
+
+std::string count_text(const EnsembleView& view) {
+  std::string text = fmt::format("{} of {} done, {} under way", count_of(view.states, MemberStage::done),
+                                 view.states.size(), count_of(view.states, MemberStage::claimed));
+  if (const std::size_t failed = count_of(view.states, MemberStage::failed); failed > 0)
+    text += fmt::format(", {} failed", failed);
+  return text;
+}
+
+std::string ensemble_text(const EnsembleView& view) {
+  const std::string until =
+      view.manifest.until.empty() ? "" : fmt::format(", until {}", visible(view.manifest.until));
+  return fmt::format("{}: {}{}\n{}{}", visible(view.folder), count_text(view), until, members_text(view),
+                     means_text(view));
+}
+
+std::string ensemble_json(const EnsembleView& view) {
+  json::Members variants, members;
+  for (std::size_t v = 0; v < view.plan.variants.size(); ++v)
+    variants.emplace_back(view.plan.variants[v].name, variant_json(view, v));
+  for (std::size_t m = 0; m < view.plan.members.size(); ++m)
+    members.emplace_back(view.plan.members[m].name, member_json(view, m));
+  return json::object({{"folder", json::quoted(view.folder)},
+                       {"version", json::quoted(view.manifest.version)},
+                       {"until", json::quoted(view.manifest.until)},
+                       {"members_in_all", json::number(view.states.size())},
+                       {"done", json::number(count_of(view.states, MemberStage::done))},
+                       {"claimed", json::number(count_of(view.states, MemberStage::claimed))},
+                       {"failed", json::number(count_of(view.states, MemberStage::failed))},
+                       {"waiting", json::number(count_of(view.states, MemberStage::waiting))},
+                       {"variants", json::object(variants, 1)},
+                       {"members", json::object(members, 1)}});
+}
+
+std::string members_csv(const EnsembleView& view) {
+  std::string text;
+  for (std::size_t m = 0; m < view.plan.members.size(); ++m) {
+    const MemberNumbers& member = view.numbers[m];
+    if (view.states[m].stage != MemberStage::done) continue;
+    if (text.empty()) {
+      text = "variant,seed,state_hash,version,seconds";
+      for (const NamedNumber& number : member.numbers)
+        text += fmt::format(",{}", cell(fmt::format("{} ({})", number.name, number.unit)));
+      text += "\n";
+    }
+    text += fmt::format("{},{},{},{},{}", cell(view.plan.variants[view.plan.members[m].variant].name),
+                        view.plan.members[m].seed, member.state_hash, cell(member.version),
+                        short_text(member.seconds));
+    for (const NamedNumber& number : member.numbers)
+      text += fmt::format(",{}", std::isnan(number.value) ? std::string() : short_text(number.value));
+    text += "\n";
+  }
+  return text;
+}
+
+}  // namespace talus

@@ -1,0 +1,36 @@
+#pragma once
+/// What is said of an ensemble: how far it is, and what its members gave.
+
+#include <string>
+#include <vector>
+
+#include "ensemble/ensemble_manifest.h"
+#include "ensemble/member_numbers.h"
+#include "ensemble/member_state.h"
+
+namespace talus {
+
+/// An ensemble as it is now.
+struct EnsembleView {
+  std::string folder;
+  EnsembleManifest manifest;
+  EnsemblePlan plan;
+  std::vector<MemberState> states;     ///< of the members of the plan
+  std::vector<MemberNumbers> numbers;  ///< of those that are done; of the others nothing
+};
+
+/// Throws as read_ensemble and numbers_of do.
+EnsembleView view_of_ensemble(const std::string& folder);
+
+/// "12 of 50 done, 2 under way, 1 failed"
+std::string count_text(const EnsembleView& view);
+
+/// That, who is at work, what failed, and the means of each variant with their errors.
+std::string ensemble_text(const EnsembleView& view);
+std::string ensemble_json(const EnsembleView& view);
+
+/// One row for each member that is done: variant, seed, hash, version, seconds, and all its numbers, with
+/// their units in the names of the columns.
+std::string members_csv(const EnsembleView& view);
+
+}  // namespace talus

@@ -1,0 +1,133 @@
+#include "ensemble/claim.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <filesystem>
+#include <fmt/core.h>
+
+#include "core/errors.h"
+#include "core/locked_file.h"
+#include "ensemble/plan.h"
+
+namespace talus {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr const char* infix = ".claim-";
+
+/// Which start of this machine: the same for all its processes, in containers too.
+std::string this_boot() {
+  const Descriptor file(::open("/proc/sys/kernel/random/boot_id", O_RDONLY | O_CLOEXEC));
+  std::array<std::byte, 64> text{};
+  const std::size_t size = file.get() < 0 ? 0 : read_at_most(file, text, "/proc/sys/kernel/random/boot_id");
+  std::string boot(reinterpret_cast<const char*>(text.data()), size);
+  return boot.substr(0, boot.find('\n'));
+}
+
+/// The first line of a claim; after it comes a byte for each heartbeat.
+std::string first_line() {
+  std::array<char, 256> host{};
+  ::gethostname(host.data(), host.size() - 1);
+  return fmt::format("process {} on host {}, boot {}\n", ::getpid(), host.data(), this_boot());
+}
+
+void append(const Descriptor& file, const std::string& text, const std::string& path) {
+  if (::write(file.get(), text.data(), text.size()) != static_cast<ssize_t>(text.size()))
+    throw system_error(ExitCode::io_error, "write", path, errno);
+  ::fdatasync(file.get());  // other machines see it sooner; where it fails they see it later
+}
+
+/// Whether a process of this machine holds the claim.
+bool is_held(const std::string& path) {
+  const Descriptor file(::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC));
+  if (file.get() < 0) return false;
+  return ::flock(file.get(), LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+}
+
+}  // namespace
+
+std::string claim_path(const std::string& run, int number) {
+  return file_beside(run, fmt::format("{}{}", infix, number).c_str());
+}
+
+std::optional<ClaimName> parse_claim_name(const std::string& file) {
+  const std::size_t at = file.rfind(infix);
+  if (at == std::string::npos) return std::nullopt;
+  const char* const digits = file.data() + at + std::char_traits<char>::length(infix);
+  const char* const last = file.data() + file.size();
+  ClaimName name{file.substr(0, at), 0};
+  const auto [end, error] = std::from_chars(digits, last, name.number);
+  if (error != std::errc() || end != last || name.number < 0) return std::nullopt;
+  return name;
+}
+
+std::optional<ClaimHolder> read_claim(const std::string& run, int number) {
+  const std::string path = claim_path(run, number);
+  const Descriptor file(::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC));
+  struct stat status {};
+  if (file.get() < 0 || ::fstat(file.get(), &status) != 0) return std::nullopt;
+  std::array<std::byte, 512> bytes{};
+  const std::size_t size = read_at_most(file, bytes, path);
+  const std::string text(reinterpret_cast<const char*>(bytes.data()), size);
+  const std::size_t line = text.find('\n'), boot = text.find(", boot ");
+  if (line == std::string::npos || boot == std::string::npos || boot > line) return std::nullopt;
+  return ClaimHolder{text.substr(0, boot), text.substr(boot + 7, line - boot - 7),
+                     static_cast<std::uint64_t>(status.st_size) - line - 1};
+}
+
+ClaimState claim_state(const std::string& run, int number, ClaimWatch& watch) {
+  const std::optional<ClaimHolder> holder = read_claim(run, number);
+  if (holder && holder->boot == this_boot())
+    return is_held(claim_path(run, number)) ? ClaimState::alive : ClaimState::dead;
+  const std::uint64_t beats = holder ? holder->beats : 0;
+  auto [found, is_new] = watch.seen.try_emplace(run);
+  ClaimWatch::Seen& seen = found->second;
+  if (is_new || seen.number != number || beats > seen.beats)
+    seen = {number, beats, Clock::now(), !is_new && seen.number == number};
+  if (std::chrono::duration<double>(Clock::now() - seen.since).count() >= watch.times.stale)
+    return ClaimState::dead;
+  return seen.grew ? ClaimState::alive : ClaimState::unknown;
+}
+
+Claim::Claim(std::string path, std::string next, Descriptor file, double seconds)
+    : path_(std::move(path)),
+      next_(std::move(next)),
+      file_(std::move(file)),
+      interval_(seconds),
+      last_(Clock::now()) {}
+
+std::optional<Claim> Claim::take(const std::string& run, std::optional<int> found, const ClaimTimes& times) {
+  const int number = found.value_or(-1) + 1;
+  const std::string path = claim_path(run, number);
+  // The processes that compute the member inherit the lock: as long as one of them lives, the claim does.
+  Descriptor file(::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_APPEND, 0666));
+  if (file.get() < 0 && errno == EEXIST) return std::nullopt;
+  if (file.get() < 0) throw creation_error("create", path, errno);
+  ::flock(file.get(), LOCK_EX | LOCK_NB);  // for this machine; others go by the heartbeats
+  Claim claim(path, claim_path(run, number + 1), std::move(file), times.beat);
+  append(claim.file_, first_line(), path);
+  // The dead claim is still the one that was found, or this one is a number too high by now.
+  if (found && ::unlink(claim_path(run, *found).c_str()) != 0) return std::nullopt;
+  return claim;
+}
+
+Claim::~Claim() {
+  if (file_.get() >= 0 && is_named(path_, file_)) ::unlink(path_.c_str());
+}
+
+bool Claim::beat() {
+  if (!is_named(path_, file_) || std::filesystem::exists(next_)) return false;
+  if (Clock::now() - last_ < interval_) return true;
+  last_ = Clock::now();
+  append(file_, ".", path_);
+  return true;
+}
+
+}  // namespace talus

@@ -1,0 +1,46 @@
+#pragma once
+/// What an ensemble is: a small text file in its folder, from which any number of processes of any number of
+/// machines work.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "ensemble/plan.h"
+
+namespace talus {
+
+struct EnsembleManifest {
+  std::string version;               ///< of the Talus that wrote it
+  std::vector<std::uint64_t> seeds;  ///< ascending
+  std::string until;                 ///< "theta_c:0.2": no more members from then on; empty: all of them
+  std::vector<Variant> variants;     ///< their scenario files lie in the folder; no settings
+};
+
+/// DIR/ensemble.manifest.
+std::string manifest_path(const std::string& folder);
+
+/// Whether there is an ensemble in the folder.
+bool is_ensemble(const std::string& folder);
+
+/// The members, in files of the folder.
+EnsemblePlan plan_of(const EnsembleManifest& manifest, const std::string& folder);
+
+/// Reads manifest and scenarios. Throws Error(missing_input) where there is no ensemble, Error(bad_data)
+/// where the manifest is damaged, or where a scenario is not what the ensemble began with.
+EnsembleManifest read_ensemble(const std::string& folder);
+
+/// Variants of a scenario: each combination of a value of each axis ("contact.friction=0.3,0.5"), named by
+/// them; without axes the scenario itself, without a name. Their seeds are 1 and count for nothing; the file
+/// of a bed is an absolute path, since members are computed from other places. Throws as read_scenario and
+/// parse_axis do.
+std::vector<Variant> plan_variants(const std::string& scenario_file, const std::vector<std::string>& settings,
+                                   const std::vector<std::string>& axes);
+
+/// Begins an ensemble in the folder, or adds to the one that is there what it lacks: seeds and variants.
+/// `until` replaces the one before, unless it is empty. The manifest is written last, whole or not at all.
+/// Returns what is there then. Throws Error(bad_data) where a variant of the same name has another scenario
+/// there, or where none of the variants is there yet; otherwise as write_text does.
+EnsembleManifest extend_ensemble(const std::string& folder, const EnsembleManifest& wanted);
+
+}  // namespace talus

@@ -1,0 +1,113 @@
+#include "ensemble/member_numbers.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fmt/core.h>
+#include <limits>
+#include <variant>
+
+#include "analysis/quantities.h"
+#include "core/errors.h"
+#include "core/hash.h"
+#include "core/snapshot.h"
+#include "core/text_stream.h"
+#include "core/trigonometry.h"
+#include "ensemble/plan.h"
+#include "scenario/text.h"
+#include "session/run_header.h"
+
+namespace talus {
+namespace {
+
+constexpr const char* header = "quantity,unit,value";
+
+/// Whether there is one of it, or one for each threshold, in a run: no lists of frames, bins or edges.
+bool is_of_run(const Quantity& quantity) {
+  return std::holds_alternative<double Analysis::*>(quantity.member) ||
+         std::holds_alternative<std::array<double, 2> Analysis::*>(quantity.member) ||
+         std::holds_alternative<double RunThreshold::*>(quantity.member);
+}
+
+void add_numbers(std::vector<NamedNumber>& numbers, const Quantity& quantity, const Analysis& analysis,
+                 double mean_diameter) {
+  const Values values = values_of(quantity, analysis);
+  const auto* doubles = std::get_if<std::vector<double>>(&values);
+  if (doubles == nullptr) return;
+  for (std::size_t k = 0; k < doubles->size(); ++k)
+    numbers.push_back({k == 0 ? quantity.name : fmt::format("{}[{}]", quantity.name, k),
+                       scaled_unit(quantity), scaled(quantity, (*doubles)[k], mean_diameter)});
+}
+
+double result(const Figures& figures, const std::string& name) {
+  for (const auto& [key, value] : figures)
+    if (key == name) return value;
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+[[noreturn]] void refuse(const std::string& path) {
+  throw Error(ExitCode::bad_data,
+              path + " is not what talus wrote; remove it, and the member is analysed again");
+}
+
+double parse_number(const std::string& text, const std::string& path) {
+  if (text.empty()) return std::numeric_limits<double>::quiet_NaN();
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) refuse(path);
+  return value;
+}
+
+}  // namespace
+
+MemberNumbers member_numbers(const RunFile& run, const Analysis& analysis) {
+  const Checkpoint& end = run.checkpoint();
+  MemberNumbers found{hash_text(state_hash(end.world)),
+                      version_of(run.header().provenance),
+                      result(end.timing, "deposition") + result(end.timing, "tilt"),
+                      {}};
+  for (const Quantity& quantity : quantities())
+    if (is_of_run(quantity))
+      add_numbers(found.numbers, quantity, analysis, run.header().statics.mean_diameter);
+  found.numbers.push_back({"theta_r", "deg", degrees(result(end.results, "theta_r"))});
+  for (const char* name : {"unconverged_steps_deposition", "unconverged_steps"})
+    found.numbers.push_back({name, "1", result(end.results, name)});
+  return found;
+}
+
+std::string numbers_csv(const MemberNumbers& numbers) {
+  std::string text = fmt::format("{}\nstate_hash,,{}\nversion,,{}\nseconds,s,{}\n", header,
+                                 numbers.state_hash, numbers.version, short_text(numbers.seconds));
+  for (const NamedNumber& number : numbers.numbers)
+    text += fmt::format("{},{},{}\n", number.name, number.unit,
+                        std::isnan(number.value) ? "" : short_text(number.value));
+  return text;
+}
+
+MemberNumbers parse_numbers(const std::string& text, const std::string& path) {
+  std::istringstream lines = text_stream(text);
+  std::string line;
+  if (!std::getline(lines, line) || line != header) refuse(path);
+  MemberNumbers found;
+  while (std::getline(lines, line)) {
+    const std::vector<std::string> cells = split(line, ',');
+    if (cells.size() != 3) refuse(path);
+    if (cells[0] == "state_hash")
+      found.state_hash = cells[2];
+    else if (cells[0] == "version")
+      found.version = cells[2];
+    else if (cells[0] == "seconds")
+      found.seconds = parse_number(cells[2], path);
+    else
+      found.numbers.push_back({cells[0], cells[1], parse_number(cells[2], path)});
+  }
+  if (found.state_hash.empty() || found.numbers.empty()) refuse(path);
+  return found;
+}
+
+double number_called(const MemberNumbers& numbers, const std::string& name) {
+  const auto found = std::ranges::find(numbers.numbers, name, &NamedNumber::name);
+  return found == numbers.numbers.end() ? std::numeric_limits<double>::quiet_NaN() : found->value;
+}
+
+}  // namespace talus

@@ -1,0 +1,39 @@
+#pragma once
+/// What one member of an ensemble gave: every number that there is once for a run, in a small table beside
+/// it.
+
+#include <string>
+#include <vector>
+
+#include "analysis/record.h"
+#include "io/run_file.h"
+
+namespace talus {
+
+struct NamedNumber {
+  std::string name;  ///< "theta_c", "theta_d/lc_jump[1]": element 1, of those with several
+  std::string unit;  ///< of tables: deg, D, ...
+  double value = 0.0;
+};
+
+struct MemberNumbers {
+  std::string state_hash;
+  std::string version;   ///< of the Talus that computed it, with its git hash
+  double seconds = 0.0;  ///< of its steps
+  std::vector<NamedNumber> numbers;
+};
+
+/// All numbers of a complete run and its analysis, in the order of the table of quantities, then what the run
+/// found by itself (theta_r).
+MemberNumbers member_numbers(const RunFile& run, const Analysis& analysis);
+
+/// CSV: name, unit, value in full digits.
+std::string numbers_csv(const MemberNumbers& numbers);
+
+/// Throws Error(bad_data), naming `path`, where the text is not what numbers_csv writes.
+MemberNumbers parse_numbers(const std::string& text, const std::string& path);
+
+/// NaN where there is no such number.
+double number_called(const MemberNumbers& numbers, const std::string& name);
+
+}  // namespace talus

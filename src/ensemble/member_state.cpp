@@ -1,0 +1,101 @@
+#include "ensemble/member_state.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fmt/core.h>
+#include <map>
+#include <set>
+
+#include "core/text_stream.h"
+#include "core/visible_text.h"
+#include "ensemble/claim.h"
+#include "io/durable_file.h"
+
+namespace talus {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* numbers_ending = ".csv";
+constexpr const char* failure_ending = ".failed";
+
+/// What one folder tells of its members, by the names of their runs without ending.
+struct FolderNames {
+  std::set<std::string> files;
+  std::map<std::string, int> claims;  ///< the highest of each
+};
+
+FolderNames names_in(const fs::path& folder) {
+  FolderNames names;
+  std::error_code error;  // a folder that is not there has no members yet
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    const std::string file = entry->path().filename().string();
+    if (const std::optional<ClaimName> claim = parse_claim_name(file)) {
+      int& highest = names.claims.try_emplace(claim->run, claim->number).first->second;
+      highest = std::max(highest, claim->number);
+    } else if (file.ends_with(numbers_ending) || file.ends_with(failure_ending)) {
+      names.files.insert(file);
+    }
+  }
+  return names;
+}
+
+MemberState state_of(const FolderNames& names, const std::string& run) {
+  MemberState state;
+  if (const auto claim = names.claims.find(run); claim != names.claims.end()) state.claim = claim->second;
+  if (names.files.contains(run + numbers_ending))
+    state.stage = MemberStage::done;
+  else if (names.files.contains(run + failure_ending))
+    state.stage = MemberStage::failed;
+  else if (state.claim)
+    state.stage = MemberStage::claimed;
+  return state;
+}
+
+}  // namespace
+
+std::vector<MemberState> look_at_members(const EnsemblePlan& plan) {
+  std::map<std::string, FolderNames> folders;
+  std::vector<MemberState> states;
+  states.reserve(plan.members.size());
+  for (const Member& member : plan.members) {
+    const fs::path path = member.path;
+    const std::string folder = path.parent_path().string();
+    auto found = folders.find(folder);
+    if (found == folders.end()) found = folders.emplace(folder, names_in(folder)).first;
+    states.push_back(state_of(found->second, path.stem().string()));
+  }
+  return states;
+}
+
+std::size_t count_of(const std::vector<MemberState>& states, MemberStage stage) {
+  return static_cast<std::size_t>(std::ranges::count(states, stage, &MemberState::stage));
+}
+
+std::string numbers_path(const std::string& run) { return file_beside(run, numbers_ending); }
+std::string failure_path(const std::string& run) { return file_beside(run, failure_ending); }
+
+void record_failure(const std::string& run, const MemberFailure& failure) {
+  write_text(failure_path(run), fmt::format("exit code {}\n{}\n", failure.exit_code, failure.message));
+}
+
+MemberFailure read_failure(const std::string& run) {
+  std::istringstream lines = text_stream(read_text(failure_path(run)));
+  MemberFailure failure;
+  std::string word;
+  lines >> word >> word >> failure.exit_code;
+  std::getline(lines, failure.message);
+  std::getline(lines, failure.message);
+  failure.message = visible(failure.message);
+  return failure;
+}
+
+std::string last_line_of(const std::string& log) {
+  std::istringstream lines = text_stream(read_text(log));
+  std::string last;
+  for (std::string line; std::getline(lines, line);)
+    if (line.find_first_not_of(" \r\t") != std::string::npos) last = visible(line);
+  return last;
+}
+
+}  // namespace talus

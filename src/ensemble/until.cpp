@@ -1,0 +1,65 @@
+#include "ensemble/until.h"
+
+#include <algorithm>
+#include <charconv>
+#include <fmt/core.h>
+
+#include "core/errors.h"
+#include "core/statistics.h"
+#include "core/text.h"
+#include "io/durable_file.h"
+#include "scenario/text.h"
+
+namespace talus {
+namespace {
+
+void require_quantity(const Precision& precision, const MemberNumbers& numbers) {
+  if (std::ranges::find(numbers.numbers, precision.quantity, &NamedNumber::name) != numbers.numbers.end())
+    return;
+  throw Error(ExitCode::usage,
+              fmt::format("--until {}: no number of a run; there are {}", printable(precision.quantity),
+                          joined(numbers.numbers, ", ", &NamedNumber::name)));
+}
+
+}  // namespace
+
+Precision parse_precision(const std::string& text) {
+  const std::size_t colon = text.rfind(':');
+  Precision precision;
+  if (colon != std::string::npos && colon > 0) {
+    precision.quantity = text.substr(0, colon);
+    const char* const last = text.data() + text.size();
+    const auto [end, error] = std::from_chars(text.data() + colon + 1, last, precision.error);
+    if (error == std::errc() && end == last && precision.error > 0.0) return precision;
+  }
+  throw Error(ExitCode::usage,
+              fmt::format("--until {}: expected a quantity and the standard error asked of its mean, such as "
+                          "theta_c:0.2 (deg)",
+                          printable(text)));
+}
+
+std::vector<MemberNumbers> numbers_of(const EnsemblePlan& plan, const std::vector<MemberState>& states) {
+  std::vector<MemberNumbers> numbers(plan.members.size());
+  for (std::size_t m = 0; m < plan.members.size(); ++m) {
+    if (states[m].stage != MemberStage::done) continue;
+    const std::string path = numbers_path(plan.members[m].path);
+    numbers[m] = parse_numbers(read_text(path), path);
+  }
+  return numbers;
+}
+
+bool is_reached(const Precision& precision, const EnsemblePlan& plan,
+                const std::vector<MemberNumbers>& numbers) {
+  std::vector<std::vector<double>> values(plan.variants.size());
+  for (std::size_t m = 0; m < plan.members.size(); ++m) {
+    if (numbers[m].numbers.empty()) continue;
+    require_quantity(precision, numbers[m]);
+    values[plan.members[m].variant].push_back(number_called(numbers[m], precision.quantity));
+  }
+  return std::ranges::all_of(values, [&](const std::vector<double>& of_variant) {
+    const Statistics found = statistics_of(of_variant);
+    return found.count >= least_members && found.error <= precision.error;
+  });
+}
+
+}  // namespace talus

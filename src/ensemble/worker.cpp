@@ -1,0 +1,138 @@
+#include "ensemble/worker.h"
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <fmt/core.h>
+#include <numeric>
+#include <thread>
+
+#include "core/errors.h"
+#include "ensemble/ensemble_manifest.h"
+#include "ensemble/member_state.h"
+#include "ensemble/pool.h"
+#include "ensemble/until.h"
+#include "session/estimate.h"
+
+namespace talus {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// A worker on its way.
+struct Worker {
+  const WorkerOptions& options;
+  ClaimWatch watch;
+  Clock::time_point begin = Clock::now();
+  WorkerEnd end = {};
+};
+
+/// Members by their estimates, the longest first; those that take the same time in the order of the plan.
+std::vector<std::size_t> longest_first(const EnsemblePlan& plan) {
+  std::vector<double> of_variant;
+  for (const Variant& variant : plan.variants) of_variant.push_back(estimate(variant.scenario).seconds);
+  std::vector<std::size_t> order(plan.members.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, std::greater<>(),
+                           [&](std::size_t m) { return of_variant[plan.members[m].variant]; });
+  return order;
+}
+
+struct Taken {
+  Member member;
+  Claim claim;
+};
+
+/// Whether a claim that was just taken is that of a member which still has to be computed.
+bool still_ours(const EnsemblePlan& plan, std::size_t member, std::optional<int> found) {
+  const MemberState now = look_at_members(plan)[member];
+  return now.stage == MemberStage::claimed && now.claim == found.value_or(-1) + 1;
+}
+
+/// What a look at all members gave.
+struct Look {
+  std::optional<Taken> taken;
+  std::size_t alive = 0;
+  std::size_t unknown = 0;  ///< claims that have to be watched for longer
+};
+
+Look take_next(const EnsemblePlan& plan, const std::vector<MemberState>& states, Worker& worker) {
+  Look look;
+  for (const std::size_t m : longest_first(plan)) {
+    const Member& member = plan.members[m];
+    const MemberState& state = states[m];
+    if (state.stage == MemberStage::done || state.stage == MemberStage::failed) continue;
+    if (state.claim) {
+      const ClaimState claim = claim_state(member.path, *state.claim, worker.watch);
+      if (claim == ClaimState::alive) ++look.alive;
+      if (claim == ClaimState::unknown) ++look.unknown;
+      if (claim != ClaimState::dead) continue;
+    }
+    std::optional<Claim> claim = Claim::take(member.path, state.claim, worker.options.times);
+    if (!claim || !still_ours(plan, m, state.claim)) continue;
+    look.taken.emplace(Taken{member, std::move(*claim)});
+    return look;
+  }
+  return look;
+}
+
+/// What is left of the time of the worker, as talus reads it; nothing where it has no end.
+std::optional<std::string> time_left(const Worker& worker) {
+  if (!worker.options.max_wall) return std::nullopt;
+  const double left =
+      *worker.options.max_wall - std::chrono::duration<double>(Clock::now() - worker.begin).count();
+  const auto seconds = static_cast<long>(left);
+  if (seconds < 1) throw Error(ExitCode::stopped, "the worker was stopped for --max-wall");
+  return fmt::format("{:02}:{:02}:{:02}", seconds / 3600, seconds / 60 % 60, seconds % 60);
+}
+
+/// One process computes the member and analyses it, while this one keeps the claim alive.
+void compute(Worker& worker, Taken& taken) {
+  const Member& member = taken.member;
+  std::vector<std::string> arguments = {"ensemble", "member", path_word(worker.options.folder),
+                                        path_word(member.name)};
+  if (const std::optional<std::string> left = time_left(worker)) {
+    arguments.emplace_back("--max-wall");
+    arguments.push_back(*left);
+  }
+  if (worker.options.tell) worker.options.tell(member.name, -1);
+  bool lost = false;
+  PoolOptions pool{"worker", 1, 1, {}, [&] { return lost = lost || !taken.claim.beat(); }};
+  const std::vector<FailedJob> failed = run_jobs({job_of(member, std::move(arguments))}, pool);
+  if (lost) return;  // somebody else goes on with it
+  const int code = failed.empty() ? 0 : failed.front().exit_code;
+  if (worker.options.tell) worker.options.tell(member.name, code);
+  if (code == static_cast<int>(ExitCode::stopped))
+    throw Error(ExitCode::stopped,
+                "the worker was stopped; the members under way go on from their checkpoints");
+  if (code == 0) {
+    ++worker.end.done;
+    return;
+  }
+  record_failure(member.path, {code, last_line_of(failed.front().log)});
+  ++worker.end.failed;
+}
+
+}  // namespace
+
+WorkerEnd work_on_ensemble(const WorkerOptions& options) {
+  Worker worker{options, {options.times, {}}};
+  for (;;) {
+    const EnsembleManifest manifest = read_ensemble(options.folder);
+    const EnsemblePlan plan = plan_of(manifest, options.folder);
+    const std::vector<MemberState> states = look_at_members(plan);
+    worker.end.enough = !manifest.until.empty() &&
+                        is_reached(parse_precision(manifest.until), plan, numbers_of(plan, states));
+    if (worker.end.enough) return worker.end;
+    Look look = take_next(plan, states, worker);
+    worker.end.elsewhere = look.alive + look.unknown;
+    if (look.taken)
+      compute(worker, *look.taken);
+    else if (look.unknown == 0)
+      return worker.end;
+    else
+      std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  }
+}
+
+}  // namespace talus

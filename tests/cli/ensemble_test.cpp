@@ -1,0 +1,195 @@
+/// Ensembles of a tiny bed: workers that share a folder, stops, takeovers, failures, and what is reported.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <csignal>
+#include <fstream>
+#include <sstream>
+
+#include "process.h"
+
+namespace talus::test {
+namespace {
+
+/// A bed of 32 grains that is deposited and tilted to its end in a fraction of a second.
+const char* const tiny_bed =
+    "[bed]\nlength = 10\ndepth = 4\n[tilt]\nend_angle = 1.5\n[output]\nframe_every = 0.5\n";
+
+std::string text_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+std::vector<std::string> ensemble_of(const std::string& folder, const std::string& seeds = "1-4") {
+  return {"ensemble", "bed.toml", "--seeds", seeds, "-o", folder};
+}
+
+/// The hash that stands in the numbers of a member.
+std::string hash_in(const std::string& numbers) {
+  const std::string text = text_of(numbers), key = "state_hash,,";
+  const std::size_t at = text.find(key);
+  return at == std::string::npos ? std::string() : text.substr(at + key.size(), 16);
+}
+
+std::size_t count_of_lines(const std::string& text) {
+  return static_cast<std::size_t>(std::ranges::count(text, '\n'));
+}
+
+TEST(Ensemble, has_the_bits_of_talus_run_and_its_analysis) {
+  const TemporaryFolder folder;
+  write_file(folder, "bed.toml", tiny_bed);
+  std::vector<std::string> words = ensemble_of("e", "1-2");
+  words.insert(words.end(), {"--vary", "contact.friction=0.3,0.5"});
+  const Outcome done = run_talus(words, folder.path());
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_NE(done.out.find("e: 4 of 4 done, 0 under way\n"), std::string::npos) << done.out;
+  ASSERT_EQ(run_talus({"run", "bed.toml", "--seed", "2", "--set", "contact.friction=0.3", "-o", "alone.h5"},
+                      folder.path())
+                .exit_code,
+            0);
+  const std::string alone =
+      json_value(run_talus({"info", "alone.h5", "--json"}, folder.path()).out, "state_hash");
+  EXPECT_EQ(hash_in(folder.path("e/contact.friction=0.3/seed-2.csv")), alone);
+  const Outcome info = run_talus({"info", "e/contact.friction=0.3/seed-2.h5", "--json"}, folder.path());
+  EXPECT_EQ(json_value(info.out, "state_hash"), alone);
+  const Outcome analysis = run_talus({"analyze", "e/contact.friction=0.3/seed-2.h5"}, folder.path());
+  EXPECT_NE((analysis.out + analysis.err).find("analysis read from the file"), std::string::npos)
+      << analysis.out;
+  EXPECT_EQ(count_of_lines(text_of(folder.path("e/members.csv"))), 5u);
+}
+
+TEST(Ensemble, that_is_complete_is_only_read_and_grows_by_seeds) {
+  const TemporaryFolder folder;
+  write_file(folder, "bed.toml", tiny_bed);
+  ASSERT_EQ(run_talus(ensemble_of("e", "1-2"), folder.path()).exit_code, 0);
+  const auto written = std::filesystem::last_write_time(folder.path("e/seed-1.h5"));
+  ASSERT_EQ(run_talus(ensemble_of("e", "1-2"), folder.path()).exit_code, 0);
+  const Outcome more = run_talus(ensemble_of("e", "3"), folder.path());
+  EXPECT_NE(more.out.find("3 of 3 done"), std::string::npos) << more.out;
+  EXPECT_EQ(std::filesystem::last_write_time(folder.path("e/seed-1.h5")), written);
+}
+
+class InterruptedEnsemble : public testing::TestWithParam<int> {};
+
+TEST_P(InterruptedEnsemble, goes_on_to_the_same_bits) {
+  const TemporaryFolder folder;
+  write_file(folder, "bed.toml", tiny_bed);
+  ASSERT_EQ(run_talus(ensemble_of("whole"), folder.path()).exit_code, 0);
+  int stops = 0;
+  int code = -1;
+  for (int attempt = 0; attempt < 40 && code != 0; ++attempt) {
+    const pid_t process = start_talus(ensemble_of("parts"), folder.path());
+    pause_before(attempt, 50);
+    kill(process, GetParam());
+    code = wait_for(process);
+    EXPECT_TRUE(code == 0 || code == -1 || code == 75) << code << errors_in(folder.path());
+    if (code != 0) ++stops;
+  }
+  // The last workers of a killed ensemble may still be at their members when the next one finds none left.
+  ASSERT_EQ(run_talus(ensemble_of("parts"), folder.path()).exit_code, 0);
+  EXPECT_EQ(code, 0);
+  EXPECT_GT(stops, 0) << "the ensemble was never interrupted: nothing was tested";
+  for (const char* member : {"seed-1.csv", "seed-2.csv", "seed-3.csv", "seed-4.csv"})
+    EXPECT_EQ(hash_in(folder.path(std::string("parts/") + member)),
+              hash_in(folder.path(std::string("whole/") + member)))
+        << member;
+}
+
+INSTANTIATE_TEST_SUITE_P(Signals, InterruptedEnsemble, testing::Values(SIGINT, SIGTERM, SIGKILL));
+
+TEST(Ensemble, is_shared_by_workers_which_begin_each_member_once) {
+  const TemporaryFolder folder;
+  write_file(folder, "bed.toml", tiny_bed);
+  ASSERT_EQ(run_talus(ensemble_of("e", "1"), folder.path()).exit_code, 0);
+  // Nobody computes these: the manifest alone.
+  const pid_t first = start_talus(ensemble_of("e", "1-12"), folder.path());
+  std::vector<Outcome> ends;
+  for (int k = 0; k < 2; ++k) ends.push_back(run_talus({"ensemble", "work", "e"}, folder.path()));
+  EXPECT_EQ(wait_for(first), 0);
+  for (const Outcome& end : ends) EXPECT_EQ(end.exit_code, 0) << end.err;
+  ASSERT_EQ(run_talus(ensemble_of("e", "1-12"), folder.path()).exit_code, 0);
+  std::string begun;
+  for (const Outcome& end : ends) begun += end.out;
+  for (const auto& log : std::filesystem::directory_iterator(folder.path("e/workers")))
+    begun += text_of(log.path().string());
+  for (int seed = 1; seed <= 12; ++seed) {
+    const std::string line = "seed-" + std::to_string(seed) + " begun\n";
+    const std::size_t at = begun.find(line);
+    ASSERT_NE(at, std::string::npos) << line;
+    EXPECT_EQ(begun.find(line, at + 1), std::string::npos) << "twice: " << line;
+  }
+}
+
+TEST(Ensemble, takes_over_what_a_worker_of_another_machine_has_left) {
+  const TemporaryFolder folder;
+  write_file(folder, "bed.toml", tiny_bed);
+  ASSERT_EQ(run_talus(ensemble_of("e", "1"), folder.path()).exit_code, 0);
+  std::filesystem::remove(folder.path("e/seed-1.csv"));
+  std::filesystem::remove(folder.path("e/seed-1.h5"));
+  write_file(folder, "e/seed-1.claim-0", "process 1 on host far, boot another\n...");
+  const Outcome status = run_talus({"ensemble", "status", "e"}, folder.path());
+  EXPECT_NE(status.out.find("under way: seed-1, process 1 on host far"), std::string::npos) << status.out;
+  const Outcome done = run_talus({"ensemble", "work", "e", "--stale", "1"}, folder.path());
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_NE(done.out.find("seed-1 done\n"), std::string::npos) << done.out;
+  EXPECT_FALSE(std::filesystem::exists(folder.path("e/seed-1.claim-0")));
+  EXPECT_FALSE(std::filesystem::exists(folder.path("e/seed-1.claim-1")));
+}
+
+TEST(Ensemble, shows_what_failed_leaves_it_out_and_tries_it_again) {
+  const TemporaryFolder folder;
+  // Half of these beds come to rest in so few steps.
+  write_file(folder, "bed.toml", std::string(tiny_bed) + "[deposition]\nmax_time = 0.05\n");
+  const Outcome failed = run_talus(ensemble_of("e", "1-2"), folder.path());
+  EXPECT_EQ(failed.exit_code, 65) << failed.out;
+  EXPECT_NE(failed.out.find("failed: seed-1, exit code 65: talus: error: "), std::string::npos) << failed.out;
+  EXPECT_NE(failed.err.find("left out of the means"), std::string::npos) << failed.err;
+  EXPECT_EQ(run_talus({"ensemble", "work", "e"}, folder.path()).out.find("begun"), std::string::npos)
+      << "what failed stays as it is";
+  const Outcome retry = run_talus({"ensemble", "retry", "e"}, folder.path());
+  EXPECT_NE(retry.out.find("2 members wait again"), std::string::npos) << retry.out;
+  EXPECT_NE(run_talus({"ensemble", "work", "e"}, folder.path()).out.find("seed-1 begun"), std::string::npos);
+}
+
+TEST(Ensemble, begins_no_more_once_the_mean_is_known_well_enough) {
+  const TemporaryFolder folder;
+  write_file(folder, "bed.toml", tiny_bed);
+  std::vector<std::string> words = ensemble_of("e", "1-30");
+  words.insert(words.end(), {"--until", "unconverged_steps:1000", "--jobs", "1"});
+  const Outcome done = run_talus(words, folder.path());
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_NE(done.out.find("e: 5 of 30 done"), std::string::npos) << done.out;
+  const Outcome status = run_talus({"ensemble", "status", "e", "--json"}, folder.path());
+  EXPECT_EQ(json_value(status.out, "done"), "5");
+  EXPECT_EQ(json_value(status.out, "waiting"), "25");
+}
+
+TEST(Ensemble, stops_in_time_and_goes_on_where_it_was) {
+  const TemporaryFolder folder;
+  write_file(folder, "bed.toml", "[bed]\nlength = 50\ndepth = 20\n");
+  std::vector<std::string> words = ensemble_of("e", "1");
+  words.insert(words.end(), {"--max-wall", "00:00:03"});
+  const Outcome stopped = run_talus(words, folder.path());
+  EXPECT_EQ(stopped.exit_code, 75) << stopped.err;
+  EXPECT_TRUE(std::filesystem::exists(folder.path("e/seed-1.h5.run/manifest")));
+  EXPECT_FALSE(std::filesystem::exists(folder.path("e/seed-1.claim-0")));
+}
+
+TEST(Ensemble, of_a_bad_form_is_refused_before_anything_is_made) {
+  const TemporaryFolder folder;
+  write_file(folder, "bed.toml", tiny_bed);
+  EXPECT_EQ(run_talus({"ensemble", "bed.toml"}, folder.path()).exit_code, 64) << "no folder";
+  EXPECT_EQ(run_talus({"ensemble", "bed.toml", "--until", "theta_c", "-o", "e"}, folder.path()).exit_code,
+            64);
+  EXPECT_EQ(run_talus({"ensemble", "bed.toml", "--seeds", "4-1", "-o", "e"}, folder.path()).exit_code, 64);
+  EXPECT_EQ(run_talus({"ensemble", "bed.toml", "--vary", "tilt.stp=1", "-o", "e"}, folder.path()).exit_code,
+            65);
+  EXPECT_EQ(run_talus({"ensemble", "status", "e"}, folder.path()).exit_code, 66);
+  EXPECT_FALSE(std::filesystem::exists(folder.path("e")));
+}
+
+}  // namespace
+}  // namespace talus::test

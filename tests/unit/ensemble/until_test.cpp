@@ -1,0 +1,69 @@
+/// When an ensemble knows enough, and the numbers of its members as a table.
+
+#include "ensemble/until.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "support/exit_code.h"
+
+namespace talus {
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+MemberNumbers member_with(double theta_c) {
+  return {"abc", "0.1.0 (def)", 1.5, {{"theta_c", "deg", theta_c}, {"theta_d/lc_jump[1]", "deg", none}}};
+}
+
+TEST(Precision, is_a_quantity_and_an_error) {
+  const Precision precision = parse_precision("theta_d/lc_jump:0.25");
+  EXPECT_EQ(precision.quantity, "theta_d/lc_jump");
+  EXPECT_EQ(precision.error, 0.25);
+  for (const char* text :
+       {"", "theta_c", "theta_c:", ":0.2", "theta_c:-1", "theta_c:0", "theta_c:x", "theta_c:0.2x"})
+    EXPECT_EQ(test::exit_code_of([&] { parse_precision(text); }), ExitCode::usage) << text;
+}
+
+TEST(Precision, is_reached_where_the_mean_of_every_variant_is_known_so_well) {
+  const EnsemblePlan plan = plan_ensemble({1, 2, 3, 4, 5}, {{"a", "", {}, {}}, {"b", "", {}, {}}}, "none");
+  std::vector<MemberNumbers> numbers;
+  for (const double theta_c : {19.0, 20.0, 21.0, 20.0, 20.0})  // deviation 0.71, error 0.32
+    numbers.insert(numbers.end(), {member_with(theta_c), member_with(theta_c)});
+  EXPECT_TRUE(is_reached({"theta_c", 0.32}, plan, numbers));
+  EXPECT_FALSE(is_reached({"theta_c", 0.31}, plan, numbers));
+  numbers.back() = {};  // one of variant b is not done: four values are too few
+  EXPECT_FALSE(is_reached({"theta_c", 10.0}, plan, numbers));
+  EXPECT_FALSE(is_reached({"theta_d/lc_jump[1]", 10.0}, plan, numbers)) << "no member has a value";
+}
+
+TEST(Precision, of_what_no_member_has_is_refused) {
+  const EnsemblePlan plan = plan_ensemble({1}, {{"", "", {}, {}}}, "none");
+  EXPECT_EQ(test::exit_code_of([&] {
+              is_reached({"theta_x", 1.0}, plan, {member_with(20.0)});
+            }),
+            ExitCode::usage);
+}
+
+TEST(MemberNumbers, are_read_back_to_the_last_bit) {
+  const MemberNumbers numbers = member_with(20.1 / 3.0);
+  const MemberNumbers again = parse_numbers(numbers_csv(numbers), "x.csv");
+  EXPECT_EQ(again.state_hash, numbers.state_hash);
+  EXPECT_EQ(again.version, numbers.version);
+  EXPECT_EQ(again.seconds, numbers.seconds);
+  EXPECT_EQ(number_called(again, "theta_c"), 20.1 / 3.0);
+  EXPECT_TRUE(std::isnan(number_called(again, "theta_d/lc_jump[1]")));
+  EXPECT_EQ(again.numbers[0].unit, "deg");
+}
+
+TEST(MemberNumbers, of_another_form_are_refused) {
+  const std::string whole = numbers_csv(member_with(20.0));
+  for (const std::string& text : {std::string(), std::string("x\n"), whole.substr(0, whole.find("theta_c")),
+                                  whole + "theta_c,deg\n", whole + "a,deg,x\n"})
+    EXPECT_EQ(test::exit_code_of([&] { parse_numbers(text, "x.csv"); }), ExitCode::bad_data) << text;
+}
+
+}  // namespace
+}  // namespace talus
