@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fmt/core.h>
 #include <memory>
+#include <thread>
 
 #include "app/analysed_run.h"
 #include "app/command_line.h"
@@ -119,6 +120,26 @@ void run_workers(const EnsembleArguments& arguments, const EnsemblePlan& plan) {
   refuse(failed, "and the members that it would have computed are missing");
 }
 
+/// Whether no more members will be begun.
+bool is_over(const std::string& folder) {
+  const EnsembleView view = view_of_ensemble(folder);
+  const std::size_t ended =
+      count_of(view.states, MemberStage::done) + count_of(view.states, MemberStage::failed);
+  const std::string& until = view.manifest.until;
+  return ended == view.states.size() ||
+         (!until.empty() && is_reached(parse_precision(until), view.plan, view.numbers));
+}
+
+/// Members that others compute are waited for, and taken over where their workers end before them. With a
+/// limit of time others are left alone.
+void compute_members(const EnsembleArguments& arguments, const EnsemblePlan& plan) {
+  run_workers(arguments, plan);
+  while (arguments.max_wall.empty() && !is_over(arguments.folder)) {
+    std::this_thread::sleep_for(std::chrono::seconds(1));
+    run_workers(arguments, plan);
+  }
+}
+
 /// The exit code of an ensemble in which members failed is that of the first.
 void refuse_failures(const EnsembleView& view) {
   std::vector<FailedJob> failed;
@@ -140,7 +161,7 @@ void run_ensemble(const EnsembleArguments& arguments) {
   const std::string table = (std::filesystem::path(arguments.folder) / "members.csv").string();
   output_target(table, {true, {arguments.scenario}});
   const EnsembleManifest manifest = extend_ensemble(arguments.folder, wanted);
-  run_workers(arguments, plan_of(manifest, arguments.folder));
+  compute_members(arguments, plan_of(manifest, arguments.folder));
   const EnsembleView view = view_of_ensemble(arguments.folder);
   write_text(table, members_csv(view));
   std::printf("%s", (arguments.json ? ensemble_json(view) + "\n" : ensemble_text(view)).c_str());
