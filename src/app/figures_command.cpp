@@ -16,9 +16,9 @@
 #include "app/output_files.h"
 #include "app/stop_signals.h"
 #include "core/errors.h"
+#include "core/visible_text.h"
 #include "figures/catalogue.h"
 #include "scenario/suggestion.h"
-#include "scenario/text.h"
 #include "session/analysis_parameters.h"
 
 namespace talus {
@@ -58,7 +58,7 @@ std::string long_form(const std::string& word) {
   throw Error(ExitCode::usage,
               fmt::format("--only {}: there is no such figure; did you mean {}? talus figures "
                           "--help lists them",
-                          printable(word), nearest));
+                          visible_word(word), nearest));
 }
 
 /// The recipes that are asked for, in the order of the catalogue.

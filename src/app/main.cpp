@@ -11,8 +11,8 @@
 #include "app/stop_signals.h"
 #include "core/errors.h"
 #include "core/version.h"
+#include "core/visible_text.h"
 #include "scenario/suggestion.h"
-#include "scenario/text.h"
 
 namespace {
 
@@ -28,8 +28,8 @@ void refuse_unknown_command(const CLI::App& app, const std::string& word) {
   }
   if (least == 0) return;
   const std::string advice = least <= 2 ? "did you mean '" + nearest + "'? " : "";
-  throw talus::Error(talus::ExitCode::usage,
-                     "'" + talus::printable(word) + "' is no command; " + advice + "talus --help lists them");
+  throw talus::Error(talus::ExitCode::usage, "'" + talus::visible_word(word) + "' is no command; " + advice +
+                                                 "talus --help lists them");
 }
 
 void run(int argc, char** argv, CLI::App& app) {

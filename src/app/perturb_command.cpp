@@ -21,6 +21,7 @@
 #include "core/errors.h"
 #include "core/output_file.h"
 #include "core/trigonometry.h"
+#include "core/visible_text.h"
 #include "figures/perturbation_figure.h"
 #include "io/durable_file.h"
 #include "io/run_file.h"
@@ -206,7 +207,7 @@ void run_perturb(PerturbArguments& arguments) {
   if (!patch)
     throw Error(ExitCode::usage,
                 fmt::format("--patch {}: expected width and depth in mean diameters, such as 10x2",
-                            printable(arguments.patch)));
+                            visible_word(arguments.patch)));
   arguments.plan.patch = *patch;
   const EnsemblePlan plan = plan_runs(arguments);
   output_target((std::filesystem::path(arguments.folder) / "perturb.md").string(),

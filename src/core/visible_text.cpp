@@ -41,18 +41,34 @@ bool is_control(std::string_view character) {
          (code >= 0x2028 && code <= 0x202e) || (code >= 0x2066 && code <= 0x2069);
 }
 
+namespace {
+
+/// Moves the first character of a text to what is shown: as it is where `is_shown` says so of it.
+template <typename Rule>
+void move_first(std::string_view& text, std::string& shown, const Rule& is_shown) {
+  const std::size_t length = character_length(text);
+  const std::string_view character = text.substr(0, length == 0 ? 1 : length);
+  if (length > 0 && is_shown(character))
+    shown += character;
+  else
+    append_escaped(shown, character);
+  text.remove_prefix(character.size());
+}
+
+}  // namespace
+
 std::string visible(std::string_view text) {
   std::string shown;
-  while (!text.empty()) {
-    const std::size_t length = character_length(text);
-    const std::string_view character = text.substr(0, length == 0 ? 1 : length);
-    if (length > 0 && (character == "\n" || !is_control(character)))
-      shown += character;
-    else
-      append_escaped(shown, character);
-    text.remove_prefix(character.size());
-  }
+  while (!text.empty())
+    move_first(text, shown, [](std::string_view c) { return c == "\n" || !is_control(c); });
   return shown;
+}
+
+std::string visible_word(std::string_view text, std::size_t limit) {
+  std::string shown;
+  for (std::size_t count = 0; !text.empty() && count < limit; ++count)
+    move_first(text, shown, [](std::string_view c) { return c.size() == 1 && !is_control(c); });
+  return text.empty() ? shown : shown + "...";
 }
 
 }  // namespace talus

@@ -11,6 +11,11 @@ namespace talus {
 /// lines.
 std::string visible(std::string_view text);
 
+/// A word that a message quotes beside what was expected: in one line, of at most `limit` characters, after
+/// which "..." says that there are more, and in ASCII, all else as \xNN: letters that look alike are told
+/// apart.
+std::string visible_word(std::string_view text, std::size_t limit = 60);
+
 /// The length of the UTF-8 character at the beginning of a text that is not empty, in bytes; 0 where there is
 /// none.
 std::size_t character_length(std::string_view text);

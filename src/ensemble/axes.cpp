@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include "core/errors.h"
+#include "core/visible_text.h"
 #include "ensemble/plan.h"
 #include "scenario/keys.h"
 #include "scenario/text.h"
@@ -15,7 +16,7 @@ namespace {
       ExitCode::usage,
       fmt::format("--vary {}: expected KEY=VALUE,VALUE... such as tilt.step=0.002,0.0005; keys that change "
                   "together are joined by colons, as in tilt.rate:tilt.step=2:0.002,0.5:0.0005",
-                  printable(text)));
+                  visible_word(text)));
 }
 
 }  // namespace

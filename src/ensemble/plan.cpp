@@ -6,8 +6,8 @@
 #include <set>
 
 #include "core/errors.h"
+#include "core/visible_text.h"
 #include "io/run_file.h"
-#include "scenario/text.h"
 
 namespace talus {
 namespace {
@@ -16,7 +16,7 @@ constexpr std::size_t most_seeds = 10000;
 
 [[noreturn]] void refuse_seeds(const std::string& text) {
   throw Error(ExitCode::usage, fmt::format("--seeds {}: expected seeds such as 1-4, 7 or 1-3,8, at most {}",
-                                           printable(text), most_seeds));
+                                           visible_word(text), most_seeds));
 }
 
 std::uint64_t parse_seed(const std::string& part, const std::string& text) {

@@ -7,8 +7,8 @@
 #include "core/errors.h"
 #include "core/statistics.h"
 #include "core/text.h"
+#include "core/visible_text.h"
 #include "io/durable_file.h"
-#include "scenario/text.h"
 
 namespace talus {
 namespace {
@@ -17,7 +17,7 @@ void require_quantity(const Precision& precision, const MemberNumbers& numbers) 
   if (std::ranges::find(numbers.numbers, precision.quantity, &NamedNumber::name) != numbers.numbers.end())
     return;
   throw Error(ExitCode::usage,
-              fmt::format("--until {}: no number of a run; there are {}", printable(precision.quantity),
+              fmt::format("--until {}: no number of a run; there are {}", visible_word(precision.quantity),
                           joined(numbers.numbers, ", ", &NamedNumber::name)));
 }
 
@@ -35,7 +35,7 @@ Precision parse_precision(const std::string& text) {
   throw Error(ExitCode::usage,
               fmt::format("--until {}: expected a quantity and the standard error asked of its mean, such as "
                           "theta_c:0.2 (deg)",
-                          printable(text)));
+                          visible_word(text)));
 }
 
 std::vector<MemberNumbers> numbers_of(const EnsemblePlan& plan, const std::vector<MemberState>& states) {

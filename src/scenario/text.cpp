@@ -72,15 +72,6 @@ std::string plain_text(const KeyValue& value) {
   return toml_text(value);
 }
 
-std::string printable(std::string_view text, std::size_t limit) {
-  std::string shown;
-  for (const char c : text.substr(0, limit)) {
-    const auto byte = static_cast<unsigned char>(c);
-    shown += byte < 0x20 || byte > 0x7e ? fmt::format("\\x{:02x}", byte) : std::string(1, c);
-  }
-  return text.size() > limit ? shown + "..." : shown;
-}
-
 std::string resolved_toml(const Scenario& scenario) {
   std::string text;
   std::string section;

@@ -1,5 +1,5 @@
 #pragma once
-/// Values of keys as text, exact if they are read back and harmless if they are shown.
+/// Values of keys as text, exact if they are read back.
 
 #include <cstdint>
 #include <string>
@@ -20,9 +20,5 @@ std::string toml_text(const KeyValue& value);
 
 /// The value as it is written in a setting: 200, 1e-06, periodic, or 1,2.
 std::string plain_text(const KeyValue& value);
-
-/// Text of a user in a form fit for a message: at most `limit` characters, and bytes that are not printable
-/// ASCII as \xNN.
-std::string printable(std::string_view text, std::size_t limit = 60);
 
 }  // namespace talus

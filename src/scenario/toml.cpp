@@ -13,6 +13,7 @@
 
 #include "core/descriptor.h"
 #include "core/errors.h"
+#include "core/visible_text.h"
 #include "scenario/keys.h"
 #include "scenario/rules.h"
 #include "scenario/settings.h"
@@ -123,7 +124,7 @@ std::optional<KeyValue> value_of(const toml::node& node) {
 /// " = 0.5"; nothing for a value that would not fit a line.
 std::string shown(const toml::node& node) {
   if (const auto* truth = node.as_boolean()) return truth->get() ? " = true" : " = false";
-  if (const auto* text = node.as_string()) return fmt::format(" = \"{}\"", printable(text->get()));
+  if (const auto* text = node.as_string()) return fmt::format(" = \"{}\"", visible_word(text->get()));
   const auto value = node.is_array() ? std::nullopt : value_of(node);
   return value ? " = " + toml_text(*value) : "";
 }
@@ -156,12 +157,12 @@ std::string joined_name(std::string_view section, std::string_view name) {
 }
 
 std::string unknown_key(const KeyHeads& keys, std::string_view section, std::string_view name) {
-  return fmt::format("unknown key '{}'{}", printable(joined_name(section, name)),
+  return fmt::format("unknown key '{}'{}", visible_word(joined_name(section, name)),
                      suggest_key(keys, section, name));
 }
 
 std::string unknown_section(const KeyHeads& keys, std::string_view name) {
-  return fmt::format("unknown section [{}]{}", printable(name), suggest_section(keys, name));
+  return fmt::format("unknown section [{}]{}", visible_word(name), suggest_section(keys, name));
 }
 
 /// Sections are tables at the top level (`section` empty), keys are what else there is.
@@ -191,9 +192,9 @@ std::string syntax_message(const toml::parse_error& error) {
   const std::string_view said = error.description();
   const auto again = said.find("cannot redefine");
   if (again != std::string_view::npos)
-    return fmt::format("this name occurs twice: {}; expected it once", printable(said.substr(again), 200));
+    return fmt::format("this name occurs twice: {}; expected it once", visible_word(said.substr(again), 200));
   const bool bare_word = said.ends_with("could not determine value type");
-  return fmt::format("not valid TOML: {}{}", printable(said, 200),
+  return fmt::format("not valid TOML: {}{}", visible_word(said, 200),
                      bare_word ? "; expected a number, true, false, or a string in quotes" : "");
 }
 
@@ -262,13 +263,13 @@ std::string unknown_key_of_setting(const KeyHeads& keys, const std::string& name
   const std::string rest = name.substr(dot == std::string::npos ? 0 : dot + 1);
   if (section.empty() || is_section(keys, section)) return unknown_key(keys, section, rest);
   if (!sections_of(keys).empty()) return unknown_section(keys, section);
-  return fmt::format("unknown key '{}'{}", printable(name), suggest_key(keys, "", rest));
+  return fmt::format("unknown key '{}'{}", visible_word(name), suggest_key(keys, "", rest));
 }
 
 /// A setting of `option`, "--set".
 void take_setting(ParsedKeys& reading, const std::string& option, const std::string& setting) {
   SourcePlace place;
-  place.text = fmt::format("{} {}", option, printable(setting));
+  place.text = fmt::format("{} {}", option, visible_word(setting));
   const auto equals = setting.find('=');
   const std::string name = setting.substr(0, equals);
   const KeyHead* key = find_key(reading.keys, name);
@@ -288,7 +289,7 @@ void take_setting(ParsedKeys& reading, const std::string& option, const std::str
   reading.complain(
       place,
       is_whole_number(value)
-          ? fmt::format("key '{}' = {}: expected {}", name, printable(value), expectation(*key))
+          ? fmt::format("key '{}' = {}: expected {}", name, visible_word(value), expectation(*key))
           : fmt::format("key '{}': expected {}, found text that is not valid TOML", name, expectation(*key)));
 }
 

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "core/errors.h"
+#include "core/visible_text.h"
 #include "scenario/text.h"
 
 namespace talus {
@@ -83,7 +84,7 @@ TableGrain grain_of(const TableLine& line, const std::vector<TableCell>& fields)
     const std::optional<double> value = number_in(fields[k].text);
     if (!value)
       line.refuse(fields[k].column, fmt::format("{} = \"{}\": expected a finite number, in mean diameters D",
-                                                column_names[k], printable(fields[k].text)));
+                                                column_names[k], visible_word(fields[k].text)));
     values[k] = *value;
   }
   if (values[2] <= 0.0)

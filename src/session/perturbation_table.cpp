@@ -6,6 +6,7 @@
 
 #include "core/errors.h"
 #include "core/text_stream.h"
+#include "core/visible_text.h"
 #include "scenario/text.h"
 
 namespace talus {
@@ -88,7 +89,7 @@ PerturbationTable parse_perturbation_csv(const std::string& text, const std::str
         ExitCode::bad_data,
         fmt::format(
             "{} begins with '{}', expected '{}': it was made with other settings; give another folder", name,
-            printable(line, 120), under_way));
+            visible_word(line, 120), under_way));
   table.complete = line != under_way;
   std::getline(lines, line);
   bool whole = line == head;
@@ -102,7 +103,7 @@ PerturbationTable parse_perturbation_csv(const std::string& text, const std::str
   if (!whole)
     throw Error(ExitCode::bad_data,
                 fmt::format("{}: unexpected line '{}'; remove the file, and its rows are computed again",
-                            name, printable(line, 120)));
+                            name, visible_word(line, 120)));
   return table;
 }
 

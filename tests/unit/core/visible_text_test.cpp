@@ -27,5 +27,17 @@ TEST(VisibleText, names_the_bytes_that_are_no_character) {
   EXPECT_EQ(visible("a\xe2\x84"), "a\\xe2\\x84") << "cut short";
 }
 
+TEST(VisibleWord, is_one_line_and_short) {
+  EXPECT_EQ(visible_word("plain text"), "plain text");
+  EXPECT_EQ(visible_word("a\x1b[31m\n\x7f\xff"), "a\\x1b[31m\\x0a\\x7f\\xff");
+  EXPECT_EQ(visible_word("\xd1\x80"
+                         "eriodic"),
+            "\\xd1\\x80eriodic")
+      << "looks like periodic";
+  EXPECT_EQ(visible_word(std::string(60, 'x')), std::string(60, 'x'));
+  EXPECT_EQ(visible_word(std::string(61, 'x')), std::string(60, 'x') + "...");
+  EXPECT_EQ(visible_word("caf\xc3\xa9s", 4), "caf\\xc3\\xa9...") << "characters are counted, not bytes";
+}
+
 }  // namespace
 }  // namespace talus

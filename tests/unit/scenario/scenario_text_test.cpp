@@ -141,12 +141,5 @@ TEST(TomlText, of_text_has_its_escapes) {
   EXPECT_EQ(toml_text(std::string("caf\xc3\xa9 #1")), "\"caf\xc3\xa9 #1\"");
 }
 
-TEST(Printable, shortens_and_escapes) {
-  EXPECT_EQ(printable("plain text"), "plain text");
-  EXPECT_EQ(printable("a\x1b[31m\n\x7f\xc3\xa9"), "a\\x1b[31m\\x0a\\x7f\\xc3\\xa9");
-  EXPECT_EQ(printable(std::string(61, 'x')), std::string(60, 'x') + "...");
-  EXPECT_EQ(printable("abcdef", 3), "abc...");
-}
-
 }  // namespace
 }  // namespace talus
