@@ -119,6 +119,9 @@ void store_analysis(const std::string& path, const Analysis& analysis, const std
   write_analysis(writer, analysis, table);
   std::vector<std::byte> file = writer.image();
   seal(file);
+  // What a kill left of packing tells the file by its seal, which changes now.
+  if (const std::string target = output_target(path); run_presence(target) == RunPresence::packed)
+    discard_folder(target);
   write_durably(path, file);
 }
 

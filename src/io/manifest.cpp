@@ -8,6 +8,7 @@
 #include "core/hash.h"
 #include "core/text_stream.h"
 #include "io/durable_file.h"
+#include "io/packed_file.h"
 
 namespace talus {
 namespace {
@@ -28,9 +29,10 @@ std::istream& operator>>(std::istream& words, StoredSegment& segment) {
 }
 
 std::string body_text(const Manifest& manifest) {
-  std::string lines = fmt::format("{}\n{}header {}\ncheckpoint {}\n", first_line,
-                                  manifest.replaces ? "replaces the packed file\n" : "",
-                                  text_of(manifest.header), text_of(manifest.checkpoint));
+  std::string lines = fmt::format(
+      "{}\n{}{}header {}\ncheckpoint {}\n", first_line, manifest.replaces ? "replaces the packed file\n" : "",
+      manifest.packed_seal != 0 ? fmt::format("packed {}\n", hash_text(manifest.packed_seal)) : "",
+      text_of(manifest.header), text_of(manifest.checkpoint));
   for (const StoredSegment& segment : manifest.segments)
     lines += fmt::format("segment {} {} {} {} {}\n", text_of(segment.file), segment.frames, segment.contacts,
                          segment.observables, segment.steps);
@@ -45,6 +47,7 @@ Manifest parse(const std::string& text) {
     std::string kind;
     words >> kind;
     if (kind == "replaces") manifest.replaces = true;
+    if (kind == "packed") words >> std::hex >> manifest.packed_seal;
     if (kind == "header") words >> manifest.header;
     if (kind == "checkpoint") words >> manifest.checkpoint;
     if (kind == "segment") words >> manifest.segments.emplace_back();
@@ -109,8 +112,9 @@ Manifest read_manifest(const std::string& folder) {
   return parse_manifest({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path);
 }
 
-bool replaces_packed(const std::string& folder) try {
-  return read_manifest(folder).replaces;
+bool replaces_packed(const std::string& folder, const std::string& packed) try {
+  const Manifest manifest = read_manifest(folder);
+  return manifest.replaces && (manifest.packed_seal == 0 || manifest.packed_seal != seal_hash_of(packed));
 } catch (const Error&) {
   return false;
 }

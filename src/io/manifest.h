@@ -30,6 +30,9 @@ struct Manifest {
 
   /// The packed file beside the folder is of an earlier run, and is kept until this one is packed.
   bool replaces = false;
+  /// The packed file of this run, by the hash of its seal, which is about to get its name or has got it; 0
+  /// before. Only where there is one to be replaced: else a packed file is that of this run.
+  std::uint64_t packed_seal = 0;
   StoredFile header;
   StoredFile checkpoint;
   std::vector<StoredSegment> segments;
@@ -48,8 +51,9 @@ Manifest parse_manifest(const std::string& text, const std::string& path);
 /// damaged.
 Manifest read_manifest(const std::string& folder);
 
-/// Whether a folder holds a run that replaces the packed file beside it. One that cannot be read does not.
-bool replaces_packed(const std::string& folder);
+/// Whether a folder holds a run that replaces the packed file beside it and has not done so yet. One that
+/// cannot be read does not.
+bool replaces_packed(const std::string& folder, const std::string& packed);
 
 /// The bytes of a file of the folder. Throws Error(bad_data) where they are not those the manifest describes.
 std::vector<std::byte> read_stored(const std::string& folder, const StoredFile& file);

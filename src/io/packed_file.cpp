@@ -77,6 +77,18 @@ std::uint64_t sealed_size(std::span<const std::byte> file) {
   return begin.starts_with(words) ? std::strtoull(begin.c_str() + words.size(), nullptr, 10) : 0;
 }
 
+std::uint64_t seal_hash(std::span<const std::byte> file) {
+  return hash_bytes(file.first(std::min(file.size(), seal_size)));
+}
+
+std::uint64_t seal_hash_of(const std::string& path) {
+  const Descriptor file(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
+  if (file.get() < 0) throw system_error(ExitCode::missing_input, "open", path, errno);
+  std::vector<std::byte> block(seal_size);
+  block.resize(read_at_most(file, block, path));
+  return seal_hash(block);
+}
+
 void verify_seal(const std::string& path) {
   const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
   if (file.get() < 0) throw system_error(ExitCode::missing_input, "open", path, errno);

@@ -22,6 +22,11 @@ void seal(std::vector<std::byte>& file);
 /// The size that the seal of a file gives it; 0 where it has none.
 std::uint64_t sealed_size(std::span<const std::byte> file);
 
+/// The hash of the seal of a packed file, which holds that of all that follows: other files, other hashes.
+std::uint64_t seal_hash(std::span<const std::byte> file);
+/// The same of the file at `path`, of which no more than the seal is read. Throws Error(missing_input).
+std::uint64_t seal_hash_of(const std::string& path);
+
 /// Reads the whole file at `path` once. Throws Error(missing_input) where it cannot be read and
 /// Error(bad_data) where its seal is missing or wrong.
 void verify_seal(const std::string& path);

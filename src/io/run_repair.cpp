@@ -42,12 +42,21 @@ struct Salvage {
 constexpr const char* origin_fact = "repaired_from";
 constexpr const char* lost_analysis = "/analysis: is no part of the run; make it again with talus analyze";
 
+/// That of a run which replaced another one in its folder has a number.
+bool has_header(const std::string& folder) {
+  std::error_code unknown;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, unknown))
+    if (const std::string name = entry.path().filename().string();
+        name.starts_with("header") && name.ends_with(".h5"))
+      return true;
+  return false;
+}
+
 std::optional<std::string> folder_of(const std::string& run) {
   std::error_code unknown;
   if (fs::is_regular_file(run, unknown)) return std::nullopt;
   for (const std::string& folder : {run, run_folder(run)})
-    for (const char* name : {Manifest::header_name, Manifest::file_name})
-      if (fs::exists(fs::path(folder) / name, unknown)) return folder;
+    if (fs::exists(fs::path(folder) / Manifest::file_name, unknown) || has_header(folder)) return folder;
   throw Error(ExitCode::missing_input,
               fmt::format("{}: no such run; expected a run file, or a folder {}", run, run_folder(run)));
 }

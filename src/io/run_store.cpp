@@ -45,8 +45,8 @@ bool is_serial_name(std::string_view name, std::string_view kind) {
 /// Whether a file of this name is the store's own: no other is ever removed.
 bool is_own(std::string_view name) {
   if (name.ends_with(temporary_ending)) name.remove_suffix(std::string_view(temporary_ending).size());
-  return name == Manifest::header_name || name == Manifest::file_name || is_serial_name(name, "segment_") ||
-         is_serial_name(name, "checkpoint_");
+  return name == Manifest::header_name || name == Manifest::file_name || is_serial_name(name, "header_") ||
+         is_serial_name(name, "segment_") || is_serial_name(name, "checkpoint_");
 }
 
 bool is_named(const Manifest& manifest, const std::string& name) {
@@ -117,21 +117,9 @@ StoredSegment store_segment(const std::string& folder, const std::string& name, 
   return stored;
 }
 
-/// The first commit of a run: header and manifest, together. What stood in the folder before is kept until
-/// both are written, so that a full disk takes nothing away.
-void begin(const std::string& folder, std::span<const std::byte> header,
-           std::span<const std::byte> manifest) {
-  OutputFile header_file(in(folder, Manifest::header_name)), manifest_file(in(folder, Manifest::file_name));
-  header_file.write(header);
-  manifest_file.write(manifest);
-  header_file.flush();
-  manifest_file.flush();
-  remove_file(in(folder, Manifest::file_name));  // else a kill here would leave it with a header not its own
-  sync_name(in(folder, Manifest::file_name));
-  header_file.commit();
-  sync_name(in(folder, Manifest::header_name));
-  manifest_file.commit();
-  sync_name(in(folder, Manifest::file_name));
+void store_manifest(const std::string& folder, const Manifest& manifest) {
+  const std::string text = manifest_text(manifest);
+  store(folder, Manifest::file_name, std::as_bytes(std::span(text)));
 }
 
 bool is_empty(const Segment& segment) {
@@ -151,8 +139,9 @@ void refuse_existing(const std::string& path, bool overwrite) {
 std::uint64_t next_serial(const std::string& folder) {
   std::uint64_t serial = 0;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder))
-    if (const std::string name = entry.path().filename().string();
-        is_serial_name(name, "segment_") || is_serial_name(name, "checkpoint_"))
+    if (const std::string name = entry.path().filename().string(); is_serial_name(name, "header_") ||
+                                                                   is_serial_name(name, "segment_") ||
+                                                                   is_serial_name(name, "checkpoint_"))
       serial = std::max(serial, serial_of({name, 0, 0}));
   return serial + 1;
 }
@@ -190,9 +179,12 @@ RunStore RunStore::create(const std::string& path, const RunHeader& header, bool
   if (!fs::exists(in(folder, Manifest::file_name), unknown)) remove_leftovers(folder, {});
   state->manifest.replaces = fs::is_regular_file(path, unknown);
   state->header = header_bytes(header);
-  state->manifest.header = describe(Manifest::header_name, state->header);
   state->grains = header.statics.radius.size();
   state->serial = next_serial(folder);
+  // No name of a run that is there is used: it is whole until the one manifest takes the place of the other.
+  const bool is_free = !fs::exists(in(folder, Manifest::header_name), unknown);
+  state->manifest.header =
+      describe(is_free ? Manifest::header_name : serial_name("header_", state->serial), state->header);
   return RunStore(std::move(state));
 }
 
@@ -204,6 +196,7 @@ RunStore RunStore::resume(const std::string& path, RunHeader& header, Checkpoint
   if (run_presence(path) != RunPresence::folder)
     throw Error(ExitCode::cannot_create, path + " was being written by another process until this moment");
   state->manifest = read_manifest(folder);
+  state->manifest.packed_seal = 0;  // it is packed again
   state->serial = serial_of(state->manifest.checkpoint) + 1;
   const RunFile run =
       RunFile::open(folder);  // reads every file, so that damage is found before computing goes on
@@ -223,12 +216,8 @@ void RunStore::commit(const Segment& segment, const Checkpoint& checkpoint) {
     next.segments.push_back(
         store_segment(state_->folder, serial_name("segment_", serial), segment, state_->grains));
   next.checkpoint = store(state_->folder, serial_name("checkpoint_", serial), checkpoint_bytes(checkpoint));
-  const std::string text = manifest_text(next);
-  const auto manifest = std::as_bytes(std::span(text));
-  if (state_->header.empty())
-    store(state_->folder, Manifest::file_name, manifest);  // here the commit happens
-  else
-    begin(state_->folder, state_->header, manifest);
+  if (!state_->header.empty()) store(state_->folder, next.header.name, state_->header);
+  store_manifest(state_->folder, next);  // here the commit happens
   state_->header = {};
   std::swap(state_->manifest, next);
   if (!next.checkpoint.name.empty())
@@ -244,6 +233,13 @@ bool RunStore::pack(const std::function<bool()>& goes_on) {
   const RunFile run = RunFile::open(folder);
   std::vector<std::byte> bytes = packed_bytes(content_of(run), goes_on);
   if (bytes.empty()) return false;
+  if (state_->manifest.replaces) {
+    // When the new file has taken the name of the old one, the folder beside it must not hide it any more:
+    // the manifest tells the two apart, before and after the rename alike.
+    Manifest last = state_->manifest;
+    last.packed_seal = seal_hash(bytes);
+    store_manifest(folder, last);
+  }
   // Until the file can be read, the folder is all there is of the run. Its bytes on the disk are those in
   // memory, which HDF5 reads: it would not open a file that is locked.
   write_durably(state_->path, bytes, [&](const std::string& packed) {
@@ -270,7 +266,7 @@ std::string run_folder(const std::string& path) { return path + ".run"; }
 RunPresence run_presence(const std::string& path) {
   std::error_code unknown;
   const bool has_folder = fs::exists(in(run_folder(path), Manifest::file_name), unknown);
-  if (fs::is_regular_file(path, unknown) && !(has_folder && replaces_packed(run_folder(path))))
+  if (fs::is_regular_file(path, unknown) && !(has_folder && replaces_packed(run_folder(path), path)))
     return RunPresence::packed;
   return has_folder ? RunPresence::folder : RunPresence::none;
 }

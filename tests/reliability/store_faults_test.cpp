@@ -10,9 +10,10 @@
 #include <optional>
 
 #include "core/errors.h"
+#include "io/analysis_file.h"
 #include "io/run_file.h"
 #include "reliability/faults.h"
-#include "unit/io/example_run.h"
+#include "unit/io/example_analysis.h"
 
 namespace talus {
 namespace {
@@ -24,6 +25,8 @@ constexpr int defect = 98;  // exit code of a child that saw what must not happe
 struct Told {
   int committed = 0;
   int calls = 0;
+  int begun = 0;   ///< calls up to the end of the first commit
+  int ending = 0;  ///< calls up to packing
 };
 
 struct SharedTold {
@@ -44,15 +47,17 @@ void persist(const Action& action) {
   }
 }
 
-/// The whole run in one go; `again` repeats each call that throws once.
+/// The whole run in one go, in place of what has its name; `again` repeats each call that throws once.
 void compute(const std::string& path, bool again, Told& told) {
   const auto attempt = [again](const auto& action) { again ? persist(action) : action(); };
   std::optional<RunStore> store;
-  attempt([&] { store = RunStore::create(path, example::header(), false); });
+  attempt([&] { store = RunStore::create(path, example::header(), true); });
   for (int k = 0; k < commits; ++k) {
     attempt([&] { store->commit(example::segment(k), example::checkpoint(k)); });
     told.committed = k + 1;
+    if (k == 0) told.begun = faults::calls();
   }
+  told.ending = faults::calls();
   attempt([&] { store->pack(); });
 }
 
@@ -100,7 +105,7 @@ void bring_to_end(const std::string& path, int found) {
   Checkpoint checkpoint;
   RunStore store = run_presence(path) == RunPresence::folder
                        ? RunStore::resume(path, header, checkpoint)
-                       : RunStore::create(path, example::header(), false);
+                       : RunStore::create(path, example::header(), true);
   for (int k = found; k < commits; ++k) store.commit(example::segment(k), example::checkpoint(k));
   store.pack();
   EXPECT_FALSE(std::filesystem::exists(run_folder(path))) << "leftovers";
@@ -132,12 +137,99 @@ class StoreFaults : public testing::Test {
     }
   }
 
- private:
   example::TemporaryFolder folder_;
   SharedTold shared_;
   std::string reference_;
+
+ private:
   int calls_ = 0;
 };
+
+/// A run of another seed, whole or left after its first commit.
+void begin_old_run(const std::string& path, bool is_whole) {
+  RunHeader header = example::header();
+  ++header.seed;
+  RunStore old = RunStore::create(path, header, false);
+  old.commit(example::segment(0), example::checkpoint(0));
+  if (is_whole) old.pack();
+}
+
+/// What a kill has left of a run that replaces another: one of them is found, and the new one as soon as its
+/// file has the name. Returns whether it is the new one.
+bool is_new_run_found(const std::string& path, const std::string& old, const std::string& reference) {
+  EXPECT_NE(run_presence(path), RunPresence::none) << "neither is found";
+  if (run_presence(path) == RunPresence::none) return false;
+  const std::string file = std::filesystem::exists(path) ? example::file_text(path) : "";
+  const RunFile run = RunFile::open(path);
+  EXPECT_TRUE(file == old || file == reference);
+  EXPECT_EQ(run.complete(), file == reference || (!old.empty() && run_presence(path) == RunPresence::packed));
+  if (file != reference) return run.header().seed == example::header().seed;
+  EXPECT_EQ(run_presence(path), RunPresence::packed) << "the finished run is hidden by its folder";
+  EXPECT_EQ(run.header().seed, example::header().seed);
+  return true;
+}
+
+/// Kills at each call of the first commit and of packing: between them nothing is replaced.
+class ReplacedRun : public StoreFaults, public testing::WithParamInterface<bool> {
+ protected:
+  ReplacedRun() {
+    begin_old_run(old_path_, is_whole_);
+    if (is_whole_) old_ = example::file_text(old_path_);
+    put_old_run_back();
+    EXPECT_EQ(compute_under({}, false, path_, *shared_.told), 0);
+    all_ = *shared_.told;
+  }
+
+  void put_old_run_back() const {
+    namespace fs = std::filesystem;
+    fs::remove_all(run_folder(path_));
+    fs::remove(path_);
+    fs::copy(is_whole_ ? old_path_ : run_folder(old_path_), is_whole_ ? path_ : run_folder(path_));
+  }
+
+  /// A kill after the rename has left the folder: the file stays what is found, also when it is analysed.
+  void expect_found_when_analysed() const {
+    store_analysis(path_, example::analysis(2, 1), example::analysed_state());
+    EXPECT_EQ(run_presence(path_), RunPresence::packed) << "hidden once it is analysed";
+  }
+
+  void bring_the_new_one_to_its_end(bool is_begun) const {
+    Told told;
+    if (is_begun)
+      bring_to_end(path_, commits_in(path_));
+    else
+      compute(path_, false, told);
+    EXPECT_TRUE(example::file_text(path_) == reference_) << "the end is another one";
+  }
+
+  bool is_whole_ = GetParam();
+  std::string path_ = folder_.path("replaced.h5"), old_path_ = folder_.path("old.h5"), old_;
+  Told all_;
+};
+
+TEST_P(ReplacedRun, or_the_new_one_is_found_after_a_kill_at_any_call) {
+  int left_folders = 0;
+  for (int call = 1; call <= all_.calls; ++call) {
+    if (call > all_.begun && call <= all_.ending) continue;
+    SCOPED_TRACE("call " + std::to_string(call));
+    put_old_run_back();
+    ASSERT_EQ(compute_under({.kind = faults::Kind::kill, .call = call}, false, path_, *shared_.told),
+              faults::killed);
+    const bool is_new = is_new_run_found(path_, old_, reference_);
+    EXPECT_TRUE(is_new || shared_.told->committed == 0) << "lost";
+    const bool is_ended = is_new && run_presence(path_) == RunPresence::packed;
+    if (is_ended && std::filesystem::exists(run_folder(path_)) && ++left_folders > 0)
+      expect_found_when_analysed();
+    else
+      bring_the_new_one_to_its_end(is_new);
+    EXPECT_FALSE(std::filesystem::exists(run_folder(path_))) << "leftovers";
+  }
+  EXPECT_GT(left_folders, 2);
+  std::printf("%d of %d calls\n", all_.calls - all_.ending + all_.begun, all_.calls);
+}
+
+INSTANTIATE_TEST_SUITE_P(ThatWas, ReplacedRun, testing::Bool(),
+                         [](const auto& kind) { return kind.param ? "whole" : "not_ended"; });
 
 constexpr int io_error = static_cast<int>(ExitCode::io_error);
 constexpr int cannot_create = static_cast<int>(ExitCode::cannot_create);
