@@ -15,7 +15,8 @@ namespace talus {
 /// What a report needs beside the analysis.
 struct AnalysedRun {
   std::string path;
-  std::string state;  ///< "stored", "read from the file", "not stored: ..."
+  std::string state;     ///< "stored", "read from the file", "not stored: ..."
+  bool is_kept = false;  ///< the file holds the analysis
   RunStatics statics;
   Analysis analysis;
 };
@@ -26,8 +27,9 @@ struct AnalysisOptions {
   bool quiet = false;  ///< show no progress
 };
 
-/// Analyses a run, with its progress on stderr. A run that is not complete is analysed, not stored. Throws as
-/// RunFile::open, analyse_run and store_analysis do.
+/// Analyses a run, with its progress on stderr. A run that is not complete is analysed, not stored; nor is
+/// one that is write-protected, or in a folder that may not be written. Throws as RunFile::open, analyse_run
+/// and store_analysis do.
 AnalysedRun analysed_run(const std::string& path, const AnalysisParameters& parameters,
                          const AnalysisOptions& options);
 

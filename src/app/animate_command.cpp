@@ -44,7 +44,7 @@ void animate(const AnimateArguments& arguments) {
   output_target(arguments.output, output_of_run(arguments.run, arguments.overwrite));
   DrawnRun run = open_drawn_run(arguments.run, plan, count_shown("reading", arguments.quiet));
   const volatile std::sig_atomic_t* stop = stop_request();
-  create_folder_of(arguments.output);
+  prepare_folder_of(arguments.output);
   const std::size_t count =
       draw_movie(run, arguments.timing, arguments.output,
                  {count_shown("animating", arguments.quiet), [stop] { return *stop != 0; }});

@@ -55,7 +55,7 @@ void dump(const DumpArguments& arguments) {
   const std::int64_t number = run.frame(k).step + 1;
   const StepProblem step = problem_after_frame(run, k);
   const std::string from = step_text(step, number);
-  create_folder_of(arguments.output);
+  prepare_folder_of(arguments.output);
   write_problem(arguments.output, step,
                 fmt::format("Talus, {} of a run with seed {}", from, run.header().seed));
   std::printf("%s: %s, after frame %zu: %d contacts of %d bodies%s\n", arguments.output.c_str(), from.c_str(),

@@ -157,7 +157,7 @@ void run_ensemble(const EnsembleArguments& arguments) {
   if (!arguments.until.empty()) parse_precision(arguments.until);
   const EnsembleManifest wanted{"", parse_seeds(arguments.seeds), arguments.until,
                                 plan_variants(arguments.scenario, arguments.settings, arguments.axes)};
-  create_folder(arguments.folder);
+  prepare_folder(arguments.folder);
   const std::string table = (std::filesystem::path(arguments.folder) / "members.csv").string();
   output_target(table, {true, {arguments.scenario}});
   const EnsembleManifest manifest = extend_ensemble(arguments.folder, wanted);

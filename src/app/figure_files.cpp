@@ -79,7 +79,7 @@ std::vector<std::string> figure_files(const Figure& figure) {
 void write_figure(const Figure& figure, std::span<const RunGroup> groups, const std::string& folder,
                   const FigureOptions& options) {
   const double width = figure_width(figure, options.columns);
-  create_folder(folder);
+  prepare_folder(folder);
   const Workshop workshop(fs::path(folder) / (figure.name + temporary_ending));
   for (const Table& table : figure.tables)
     write_text(workshop.path / file_of(figure, table), csv_text(table));

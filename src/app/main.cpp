@@ -32,6 +32,16 @@ void refuse_unknown_command(const CLI::App& app, const std::string& word) {
                                                  "talus --help lists them");
 }
 
+/// No option or argument means anything where it is empty, as `-o "$NAME"` is without the variable; some
+/// would take it for an option that was not given. The only place that looks.
+void refuse_empty_words(CLI::App& app) {
+  const auto refuse = [](const std::string& word) {
+    return word.empty() ? std::string("expected a value, found an empty one") : std::string();
+  };
+  for (CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    for (CLI::Option* option : command->get_options()) option->check(refuse);
+}
+
 void run(int argc, char** argv, CLI::App& app) {
   app.set_version_flag("--version", talus::version_text());
   app.require_subcommand(1);
@@ -57,6 +67,7 @@ void run(int argc, char** argv, CLI::App& app) {
   talus::add_view_command(app);
   talus::add_replay_command(app);
   talus::add_repair_command(app);
+  refuse_empty_words(app);
   if (argc > 1) refuse_unknown_command(app, argv[1]);
   app.parse(argc, argv);
 }

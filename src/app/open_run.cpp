@@ -18,7 +18,7 @@ OpenRun start_run(const RunRequest& request) {
   Session session(scenario);
   RunHeader header = run_header(session, {text, request.scenario, request.command_line, request.threads});
   output_target(request.output, output_of_scenario(request.scenario, scenario));
-  create_folder_of(request.output);
+  prepare_folder_of(request.output);
   RunStore store = RunStore::create(request.output, header, request.overwrite);
   store.commit({}, session.checkpoint(0.0));
   return {std::move(header), std::move(store), std::move(session)};
@@ -43,6 +43,7 @@ OpenRun resume_run(const RunRequest& request) {
   RunHeader header;
   Checkpoint checkpoint;
   RunStore store = RunStore::resume(request.output, header, checkpoint);
+  prepare_folder_of(request.output);
   const Scenario scenario = stored_scenario(header, request.output + ":/parameters");
   if (!request.scenario.empty() && read_scenario(request.scenario, request.settings) != scenario)
     throw Error(ExitCode::bad_data, fmt::format("{} was started with another scenario than {}; compare "

@@ -42,7 +42,7 @@ void make_panel(const PanelArguments& arguments) {
   const MapPlan plan = plan_panel(arguments);
   output_target(arguments.output, output_of_run(arguments.run, true));
   DrawnRun run = open_drawn_run(arguments.run, plan, count_shown("reading", arguments.quiet));
-  create_folder_of(arguments.output);
+  prepare_folder_of(arguments.output);
   const PanelDrawn drawn = draw_panel(run, arguments.at, arguments.output, arguments.overwrite);
   if (!arguments.quiet)
     std::printf("%s: %zu angle%s%s\n", arguments.output.c_str(), drawn.angles, drawn.angles == 1 ? "" : "s",

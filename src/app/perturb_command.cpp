@@ -146,7 +146,7 @@ bool is_perturbed(const Member& member, const PerturbationPlan& plan) {
 /// neither is ever ahead of what it needs. Throws Error(stopped) on SIGINT, SIGTERM and SIGHUP, and as
 /// start_run and resume_run do.
 void perturb_seed(const PerturbArguments& arguments, const Member& member) {
-  create_folder(arguments.folder);
+  prepare_folder(arguments.folder);
   if (is_perturbed(member, arguments.plan)) return;
   RunRequest request{arguments.scenario, member.path, arguments.settings, 1, false, "talus"};
   request.settings.push_back(fmt::format("seed={}", member.seed));

@@ -60,7 +60,7 @@ std::optional<RunStore> begin_output(const ReplayArguments& arguments, const Ses
         ExitCode::cannot_create,
         fmt::format("{} exists already; replace it with --overwrite, or choose another output with -o",
                     arguments.output));
-  create_folder_of(arguments.output);
+  prepare_folder_of(arguments.output);
   RunHeader header =
       run_header(session, {run.header().scenario_given, fact(run.header().provenance, "scenario_file"),
                            command_line(), arguments.threads});

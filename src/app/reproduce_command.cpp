@@ -41,7 +41,7 @@ struct ReproduceArguments {
 
 /// The built-in scenarios as files: `talus run` reads them, and so can a user.
 void write_scenarios(const ReproductionPlan& plan) {
-  create_folder(parent_folder(plan.variants.front().scenario_file));
+  prepare_folder(parent_folder(plan.variants.front().scenario_file));
   for (const Variant& bed : plan.variants)
     write_text(bed.scenario_file,
                std::string(built_in_scenario(fs::path(bed.scenario_file).stem().string())));

@@ -178,7 +178,7 @@ void run(SolveArguments& arguments) {
   else
     print_text(arguments, result);
   if (arguments.output.empty()) return;
-  create_folder_of(arguments.output);
+  prepare_folder_of(arguments.output);
   write_solution(arguments.problem, arguments.output, result.solution);
 }
 

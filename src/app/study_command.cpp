@@ -71,6 +71,7 @@ void study(const StudyArguments& arguments) {
   const std::filesystem::path folder = arguments.folder;
   for (const char* table : {"study.csv", "study.md"})
     output_target((folder / table).string(), {true, {arguments.scenario}});
+  prepare_folder(folder.string());
   const std::vector<FailedJob> failed =
       run_with_progress(missing_runs(plan, "study"), plan.members.size(), arguments.jobs, "study");
   if (failed.size() == plan.members.size()) refuse(failed);

@@ -76,7 +76,7 @@ void take_screenshot(const ViewArguments& arguments) {
   for (int quiet = 0; quiet < 25; std::this_thread::sleep_for(20ms))
     quiet = model.update(0.0) ? 0 : quiet + 1;
   gui.settle();
-  create_folder_of(arguments.screenshot);
+  prepare_folder_of(arguments.screenshot);
   write_png(arguments.screenshot, gui.frame());
 }
 
@@ -172,7 +172,7 @@ void view(const ViewArguments& arguments) {
   GuiWindow window(width, height);  // not shown yet: without a display no run is begun
   if (!arguments.output.empty()) {
     output_target(arguments.output, rule);
-    create_folder_of(arguments.output);
+    prepare_folder_of(arguments.output);
   }
   ViewModel model = ViewModel::open(arguments.file, arguments.settings, arguments.output, arguments.overwrite,
                                     command_line());

@@ -26,13 +26,20 @@ constexpr int attempts = 100;
                   path, attempts));
 }
 
-/// False if another process holds the file.
-bool take_lock(const Descriptor& file, const std::string& path) {
-  while (::flock(file.get(), LOCK_EX | LOCK_NB) != 0) {
+/// False if others hold the file in a way that does not allow this lock.
+bool lock(const Descriptor& file, int operation, const std::string& path) {
+  while (::flock(file.get(), operation) != 0) {
     if (errno == EWOULDBLOCK) return false;
     if (errno != EINTR) throw creation_error("lock", path, errno);
   }
   return true;
+}
+
+/// False if another process writes the file. Who clears it away shares its lock, and has done so in a moment:
+/// that is waited for.
+bool take_lock(const Descriptor& file, const std::string& path) {
+  return lock(file, LOCK_EX | LOCK_NB, path) ||
+         (lock(file, LOCK_SH | LOCK_NB, path) && lock(file, LOCK_EX, path));
 }
 
 /// Whether a file or folder was left under a name by a process that was killed: no link, no device.

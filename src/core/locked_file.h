@@ -10,9 +10,10 @@ namespace talus {
 
 /// Creates an empty file, open for reading and writing, and takes its lock (flock), which dies with the
 /// descriptor or its process. A file of this name that nobody holds was left by a process that was killed: it
-/// is removed, and whoever still has it open does not reach the new one. No value if another process holds
-/// the file; throws creation_error if it cannot be created, and Error(cannot_create) where a link, a folder
-/// or a device has the name, which stays.
+/// is removed, and whoever still has it open does not reach the new one; so it may be with one that
+/// clear_leftovers (core/leftovers.h) is about to remove, which is waited for. No value if another process
+/// holds the file; throws creation_error if it cannot be created, and Error(cannot_create) where a link, a
+/// folder or a device has the name, which stays.
 std::optional<Descriptor> create_locked(const std::string& path);
 
 /// The same of an empty folder, which is open for reading. One that was left is removed with all that is in

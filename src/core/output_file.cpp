@@ -10,6 +10,7 @@
 #include <fmt/core.h>
 
 #include "core/errors.h"
+#include "core/leftovers.h"
 #include "core/locked_file.h"
 
 namespace talus {
@@ -56,6 +57,12 @@ std::string end_of_link(const std::string& path) {
   return target.string();
 }
 
+/// Renaming needs no permission of the file that is replaced: the user has protected it all the same.
+std::string write_protection(const std::string& target, const struct stat& file) {
+  if ((file.st_mode & 0222) != 0 && ::access(target.c_str(), W_OK) == 0) return {};
+  return fmt::format("is write-protected (mode {:04o})", file.st_mode & 07777);
+}
+
 }  // namespace
 
 std::string output_target(const std::string& path, const OutputRule& rule) {
@@ -76,7 +83,19 @@ std::string output_target(const std::string& path, const OutputRule& rule) {
                     " is read by this command, and is not replaced by what it makes of it; choose another "
                     "output with -o");
   if (!rule.overwrite) refuse(path, " exists; give --overwrite to replace it, or another -o");
+  if (const std::string reason = write_protection(target, file); !reason.empty())
+    refuse(path, " " + reason + "; chmod u+w makes it writable, or choose another output with -o");
   return target;
+}
+
+std::string protection_of(const std::string& path) {
+  struct stat file {};
+  if (::stat(path.c_str(), &file) != 0) return {};
+  if (std::string reason = write_protection(path, file); !reason.empty()) return "the file " + reason;
+  std::error_code unknown;
+  const std::string folder = parent_folder(fs::canonical(path, unknown).string());
+  if (::access(folder.c_str(), W_OK | X_OK) == 0) return {};
+  return "its folder cannot be written: " + std::generic_category().message(errno);
 }
 
 namespace {
@@ -188,16 +207,20 @@ void make_with_parents(const std::string& folder) {
 
 }  // namespace
 
-void create_folder(const std::string& folder) {
+void prepare_folder(const std::string& folder) {
   make_with_parents(folder);
+  clear_leftovers(folder);
   if (::access(folder.c_str(), W_OK | X_OK) != 0)
     throw system_error(ExitCode::cannot_create, "write in the folder", folder, errno);
 }
 
-void create_folder_of(const std::string& path) {
+void prepare_folder_of(const std::string& path) {
   const std::string folder = parent_folder(path);
   std::error_code unknown;
-  if (!fs::is_directory(folder, unknown)) create_folder(folder);
+  if (fs::is_directory(folder, unknown))
+    clear_leftovers(folder);
+  else
+    prepare_folder(folder);
 }
 
 }  // namespace talus

@@ -20,10 +20,15 @@ struct OutputRule {
 
 /// The file that an output called `path` makes or replaces: `path` itself, or the file that it is a link to.
 /// This is the only place that decides what may be replaced. Throws Error(cannot_create) where `path` is
-/// anything but a regular file (a folder, a device, a FIFO, a socket, a link that leads nowhere) or a file
-/// that may not be overwritten, and Error(usage) where it could be, but is one of the inputs, or a file in
-/// one of them, under whatever name.
+/// anything but a regular file (a folder, a device, a FIFO, a socket, a link that leads nowhere), a file that
+/// is write-protected or a file that may not be overwritten, and Error(usage) where it could be, but is one
+/// of the inputs, or a file in one of them, under whatever name.
 std::string output_target(const std::string& path, const OutputRule& rule = {});
+
+/// Why a file that exists cannot be replaced: it is write-protected, or no file can be made in its folder.
+/// Empty where neither is so. A file that nobody may write is protected from the superuser too, whom the
+/// system would let write it.
+std::string protection_of(const std::string& path);
 
 /// Looks at a file that has been written and is durable, but has not got its name yet; throws where it is not
 /// whole.
@@ -76,11 +81,11 @@ void sync_name(const std::string& path);
 /// What temporary files and folders are called, after the name of what they become.
 inline constexpr const char* temporary_ending = ".talus.part";
 
-/// Makes a folder with its parents where it is missing. Throws Error(cannot_create), also where files cannot
-/// be made in it.
-void create_folder(const std::string& folder);
+/// Makes a folder with its parents where it is missing, and removes from it what killed processes have left
+/// (clear_leftovers). Throws Error(cannot_create), also where files cannot be made in it.
+void prepare_folder(const std::string& folder);
 
-/// Makes the folder that is to hold `path`, as create_folder does.
-void create_folder_of(const std::string& path);
+/// Makes the folder that is to hold `path` where it is missing, or clears it, as prepare_folder does.
+void prepare_folder_of(const std::string& path);
 
 }  // namespace talus

@@ -200,11 +200,11 @@ EnsembleManifest extend_ensemble(const std::string& folder, const EnsembleManife
     if (fs::exists(variant.scenario_file) && is_ensemble(folder) &&
         read_text(variant.scenario_file) == resolved_toml(variant.scenario))
       continue;
-    create_folder_of(variant.scenario_file);
+    prepare_folder_of(variant.scenario_file);
     write_text(variant.scenario_file, resolved_toml(variant.scenario));
   }
   for (const Member& member : plan_ensemble({all.seeds.front()}, all.variants, folder).members)
-    create_folder_of(member.path);
+    prepare_folder_of(member.path);
   const std::string text = text_of(all);
   if (!is_ensemble(folder) || read_text(manifest_path(folder)) != text)
     write_text(manifest_path(folder), text);

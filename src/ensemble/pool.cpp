@@ -160,7 +160,7 @@ void collect(Pool& pool) {
 
 std::vector<FailedJob> run_jobs(const std::vector<Job>& jobs, const PoolOptions& options) {
   for (const Job& job : jobs) {
-    create_folder_of(job.log);
+    prepare_folder_of(job.log);
     output_target(job.log);  // a FIFO would wait for somebody to read it
   }
   const HeldSignals signals;

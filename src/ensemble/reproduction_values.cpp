@@ -81,7 +81,7 @@ void make_missing(const std::vector<KeptAnalysis>& all, const ValueOptions& opti
       options.keep_on();
       options.show(k, missing.size());
     });
-    create_folder_of(kept.file);
+    prepare_folder_of(kept.file);
     write_text(kept.file,
                measured_text(analysis.key, measure_thresholds(run, analysis, Population::carrying)));
     options.show(k + 1, missing.size());

@@ -122,6 +122,7 @@ void store_analysis(const std::string& path, const Analysis& analysis, const std
   // What a kill left of packing tells the file by its seal, which changes now.
   if (const std::string target = output_target(path); run_presence(target) == RunPresence::packed)
     discard_folder(target);
+  prepare_folder_of(path);
   write_durably(path, file);
 }
 

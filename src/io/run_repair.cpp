@@ -324,7 +324,7 @@ RepairReport repair_run(const RepairRequest& request) {
                 fmt::format("{}: nothing can be saved: {}; restore the run from a copy, or compute it again",
                             request.run, salvage.lost.at(0)));
   RunFile::of_bytes(salvage.file, request.output);  // nothing is written that cannot be read
-  create_folder_of(request.output);
+  prepare_folder_of(request.output);
   write_durably(request.output, salvage.file);
   discard_folder(request.output);  // beside the file it would be another run of that name
   return {false, folder.has_value(), std::move(salvage.kept), std::move(salvage.lost)};

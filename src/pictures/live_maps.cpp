@@ -56,7 +56,7 @@ LiveMaps::LiveMaps(const MapPlan& plan, std::string folder, bool resumed, bool o
   // A context belongs to the thread that makes it.
   tasks_.post([this] { renderer_ = std::make_unique<Renderer>(make_context(series_.plan.context)); });
   tasks_.finish();
-  create_folder(folder_);
+  prepare_folder(folder_);
   if (!resumed && !overwrite_) refuse_pictures(folder_, series_.plan);
 }
 

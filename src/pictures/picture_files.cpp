@@ -84,7 +84,7 @@ void draw_files(DrawnRun& run, const std::vector<PictureFile>& files, const std:
               files.size()));
     }
     Image image = renderer.draw(picture(run, file.frame, file.map), run.series.plan.width);
-    if (done == 0) create_folder(folder);
+    if (done == 0) prepare_folder(folder);
     writer.post(
         [&file, drawn = std::move(image)] { write_png(file.path, drawn, picture_texts(file.marks)); });
     if (watch.progress) watch.progress(done + 1, files.size());

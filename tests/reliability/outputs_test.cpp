@@ -162,6 +162,99 @@ TEST_F(Outputs, written_again_keep_mode_owner_and_link) {
   }
 }
 
+TEST_F(Outputs, that_are_write_protected_are_not_replaced) {
+  for (const Writer& writer : writers()) {
+    if (writer.of_folder) continue;
+    SCOPED_TRACE(writer.name);
+    const std::string old = "old" + fs::path(writer.output).extension().string();
+    write_file(folder_, old, "what was there before");
+    ASSERT_EQ(chmod(path(old).c_str(), 0444), 0);
+    const auto before = identity(path(old));
+    Words words = with_output(writer.words, old);
+    words.emplace_back("--overwrite");
+    const Outcome outcome = talus(words);
+    EXPECT_EQ(outcome.exit_code, refused) << outcome.err;
+    EXPECT_NE(outcome.err.find("write-protected"), std::string::npos) << outcome.err;
+    EXPECT_EQ(identity(path(old)), before);
+    fs::remove(path(old));
+  }
+}
+
+TEST_F(Outputs, have_no_empty_name) {
+  std::vector<Words> commands = {{"study", "bed.toml", "--seeds", "1", "-o", "OUT"},
+                                 {"perturb", "bed.toml", "--seeds", "1", "-o", "OUT"},
+                                 {"view", "bed.toml", "-o", "OUT"},
+                                 {"run", "bed.toml", "--map", "gamma", "--frames", "OUT"}};
+  for (const Writer& writer : writers()) commands.push_back(writer.words);
+  const std::set<std::string> before = names_in(folder_.path());
+  for (const Words& words : commands) {
+    const Outcome outcome = talus(with_output(words, ""));
+    EXPECT_EQ(outcome.exit_code, usage) << words[0] << ": " << outcome.err;
+    EXPECT_NE(outcome.err.find("expected a value, found an empty one"), std::string::npos) << outcome.err;
+    std::set<std::string> after = names_in(folder_.path());
+    for (const char* printed : {".stdout", ".stderr"}) after.erase(printed);
+    EXPECT_EQ(after, before) << words[0];
+  }
+}
+
+/// Until it ends, commands are run as a user who is nobody. Needs root.
+struct AsNobody {
+  AsNobody() { EXPECT_EQ(setresuid(nobody, nobody, 0), 0); }
+  ~AsNobody() { EXPECT_EQ(setresuid(0, 0, 0), 0); }
+  AsNobody(const AsNobody&) = delete;
+  AsNobody& operator=(const AsNobody&) = delete;
+  static constexpr uid_t nobody = 65534;
+};
+
+TEST_F(Outputs, runs_that_may_only_be_read_are_analysed_and_drawn) {
+  if (geteuid() != 0) GTEST_SKIP() << "needs root, to be somebody else";
+  const TemporaryFolder own;  // of the reader
+  ASSERT_EQ(chown(own.path().c_str(), AsNobody::nobody, AsNobody::nobody), 0);
+  ASSERT_EQ(chmod(folder_.path().c_str(), 0755), 0);
+  ASSERT_EQ(talus({"run", "bed.toml", "-q", "-o", "new.h5", "--seed", "2"}).exit_code, done);
+  const std::string run = path("new.h5"), before = content(run);
+  const auto read_by_nobody = [&](const std::string& reason) {
+    SCOPED_TRACE(reason);
+    const AsNobody reader;
+    const Outcome drawn =
+        run_talus({"figures", run, "--only", "fig04", "-o", "figs", "--overwrite"}, own.path());
+    if (drawn.exit_code == 127) GTEST_SKIP() << "the program cannot be read by everybody";
+    EXPECT_EQ(drawn.exit_code, done) << drawn.err;
+    EXPECT_TRUE(fs::exists(own.path("figs/fig04-shear-stress.pdf")));
+    EXPECT_NE(drawn.err.find("analysis not stored: " + reason), std::string::npos) << drawn.err;
+    const Outcome analysed = run_talus({"analyze", run, "-q"}, own.path());
+    EXPECT_EQ(analysed.exit_code, done) << analysed.err;
+    EXPECT_NE(analysed.out.find("analysis not stored: " + reason), std::string::npos) << analysed.out;
+  };
+  read_by_nobody("the file is write-protected (mode 0644)");
+  ASSERT_EQ(chmod(run.c_str(), 0666), 0);
+  read_by_nobody("its folder cannot be written: Permission denied");
+  EXPECT_TRUE(content(run) == before);
+}
+
+TEST_F(Outputs, what_killed_commands_left_is_removed_by_any_that_writes_there) {
+  for (const Writer& writer : writers()) {
+    SCOPED_TRACE(writer.name);
+    const std::string place = writer.of_folder ? "place/" + writer.output : "place";
+    fs::create_directories(path(place) + "/fig99-other.talus.part");
+    write_file(folder_, place + "/other.mp4.talus.part", "half a movie");
+    write_file(folder_, place + "/fig99-other.talus.part/fig99-other.gp", "half a script");
+    write_file(folder_, place + "/mine.part", "not of Talus");
+    const Outcome outcome = talus(with_output(writer.words, "place/" + writer.output));
+    EXPECT_EQ(outcome.exit_code, done) << outcome.err;
+    EXPECT_FALSE(fs::exists(path(place) + "/other.mp4.talus.part"));
+    EXPECT_FALSE(fs::exists(path(place) + "/fig99-other.talus.part"));
+    EXPECT_TRUE(fs::exists(path(place) + "/mine.part"));
+    fs::remove_all(path("place"));
+  }
+  for (const Words& words :
+       {Words{"analyze", "f.h5", "-q", "--force"}, Words{"study", "bed.toml", "--seeds", "1", "-o", "."}}) {
+    write_file(folder_, "other.mp4.talus.part", "half a movie");
+    EXPECT_EQ(talus(words).exit_code, done);
+    EXPECT_FALSE(fs::exists(path("other.mp4.talus.part"))) << words[0];
+  }
+}
+
 TEST_F(Outputs, a_run_that_is_overwritten_stays_until_the_new_one_is_whole) {
   const std::string before = content(path("f.h5"));
   const Words again = {"run", "bed.toml", "--set", "tilt.end_angle=30", "--seed",    "77",

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 #include <fmt/core.h>
@@ -83,6 +84,22 @@ TEST(OutputTarget, is_a_file_or_what_a_link_leads_to) {
   EXPECT_EQ(code_of(link), ExitCode::cannot_create) << "it leads nowhere";
 }
 
+TEST(OutputTarget, is_no_file_that_is_write_protected) {
+  const test::TemporaryFolder folder;
+  const std::string file = folder.path("file"), link = folder.path("link");
+  std::ofstream(file) << "x";
+  fs::create_symlink("file", link);
+  EXPECT_EQ(protection_of(file), "");
+  ASSERT_EQ(chmod(file.c_str(), 0444), 0);
+  for (const std::string& path : {file, link}) {
+    EXPECT_EQ(code_of(path), ExitCode::cannot_create);
+    EXPECT_EQ(protection_of(path), "the file is write-protected (mode 0444)");
+  }
+  ASSERT_EQ(chmod(file.c_str(), 0644), 0);
+  EXPECT_EQ(code_of(file), ExitCode::done);
+  EXPECT_EQ(protection_of(folder.path("none")), "");
+}
+
 TEST(OutputTarget, is_not_what_a_process_has_open) {
   const test::TemporaryFolder folder;
   const std::string file = folder.path("file");
@@ -132,14 +149,14 @@ TEST(OutputFile, keeps_the_mode_and_the_link_of_what_it_replaces) {
   const test::TemporaryFolder folder;
   const std::string path = folder.path("file"), link = folder.path("link");
   std::ofstream(path) << "x";
-  fs::permissions(path, fs::perms::owner_read);
+  fs::permissions(path, fs::perms::owner_read | fs::perms::owner_write);
   fs::create_symlink("file", link);
   OutputFile file(link);
   file.write(text);
   file.commit();
   EXPECT_TRUE(fs::is_symlink(link));
   EXPECT_EQ(fs::file_size(path), 2u);
-  EXPECT_EQ(fs::status(path).permissions(), fs::perms::owner_read);
+  EXPECT_EQ(fs::status(path).permissions(), fs::perms::owner_read | fs::perms::owner_write);
 }
 
 TEST(OutputFile, gives_a_name_to_what_another_program_made) {

@@ -1,0 +1,106 @@
+#include "core/leftovers.h"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <thread>
+
+#include "core/locked_file.h"
+#include "support/temporary_folder.h"
+
+namespace talus {
+namespace {
+
+namespace fs = std::filesystem;
+
+void write(const std::string& path) { std::ofstream(path) << "half"; }
+
+std::set<std::string> names_in(const fs::path& folder) {
+  std::set<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder)) names.insert(entry.path().filename().string());
+  return names;
+}
+
+TEST(Leftovers, are_removed_whatever_they_were_to_become) {
+  const test::TemporaryFolder folder;
+  for (const char* name : {"map.png.talus.part", "run.h5.talus.part"}) write(folder.path(name));
+  for (const char* name : {"fig04-shear-stress.talus.part", "fig05-empty.talus.part"})
+    fs::create_directory(folder.path(name));
+  for (const char* name : {"fig04-shear-stress.gp", "fig04-shear-stress.csv.talus.part"})
+    write(folder.path("fig04-shear-stress.talus.part/" + std::string(name)));
+  clear_leftovers(folder.path().string());
+  EXPECT_TRUE(fs::is_empty(folder.path()));
+  clear_leftovers(folder.path("nowhere"));
+}
+
+TEST(Leftovers, all_else_stays) {
+  const test::TemporaryFolder folder;
+  const auto make = [&folder](const std::string& name) { write(folder.path(name)); };
+  for (const char* name : {"mine.part", "talus.part", ".talus.part", "a.talus.part.bak", "map.png"})
+    make(name);
+  fs::create_symlink("mine.part", folder.path("link.talus.part"));
+  ASSERT_EQ(mkfifo(folder.path("fifo.talus.part").c_str(), 0600), 0);
+  for (const char* name : {"map.png.talus.part", "fig04.talus.part", "fig05.talus.part"})
+    fs::create_directory(folder.path(name));
+  make("fig04.talus.part/fig04.gp");
+  make("fig04.talus.part/notes");  // so it is somebody else's
+  fs::create_directory(folder.path("fig05.talus.part/fig05-more"));
+  const std::set<std::string> before = names_in(folder.path());
+  clear_leftovers(folder.path().string());
+  EXPECT_EQ(names_in(folder.path()), before);
+  EXPECT_EQ(names_in(folder.path("fig04.talus.part")).size(), 2u);
+}
+
+TEST(Leftovers, of_another_user_stay) {
+  if (geteuid() != 0) GTEST_SKIP() << "needs root, to give files away";
+  const test::TemporaryFolder folder;
+  const std::string path = folder.path("map.png.talus.part");
+  write(path);
+  ASSERT_EQ(chown(path.c_str(), 1234, 1234), 0);
+  clear_leftovers(folder.path().string());
+  EXPECT_TRUE(fs::exists(path));
+}
+
+TEST(Leftovers, that_somebody_writes_are_none) {
+  const test::TemporaryFolder folder;
+  const auto file = create_locked(folder.path("map.png.talus.part"));
+  const auto figure = create_locked_folder(folder.path("fig04.talus.part"));
+  write(folder.path("fig04.talus.part/fig04.gp"));
+  clear_leftovers(folder.path().string());
+  EXPECT_TRUE(is_named(folder.path("map.png.talus.part"), *file));
+  EXPECT_TRUE(is_named(folder.path("fig04.talus.part"), *figure));
+  EXPECT_TRUE(fs::exists(folder.path("fig04.talus.part/fig04.gp")));
+}
+
+/// Two clear away without end what two others make, leave and make again.
+TEST(Leftovers, are_told_from_what_is_just_being_made) {
+  const test::TemporaryFolder folder;
+  std::atomic<bool> ended = false;
+  const auto clear = [&] {
+    while (!ended) clear_leftovers(folder.path().string());
+  };
+  const auto make = [](const std::string& path, const auto& create) {
+    for (int k = 0; k < 150; ++k) {
+      const auto held = create(path);
+      ASSERT_TRUE(held) << "refused in favour of nobody, attempt " << k;
+      ASSERT_TRUE(is_named(path, *held)) << "it was taken away, attempt " << k;
+      std::this_thread::yield();
+      ASSERT_TRUE(is_named(path, *held)) << "it was taken away while it was written, attempt " << k;
+    }  // left as by a kill: the lock is free, the name there
+  };
+  std::thread first(clear), second(clear);
+  std::thread files(make, folder.path("map.png.talus.part"), create_locked);
+  make(folder.path("fig04.talus.part"), create_locked_folder);
+  files.join();
+  ended = true;
+  first.join();
+  second.join();
+}
+
+}  // namespace
+}  // namespace talus
