@@ -9,7 +9,7 @@
 #include "core/trigonometry.h"
 #include "figures/failed_group.h"
 #include "figures/run_means.h"
-#include "pictures/maps.h"
+#include "pictures/picture_series.h"
 #include "session/analysis_input.h"
 #include "session/analysis_parameters.h"
 #include "stress/overload.h"
@@ -26,20 +26,33 @@ constexpr double column_gap = 0.3;                  // cm
 constexpr double legend_height = 1.3;               // cm
 constexpr double largest_height_over_width = 1.25;  // a page, with its caption
 
-/// The frames of the panels.
+/// The frames of the panels, and their pictures.
 struct Panels {
   FrameChoice choice;
   std::vector<Frame> frames;
-  MapExtent extent;
+  PictureSeries pictures;
 };
 
-Panels read_panels(const FigureRun& run) {
+/// A map whose Gamma_c is that of the analysis, which need not be sin(theta_c), times `factor`.
+MapSettings map_of(const FigureRun& run, MapKind kind, double factor) {
+  MapSettings settings;
+  settings.layers = {kind};
+  settings.theta_c = theta_c_of(run);
+  settings.threshold_factor = factor * (run.analysis.gamma_c / sine(settings.theta_c));
+  settings.range_high = 2.0 * run.analysis.gamma_c;
+  settings.furniture = false;
+  return settings;
+}
+
+Panels read_panels(const FigureRun& run, std::vector<MapSettings> maps) {
   Panels panels;
   panels.choice = panel_frames(run.file.frame_tilts(), theta_c_of(run));
-  panels.extent = bed_extent(run.file.header().statics);
+  panels.pictures.run = run.file.header();
+  panels.pictures.plan.maps = std::move(maps);
+  panels.pictures.extent = bed_extent(panels.pictures.run.statics);
   for (const std::size_t k : panels.choice) {
     panels.frames.push_back(analysed_frame(run.file, from_facts(run.analysis.parameters), k));
-    extend(panels.extent, {panels.frames.back(), run.file.header().statics});
+    extend(panels.pictures.extent, {panels.frames.back(), panels.pictures.run.statics});
   }
   return panels;
 }
@@ -75,18 +88,18 @@ double panel_width_of(std::size_t columns) {
   return (figure_width - label_width - (count - 1.0) * column_gap) / count;
 }
 
-/// The map of a panel, to be printed at that resolution (dpi).
-FigureMap panel_map(const std::string& number, FrameView view, std::size_t columns, double resolution) {
-  return {"panel" + number, std::move(view),
-          panel_width_of(columns) / figure_width * resolution / map_resolution};
+/// Map `map` of panel k, to be printed at that resolution (dpi).
+FigureMap panel_map(const std::string& number, const Panels& panels, std::size_t k, std::size_t map,
+                    double resolution) {
+  return {"panel" + number, picture(panels.pictures, k, panels.frames[k], nullptr, map),
+          panel_width_of(panels.pictures.plan.maps.size()) / figure_width * resolution / map_resolution};
 }
 
-/// A figure with the layout of the panels, `columns` of them side by side, each with a line of text above.
-Figure panel_figure(const FailedGroup& failed, const Panels& panels, std::size_t columns,
-                    double text_height) {
-  const RunStatics& statics = failed.first().file.header().statics;
-  const double aspect = statics.length / (panels.extent.y_max - panels.extent.y_min);
-  const double panel_width = panel_width_of(columns);
+/// A figure with the layout of the panels, a column for each map, each panel with a line of text above.
+Figure panel_figure(const FailedGroup& failed, const Panels& panels, double text_height) {
+  const RunStatics& statics = panels.pictures.run.statics;
+  const double aspect = statics.length / (panels.pictures.extent.y_max - panels.pictures.extent.y_min);
+  const double panel_width = panel_width_of(panels.pictures.plan.maps.size());
   const double row = panel_width / aspect + text_height;
   const double height = static_cast<double>(panels.frames.size()) * row + legend_height;
 
@@ -146,10 +159,9 @@ FrameChoice panel_frames(const std::vector<double>& tilts, double theta_c) {
 std::optional<Figure> gamma_maps(std::span<const RunGroup> groups) {
   const auto failed = first_failed_group(groups);
   if (!failed) return std::nullopt;
-  const RunStatics& statics = failed->first().file.header().statics;
   const double gamma_c = failed->first().analysis.gamma_c;
-  const Panels panels = read_panels(failed->first());
-  Figure figure = panel_figure(*failed, panels, 1, 0.2);
+  const Panels panels = read_panels(failed->first(), {map_of(failed->first(), MapKind::gamma, 1.0)});
+  Figure figure = panel_figure(*failed, panels, 0.2);
   figure.name = "fig10-stress-ratio-maps";
   figure.title = "Maps of the stress ratio of each grain (paper, Fig. 10)";
   figure.caption = fmt::format(
@@ -161,11 +173,8 @@ std::optional<Figure> gamma_maps(std::span<const RunGroup> groups) {
   Column share_white{"white", "1", "share of these grains that are white", {}};
   Column share_black{"black", "1", "share of them that are black", {}};
   for (std::size_t k = 0; k < panels.frames.size(); ++k) {
-    const BedFrame bed{panels.frames[k], statics};
-    const auto gamma = std::span(bed.frame.gamma).first(static_cast<std::size_t>(statics.free_count));
-    figure.maps.push_back(panel_map(std::to_string(k + 1),
-                                    bare_map(bed, looks_of(gamma_scale(gamma_c), gamma), panels.extent), 1,
-                                    300.0));
+    const BedFrame bed{panels.frames[k], panels.pictures.run.statics};
+    figure.maps.push_back(panel_map(std::to_string(k + 1), panels, k, 0, 300.0));
     mean.values.push_back(failed->first().analysis.frames.at(panels.choice[k]).gamma_mean);
     share_white.values.push_back(1.0 - share_from(bed, white_below));
     share_black.values.push_back(share_from(bed, 2.0 * gamma_c));
@@ -177,11 +186,13 @@ std::optional<Figure> gamma_maps(std::span<const RunGroup> groups) {
 std::optional<Figure> overload_maps(std::span<const RunGroup> groups) {
   const auto failed = first_failed_group(groups);
   if (!failed) return std::nullopt;
-  const RunStatics& statics = failed->first().file.header().statics;
   const Analysis& analysis = failed->first().analysis;
   const std::vector<RunThreshold>& thresholds = analysis.thresholds;
-  const Panels panels = read_panels(failed->first());
-  Figure figure = panel_figure(*failed, panels, thresholds.size(), 0.5);
+  std::vector<MapSettings> maps;
+  for (const RunThreshold& threshold : thresholds)
+    maps.push_back(map_of(failed->first(), MapKind::overloaded, threshold.factor));
+  const Panels panels = read_panels(failed->first(), std::move(maps));
+  Figure figure = panel_figure(*failed, panels, 0.5);
   figure.name = "fig13-overloaded-maps";
   figure.title = "Maps of the overloaded grains (paper, Fig. 13)";
   figure.caption =
@@ -194,11 +205,7 @@ std::optional<Figure> overload_maps(std::span<const RunGroup> groups) {
     for (Column& column : threshold_columns(analysis, panels, f))
       figure.tables[0].columns.push_back(std::move(column));
     for (std::size_t k = 0; k < panels.frames.size(); ++k) {
-      const BedFrame bed{panels.frames[k], statics};
-      const std::string number = fmt::format("{}-{}", f + 1, k + 1);
-      figure.maps.push_back(panel_map(number,
-                                      bare_map(bed, overload_looks(bed, thresholds[f].gamma), panels.extent),
-                                      thresholds.size(), 400.0));
+      figure.maps.push_back(panel_map(fmt::format("{}-{}", f + 1, k + 1), panels, k, f, 400.0));
       set_variable(figure, fmt::format("p_o_{}_{}", f + 1, k + 1),
                    analysis.frames.at(panels.choice[k]).thresholds[f].overloaded_fraction);
     }

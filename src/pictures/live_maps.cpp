@@ -107,10 +107,10 @@ void LiveMaps::fail(ExitCode code, const std::string& message) {
 
 void LiveMaps::draw(Frame frame) {
   const MapPlan& plan = series_.plan;
-  if (series_.instants.empty()) series_.extent = live_extent({frame, series_.run.statics});
+  if (series_.met.instants.empty()) series_.extent = live_extent({frame, series_.run.statics});
   frame = as_mapped(series_, std::move(frame));
   talus::meet(series_, frame);
-  const std::size_t k = series_.instants.size() - 1;
+  const std::size_t k = series_.met.instants.size() - 1;
   for (std::size_t map = 0; map < plan.maps.size(); ++map) {
     const PictureFile file = picture_file(series_, "run", folder_, k, map, decimals_);
     if (is_drawn(file.path, file.marks, overwrite_)) continue;

@@ -138,9 +138,9 @@ void extend(MapExtent& extent, const MapExtent& other) {
   extent.y_max = std::max(extent.y_max, other.y_max);
 }
 
-FrameView bare_map(const BedFrame& bed, const std::vector<GrainLook>& looks, const MapExtent& extent) {
+FrameView outlined_bed(const BedFrame& bed, const MapExtent& extent) {
   FrameView view = empty_view(extent);
-  add_grains(view, bed, {&looks, looks.empty() ? 0u : 1u});
+  add_grains(view, bed, {});
   return view;
 }
 

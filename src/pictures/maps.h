@@ -85,8 +85,8 @@ struct MapFrame : BedFrame {
   std::span<const ClusterColour> cluster_colours = {};
 };
 
-/// The bed of a frame without furniture, with these looks of its free grains; none: outlines.
-FrameView bare_map(const BedFrame& bed, const std::vector<GrainLook>& looks, const MapExtent& extent);
+/// The outlines of the grains of a frame, without furniture.
+FrameView outlined_bed(const BedFrame& bed, const MapExtent& extent);
 
 /// A map of a frame, with its furniture but no traces. Throws Error(bad_data) where a layer is scaled by
 /// theta_c, and that is not between 2 and 89 deg; Error(usage) where a range or `length` cannot be.
@@ -97,12 +97,5 @@ bool has_bar(const MapLayers& layers);
 
 /// Stress ratio below which a grain is white in the map of gamma (paper, Fig. 10).
 inline constexpr double white_below = 0.05;
-
-/// The scale of the map of gamma: white up to white_below, black from 2 gamma_c on.
-Scale gamma_scale(double gamma_c);
-
-/// Of each free grain: black with gamma >= threshold, else white; `over_grains`: as a mark in a grain that
-/// another layer fills.
-std::vector<GrainLook> overload_looks(const BedFrame& bed, double threshold, bool over_grains = false);
 
 }  // namespace talus

@@ -63,8 +63,8 @@ std::vector<Swatch> spanning_swatches(const Spanning& spanning, std::span<const 
   return swatches;
 }
 
-}  // namespace
-
+/// Of each free grain: black with gamma >= threshold, else white; `over_grains`: as a mark in a grain that
+/// another layer fills.
 std::vector<GrainLook> overload_looks(const BedFrame& bed, double threshold, bool over_grains) {
   std::vector<GrainLook> looks;
   for (Index i = 0; i < bed.statics.free_count; ++i) {
@@ -74,6 +74,8 @@ std::vector<GrainLook> overload_looks(const BedFrame& bed, double threshold, boo
   }
   return looks;
 }
+
+}  // namespace
 
 MapLayer overloaded_layer(const MapFrame& of, const MapSettings& settings, bool over_grains) {
   const double threshold = threshold_of(settings);

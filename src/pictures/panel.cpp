@@ -64,7 +64,7 @@ PictureMarks panel_marks(const DrawnRun& run, const FrameChoice& choice, const s
     for (std::size_t map = 0; map < series.plan.maps.size(); ++map)
       key.add("bed", picture_key(series, k, map));
   const std::string angles =
-      joined(choice, ", ", [&](std::size_t k) { return tilt_text(series.instants[k].tilt); });
+      joined(choice, ", ", [&](std::size_t k) { return tilt_text(series.met.instants[k].tilt); });
   const std::string maps =
       joined(series.plan.maps, " ", [](const MapSettings& map) { return layers_name(map.layers); });
   return {key.text(), picture_request("panel " + joined(at, " "), series, series.asked.maps, output),

@@ -21,9 +21,9 @@ constexpr std::size_t pictures_waiting = 2;
 /// "gamma_012.00.png" for frame k of the tilt, "gamma_flow_002.3500s.png" for one of the flow after failure,
 /// with the time since the last frame of the tilt: names sort by time.
 std::string picture_name(const PictureSeries& series, std::size_t k, std::size_t map, int decimals) {
-  const FrameInstant &instant = series.instants[k], &highest = series.instants[series.highest];
+  const FrameInstant &instant = series.met.instants[k], &highest = series.met.instants[series.met.highest];
   const std::string name = layers_name(series.plan.maps[map].layers);
-  if (k <= series.highest) return fmt::format("{}_{}.png", name, angle_name(instant.tilt, decimals));
+  if (k <= series.met.highest) return fmt::format("{}_{}.png", name, angle_name(instant.tilt, decimals));
   return fmt::format("{}_flow_{:08.4f}s.png", name, instant.time - highest.time);
 }
 
@@ -31,7 +31,7 @@ std::string picture_name(const PictureSeries& series, std::size_t k, std::size_t
 
 FrameChoice choose_frames(const DrawnRun& run, const FramesAsked& asked) {
   const std::vector<double>& tilts = run.file.frame_tilts();
-  const std::size_t count = run.series.instants.size();
+  const std::size_t count = run.series.met.instants.size();
   if (asked.flow && count == tilts.size())
     throw Error(ExitCode::bad_data, run.series.path +
                                         ": --flow: nothing was followed after failure in this run; "

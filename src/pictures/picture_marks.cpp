@@ -84,10 +84,10 @@ std::string picture_key(const PictureSeries& series, std::size_t k, std::size_t 
   PictureKey key;
   add_run(key, series.run);
   add_settings(key, series.plan.maps[map], series.plan.width, series.extent);
-  key.add("step", std::to_string(series.instants[k].step));
-  key.add("tilt", series.instants[k].tilt);
+  key.add("step", std::to_string(series.met.instants[k].step));
+  key.add("tilt", series.met.instants[k].tilt);
   if (any_layer(series.plan, needs_reference))
-    key.add("since", series.since ? std::to_string(series.instants[*series.since].step) : "frame before");
+    key.add("since", series.since ? std::to_string(series.met.instants[*series.since].step) : "frame before");
   for (std::size_t t = 0; t < series.curves.size(); ++t) {
     key.add("trace", std::string(trace_name(series.plan.traces[t])));
     key.add("tilts", series.curves[t].tilts);
@@ -110,8 +110,9 @@ std::string picture_request(const std::string& command, const PictureSeries& ser
 }
 
 std::string picture_source(const PictureSeries& series, std::size_t k, std::size_t map) {
-  return picture_source(series.path, fmt::format("frame at {} deg, {}", tilt_text(series.instants[k].tilt),
-                                                 layers_name(series.plan.maps[map].layers)));
+  return picture_source(series.path,
+                        fmt::format("frame at {} deg, {}", tilt_text(series.met.instants[k].tilt),
+                                    layers_name(series.plan.maps[map].layers)));
 }
 
 std::string picture_source(const std::string& run, const std::string& shown) {

@@ -57,7 +57,7 @@ void meet_all(PictureSeries& series, const RunFile& file, const CountDone& progr
       }
     if (progress) progress(k + 1, count);
   }
-  series.highest = file.frame_count() - 1;
+  series.met.highest = file.frame_count() - 1;
 }
 
 void take_observables(PictureSeries& series, const RunFile& file) {
@@ -85,16 +85,26 @@ MapExtent cropped(const MapExtent& bed, const Crop& crop, double diameter) {
   return asked;
 }
 
-MapFrame map_frame(const PictureSeries& series, std::size_t k, const Frame& frame, const Frame* reference) {
-  std::span<const ClusterColour> colours;
-  if (!series.cluster_colours.empty()) colours = series.cluster_colours[k];
-  return {{frame, series.run.statics}, reference, !series.since, colours};
+/// Of the clusters of frame k; empty where no map shows them.
+std::vector<ClusterColour> colours_of(const PictureSeries& series, std::size_t k, const Frame& frame) {
+  if (!shows(series.plan, MapKind::clusters)) return {};
+  const OverloadRule& rule = series.plan.maps[0];
+  const MetFrames& met = series.met;
+  const bool same = met.rule == rule;  // colours of another rule are of other clusters
+  if (same && k < met.cluster_colours.size() && met.instants[k].step == frame.step)
+    return met.cluster_colours[k];
+  ClusterColours tracker = same ? met.tracker : ClusterColours();
+  return tracker.next(overloaded_clusters({frame, series.run.statics}, rule));
+}
+
+void add_instant(MetFrames& met, const Frame& frame) {
+  if (met.instants.empty() || frame.tilt > met.instants[met.highest].tilt) met.highest = met.instants.size();
+  met.instants.push_back({frame.step, frame.time, frame.tilt});
 }
 
 void read_frame(DrawnRun& run, std::size_t k) {
   if (run.current == k) return;
-  const std::optional<std::size_t> wanted =
-      any_layer(run.series.plan, needs_reference) ? reference_frame(k, run.series.since) : std::nullopt;
+  const std::optional<std::size_t> wanted = reference_of(run.series, k);
   if (wanted && wanted != run.before)
     run.reference = run.current == wanted ? std::move(run.frame) : run.file.frame(*wanted);
   run.before = wanted;
@@ -112,18 +122,28 @@ Frame as_mapped(const PictureSeries& series, Frame frame) {
 }
 
 void meet(PictureSeries& series, const Frame& mapped) {
-  if (series.instants.empty() || mapped.tilt > series.instants[series.highest].tilt)
-    series.highest = series.instants.size();
-  series.instants.push_back({mapped.step, mapped.time, mapped.tilt});
   if (shows(series.plan, MapKind::clusters))
-    series.cluster_colours.push_back(
-        series.tracker.next(overloaded_clusters({mapped, series.run.statics}, series.plan.maps[0])));
+    meet(series, mapped, overloaded_clusters({mapped, series.run.statics}, series.plan.maps[0]));
+  else
+    add_instant(series.met, mapped);
+}
+
+void meet(PictureSeries& series, const Frame& mapped, const Clusters& clusters) {
+  add_instant(series.met, mapped);
+  series.met.rule = series.plan.maps[0];
+  series.met.cluster_colours.push_back(series.met.tracker.next(clusters));
+}
+
+std::optional<std::size_t> reference_of(const PictureSeries& series, std::size_t k) {
+  return any_layer(series.plan, needs_reference) ? reference_frame(k, series.since) : std::nullopt;
 }
 
 FrameView picture(const PictureSeries& series, std::size_t k, const Frame& frame, const Frame* reference,
                   std::size_t map) {
   const MapSettings& settings = series.plan.maps[map];
-  FrameView view = make_map(map_frame(series, k, frame, reference), settings, series.extent);
+  const std::vector<ClusterColour> colours = colours_of(series, k, frame);
+  const BedFrame bed{frame, series.run.statics};
+  FrameView view = make_map({bed, reference, !series.since, colours}, settings, series.extent);
   for (std::size_t t = 0; t < series.curves.size(); ++t)
     view.traces.push_back(make_trace(series.plan.traces[t], series.curves[t].tilts, series.curves[t].values,
                                      settings, frame.tilt));
@@ -155,7 +175,8 @@ void fit_motion(DrawnRun& run, std::span<const std::size_t> frames) {
   MotionSample sample;
   for (const std::size_t k : frames) {
     read_frame(run, k);
-    sample.add(map_frame(run.series, k, run.frame, reference_of(run)));
+    const BedFrame bed{run.frame, run.series.run.statics};
+    sample.add({bed, reference_of(run), !run.series.since});
   }
   for (MapSettings& map : run.series.plan.maps) map.motion = sample.ranges();
 }

@@ -26,6 +26,15 @@ struct TraceCurve {
   std::vector<double> tilts, values;  ///< rad; in the unit of the observables
 };
 
+/// What is known of the frames of a run that were met, in their order.
+struct MetFrames {
+  std::vector<FrameInstant> instants;
+  std::size_t highest = 0;  ///< the last frame of the tilt; those after it are of the flow
+  OverloadRule rule;        ///< by which their clusters were told apart
+  std::vector<std::vector<ClusterColour>> cluster_colours;  ///< empty where no map shows them
+  ClusterColours tracker;
+};
+
 /// One value from which all pictures of a run follow, together with the frames themselves.
 struct PictureSeries {
   std::string path;  ///< of the run
@@ -34,12 +43,7 @@ struct PictureSeries {
   MapPlan plan;      ///< its theta_c is settled: NaN only where neither the run nor the user has said one
   MapExtent extent;  ///< what pictures show of the bed: all have one size
   std::optional<std::size_t> since;  ///< frame that displacements are measured from; none: the one before
-
-  // Of the frames met so far, in the order of the run.
-  std::vector<FrameInstant> instants;
-  std::size_t highest = 0;  ///< the last frame of the tilt; those after it are of the flow
-  std::vector<std::vector<ClusterColour>> cluster_colours;  ///< empty where no map shows them
-  ClusterColours tracker;
+  MetFrames met;
   std::vector<TraceCurve> curves;  ///< of each trace of the plan
 };
 
@@ -48,9 +52,16 @@ Frame as_mapped(const PictureSeries& series, Frame frame);
 
 /// The next frame of the run, as its maps see it. Leaves the extent and the curves as they are.
 void meet(PictureSeries& series, const Frame& mapped);
+/// The same of a frame whose overloaded_clusters are known, where a map shows them.
+void meet(PictureSeries& series, const Frame& mapped, const Clusters& clusters);
 
-/// Map `map` of the plan at frame k, which was met, with its traces. `frame` is as its maps see it;
-/// `reference`: where displacements are measured from, null where nothing has moved yet.
+/// The frame that motion up to frame k is measured from; none where no map shows any, or nothing has moved
+/// yet.
+std::optional<std::size_t> reference_of(const PictureSeries& series, std::size_t k);
+
+/// Map `map` of the plan at frame k, with its traces. `frame` is as its maps see it; where it was not met,
+/// its clusters are coloured as if it followed the last that was. `reference`: where displacements are
+/// measured from, null where nothing has moved yet.
 FrameView picture(const PictureSeries& series, std::size_t k, const Frame& frame, const Frame* reference,
                   std::size_t map);
 

@@ -18,12 +18,12 @@ namespace {
 /// When each frame of a run is, in rad: its tilt; and after failure, the tilt that would have been reached
 /// had it gone on rising.
 std::vector<double> clock_tilts(const PictureSeries& series) {
-  const FrameInstant &first = series.instants.front(), &last = series.instants[series.highest];
+  const FrameInstant &first = series.met.instants.front(), &last = series.met.instants[series.met.highest];
   const double rate = last.time > first.time ? (last.tilt - first.tilt) / (last.time - first.time) : 0.0;
   std::vector<double> clock;
-  for (std::size_t k = 0; k < series.instants.size(); ++k)
-    clock.push_back(k <= series.highest ? series.instants[k].tilt
-                                        : last.tilt + rate * (series.instants[k].time - last.time));
+  for (std::size_t k = 0; k < series.met.instants.size(); ++k)
+    clock.push_back(k <= series.met.highest ? series.met.instants[k].tilt
+                                            : last.tilt + rate * (series.met.instants[k].time - last.time));
   return clock;
 }
 

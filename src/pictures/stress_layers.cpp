@@ -46,11 +46,9 @@ std::string reading_text(const OverloadRule& rule) {
   return rule.l_min > 0.0 ? fmt::format("l = {:.6g} D", rule.l_min) : std::string("single grains");
 }
 
-Scale gamma_scale(double gamma_c) { return {ColourMap::gray, white_below, black_gamma * gamma_c}; }
-
 MapLayer gamma_layer(const MapFrame& of, const MapSettings& settings, const ScaleChoice& choice) {
   const double gamma_c = gamma_c_of(settings);
-  const Scale scale = chosen(gamma_scale(gamma_c), choice);
+  const Scale scale = chosen({ColourMap::gray, white_below, black_gamma * gamma_c}, choice);
   const std::string end =
       choice.high ? fmt::format("{:.6g}", scale.high) : fmt::format("2Γ_c = {:.2f}", scale.high);
   const auto free_grains = std::span(of.frame.gamma).first(static_cast<std::size_t>(of.statics.free_count));

@@ -1,9 +1,34 @@
 #include "view/frame_series.h"
 
+#include <algorithm>
 #include <exception>
+#include <iterator>
 #include <utility>
 
 namespace talus {
+namespace {
+
+/// Of a run none of whose frames was met.
+PictureSeries pictures_of_clusters(const RunStatics& statics) {
+  PictureSeries pictures;
+  pictures.run.statics = statics;
+  pictures.extent = bed_extent(statics);
+  pictures.plan.maps.emplace_back().layers = {MapKind::clusters};
+  return pictures;
+}
+
+/// The record of a frame where it is asked for.
+std::optional<FrameRecord> meet_and_measure(PictureSeries& pictures, const Frame& stored, bool with_values) {
+  const OverloadRule& rule = pictures.plan.maps[0];
+  const Frame frame = as_mapped(pictures, stored);
+  const BedFrame bed{frame, pictures.run.statics};
+  const Clusters clusters = overloaded_clusters(bed, rule);
+  extend(pictures.extent, bed);
+  meet(pictures, frame, clusters);
+  return with_values ? std::optional(overload_record(bed, clusters, rule)) : std::nullopt;
+}
+
+}  // namespace
 
 FrameSeries::FrameSeries(const RunStatics& statics, ReadFrame read)
     : statics_(statics),
@@ -14,14 +39,12 @@ FrameSeries::FrameSeries(const RunStatics& statics, ReadFrame read)
 void FrameSeries::begin(const OverloadRule& rule, std::vector<FrameRecord> known) {
   rule_ = rule;
   values_ = std::move(known);
-  known_ = values_.size();
-  colours_.clear();
-  tracker_ = {};
   const std::scoped_lock lock(shared_.mutex);
   ++shared_.turn;
   shared_.rule = rule;
-  shared_.known = known_;
+  shared_.known = values_.size();
   shared_.ready.clear();
+  shared_.met.reset();
   shared_.error.clear();
   shared_.changed.notify_all();
 }
@@ -34,62 +57,42 @@ void FrameSeries::set_counts(std::size_t frames, std::size_t of_tilt) {
   shared_.changed.notify_all();
 }
 
-bool FrameSeries::take_in() {
-  std::vector<Result> ready;
-  {
-    const std::scoped_lock lock(shared_.mutex);
-    const bool failed = shared_.error != error_;
-    error_ = shared_.error;
-    if (shared_.ready.empty()) return failed;
-    ready = std::exchange(shared_.ready, {});
-    tracker_ = shared_.tracker;
-  }
-  for (Result& result : ready) {
-    const std::size_t frame = colours_.size();
-    if (frame >= known_ && frame < of_tilt_) values_.push_back(std::move(result.values));
-    colours_.push_back(std::move(result.colours));
-    extend(extent_, result.extent);
-  }
+bool FrameSeries::take_in(PictureSeries& pictures) {
+  const std::scoped_lock lock(shared_.mutex);
+  const bool failed = shared_.error != error_;
+  error_ = shared_.error;
+  if (!shared_.met) return failed;
+  pictures.met = *std::exchange(shared_.met, std::nullopt);
+  extent_ = shared_.extent;
+  std::ranges::move(shared_.ready, std::back_inserter(values_));
+  shared_.ready.clear();
   return true;
-}
-
-FrameSeries::Result FrameSeries::measure(const Frame& stored, const OverloadRule& rule, bool with_values,
-                                         ClusterColours& tracker) const {
-  const Frame frame = mapped_frame(stored, statics_, rule.l_min);
-  const BedFrame bed{frame, statics_};
-  const Clusters clusters = overloaded_clusters(bed, rule);
-  Result result;
-  result.extent = bed_extent(statics_);
-  extend(result.extent, bed);
-  result.colours = tracker.next(clusters);
-  if (with_values) result.values = overload_record(bed, clusters, rule);
-  return result;
 }
 
 void FrameSeries::work(const std::stop_token& stop) {
   int turn = 0;
-  std::size_t next = 0;
-  ClusterColours tracker;
-  OverloadRule rule;
+  PictureSeries pictures = pictures_of_clusters(statics_);
+  OverloadRule& rule = pictures.plan.maps[0];
   std::unique_lock lock(shared_.mutex);
   for (;;) {
     const bool anything = shared_.changed.wait(lock, stop, [&] {
-      return shared_.turn != turn || (turn > 0 && next < shared_.frames && shared_.error.empty());
+      return shared_.turn != turn ||
+             (turn > 0 && pictures.met.instants.size() < shared_.frames && shared_.error.empty());
     });
     if (!anything || stop.stop_requested()) return;
     if (shared_.turn != turn) {
       turn = shared_.turn;
       rule = shared_.rule;
-      next = 0;
-      tracker = {};
+      pictures.met = {};
       continue;  // there may be no frame yet
     }
+    const std::size_t next = pictures.met.instants.size();
     const bool with_values = next >= shared_.known && next < shared_.of_tilt;
     lock.unlock();
-    Result result;
+    std::optional<FrameRecord> values;
     std::string error;
     try {
-      result = measure(*read_(next), rule, with_values, tracker);
+      values = meet_and_measure(pictures, *read_(next), with_values);
     } catch (const std::exception& failure) {
       error = failure.what();
     }
@@ -97,9 +100,9 @@ void FrameSeries::work(const std::stop_token& stop) {
     if (shared_.turn != turn) continue;
     shared_.error = error;
     if (!error.empty()) continue;
-    shared_.ready.push_back(std::move(result));
-    shared_.tracker = tracker;
-    ++next;
+    if (values) shared_.ready.push_back(std::move(*values));
+    shared_.met = pictures.met;
+    shared_.extent = pictures.extent;
   }
 }
 

@@ -10,8 +10,7 @@
 #include <thread>
 #include <vector>
 
-#include "pictures/cluster_colours.h"
-#include "pictures/maps.h"
+#include "pictures/picture_series.h"
 #include "view/frame_values.h"
 
 namespace talus {
@@ -34,29 +33,21 @@ class FrameSeries {
   /// How many frames there are, and how many of them, the first, are of the tilt: only these have values.
   void set_counts(std::size_t frames, std::size_t of_tilt);
 
-  /// Takes in what is ready; true where there was something. Only here does anything below change.
-  bool take_in();
+  /// Takes in what is ready; true where there was something. Only here does anything below change, and what
+  /// the pictures of the run know of frames that were met.
+  bool take_in(PictureSeries& pictures);
 
   const OverloadRule& rule() const { return rule_; }
   /// Of the first frames of the tilt, as far as they are known.
   const std::vector<FrameRecord>& values() const { return values_; }
   /// Whether all frames of the tilt have values.
   bool has_all_values() const { return values_.size() >= of_tilt_; }
-  /// Clusters of the first frames, as far as they were met.
-  const std::vector<std::vector<ClusterColour>>& colours() const { return colours_; }
-  /// It has met as many frames as colours() has.
-  const ClusterColours& tracker() const { return tracker_; }
   /// The bed in all frames met since the series was made.
   const MapExtent& extent() const { return extent_; }
   /// Why frames could not be read on; empty where they could.
   const std::string& error() const { return error_; }
 
  private:
-  struct Result {
-    FrameRecord values;
-    std::vector<ClusterColour> colours;
-    MapExtent extent;
-  };
   /// What both threads use, under `mutex`.
   struct Shared {
     std::mutex mutex;
@@ -64,22 +55,19 @@ class FrameSeries {
     int turn = 0;  ///< counts the calls of begin; 0: none yet
     OverloadRule rule;
     std::size_t known = 0, frames = 0, of_tilt = 0;
-    std::vector<Result> ready;
-    ClusterColours tracker;  ///< after the last of `ready`
+    std::vector<FrameRecord> ready;
+    std::optional<MetFrames> met;  ///< none where it has been taken in
+    MapExtent extent;
     std::string error;
   };
 
   void work(const std::stop_token& stop);
-  Result measure(const Frame& stored, const OverloadRule& rule, bool with_values,
-                 ClusterColours& tracker) const;
 
   RunStatics statics_;
   ReadFrame read_;
   OverloadRule rule_;
-  std::size_t of_tilt_ = 0, known_ = 0;
+  std::size_t of_tilt_ = 0;
   std::vector<FrameRecord> values_;
-  std::vector<std::vector<ClusterColour>> colours_;
-  ClusterColours tracker_;
   MapExtent extent_;
   std::string error_;
   Shared shared_;

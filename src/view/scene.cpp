@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "analysis/free_grains.h"
 #include "core/errors.h"
@@ -117,14 +118,21 @@ bool depends_on_extent(const MapLayers& layers) {
   return layers.size() > 1 && layers[1] == MapKind::displacement;
 }
 
-FrameView draw_map(const MapSource& source, const RunStatics& statics) {
+MapSource source_of(const PictureSeries& series, std::size_t k, std::shared_ptr<const Frame> frame,
+                    std::shared_ptr<const Frame> reference) {
+  const MapSettings& settings = series.plan.maps[0];
+  const bool coloured = shows(settings.layers, MapKind::clusters);
+  const std::size_t met = coloured ? std::min(series.met.instants.size(), k + 1) : 0;
+  return {std::move(frame), std::move(reference), settings, series.extent, series.since, met};
+}
+
+FrameView draw_map(const PictureSeries& series, std::size_t k, const Frame& frame, const Frame* reference) {
   try {
-    const MapFrame frame{{*source.frame, statics}, source.reference.get(), source.per_degree, source.colours};
-    return make_map(frame, source.settings, source.extent);
+    return picture(series, k, frame, reference, 0);
   } catch (const Error& error) {
-    FrameView view = bare_map({*source.frame, statics}, {}, source.extent);
+    FrameView view = outlined_bed({frame, series.run.statics}, series.extent);
     view.furniture = true;
-    view.tilt = source.frame->tilt;
+    view.tilt = frame.tilt;
     view.title = error.what();
     return view;
   }

@@ -6,27 +6,31 @@
 #include <vector>
 
 #include "analysis/clusters.h"
-#include "pictures/maps.h"
+#include "pictures/picture_series.h"
 #include "render/frame_view.h"
 
 namespace talus {
 
-/// What a map is made from.
+/// What tells the first map of a series at a frame from other maps of the run.
 struct MapSource {
-  std::shared_ptr<const Frame> frame, reference;  ///< the second as in MapFrame: may be null
-  bool per_degree = true;
-  std::vector<ClusterColour> colours;  ///< of the clusters, as in MapFrame: may be empty
+  std::shared_ptr<const Frame> frame, reference;  ///< as in `picture`: the second may be null
   MapSettings settings;
   MapExtent extent;
+  std::optional<std::size_t> since;
+  std::size_t met = 0;  ///< how many frames the colours of its clusters follow from
   bool operator==(const MapSource&) const = default;
 };
+
+/// Of the map at frame k.
+MapSource source_of(const PictureSeries& series, std::size_t k, std::shared_ptr<const Frame> frame,
+                    std::shared_ptr<const Frame> reference);
 
 /// Whether the map depends on how much of the bed it shows: arrows are spread over it.
 bool depends_on_extent(const MapLayers& layers);
 
-/// The map, with its furniture. One that cannot be drawn, as its scale has no range, shows the grains alone,
-/// with the reason as its title.
-FrameView draw_map(const MapSource& source, const RunStatics& statics);
+/// The first map of the series at frame k, as `picture` makes it. One that cannot be drawn, as its scale has
+/// no range, shows the grains alone, with the reason as its title.
+FrameView draw_map(const PictureSeries& series, std::size_t k, const Frame& frame, const Frame* reference);
 
 /// What is drawn over the map of a frame.
 struct Overlay {

@@ -8,21 +8,21 @@
 namespace talus {
 
 void ViewModel::Data::open_replay() {
-  frames = std::make_shared<RunFrames>(path);
+  frames = std::make_shared<RunFrames>(pictures.path);
   replay.emplace(frames);
   const RunFile& file = frames->file();
-  statics = all_statics = file.header().statics;
-  seed = file.header().seed;
+  pictures.run = file.header();
+  all_statics = statics();
   theta_c = find_value(file.checkpoint().results, "theta_c");
   if (theta_c && !std::isfinite(*theta_c)) theta_c.reset();  // it has not failed
-  analysis = read_usable_analysis(path, file);
+  analysis = read_usable_analysis(pictures.path, file);
   rows = file.observables();
-  plot_observables(rows, statics, plots);
+  plot_observables(rows, statics(), plots);
   plot_steps(file.steps(), plots);
   dilation = dilation_frame(rows, file.frame_tilts(), theta_c.value_or(std::nan("")));
   // The bed is highest at its beginning or at its end.
-  bed = bed_extent(statics);
-  extend(bed, {*frames->read(replay->count() - 1), statics});
+  bed = bed_extent(statics());
+  extend(bed, {*frames->read(replay->count() - 1), statics()});
   show(replay->frame(0));
   begin_series();
 }
@@ -44,9 +44,10 @@ void ViewModel::Data::start_live(const std::string& next_output, bool overwrite)
   auto next = std::make_unique<LiveRun>(scenario, scenario_text, next_output, overwrite, command_line);
   output = next_output;
   series.reset();
+  pictures.met = {};
   live = std::move(next);
-  statics = all_statics = live->statics();
-  seed = scenario.seed;
+  pictures.run.statics = all_statics = live->statics();
+  pictures.run.seed = scenario.seed;
   theta_c.reset();
   rows.clear();
   plots = empty_plots();
@@ -73,11 +74,11 @@ void ViewModel::Data::show_replayed() {
 void ViewModel::Data::show(std::shared_ptr<const Frame> next) {
   if (next == stored) return;
   stored = std::move(next);
-  if (stored->x.size() != statics.radius.size())
-    statics = arrived_statics(all_statics, stored->grain_count());
+  if (stored->x.size() != statics().radius.size())
+    pictures.run.statics = arrived_statics(all_statics, stored->grain_count());
   // While a bed falls together its top goes down: then only the frame shown counts.
-  if (!replay) bed = series ? series->extent() : bed_extent(statics);
-  extend(bed, {*stored, statics});
+  if (!replay) bed = series ? series->extent() : bed_extent(statics());
+  extend(bed, {*stored, statics()});
   make_frame();
 }
 
@@ -89,8 +90,8 @@ bool ViewModel::Data::read_with(double next_l_min) {
 }
 
 void ViewModel::Data::make_frame() {
-  frame = std::make_shared<const Frame>(mapped_frame(*stored, statics, l_min));
-  plot_gamma({*frame, statics}, plots);
+  frame = std::make_shared<const Frame>(mapped_frame(*stored, statics(), l_min));
+  plot_gamma({*frame, statics()}, plots);
 }
 
 bool ViewModel::Data::take_live() {
@@ -102,7 +103,7 @@ bool ViewModel::Data::take_live() {
   series->set_counts(recorded->all().size(), recorded->all().size());
   const std::vector<ObservableRow> more = live->observables(rows.size());
   rows.insert(rows.end(), more.begin(), more.end());
-  if (!more.empty()) plot_observables(rows, statics, plots);
+  if (!more.empty()) plot_observables(rows, statics(), plots);
   plot_steps(live->steps(0), plots);
   show(std::move(next));
   return true;
@@ -114,12 +115,12 @@ bool ViewModel::Data::follow_frames(const OverloadRule& rule) {
     const auto threshold = analysis ? find_threshold(*analysis, rule) : std::nullopt;
     series->begin(rule, threshold ? stored_records(*analysis, *threshold) : std::vector<FrameRecord>{});
   }
-  if (series->take_in()) {
+  if (series->take_in(pictures)) {
     if (replay) extend(bed, series->extent());
     if (!series->error().empty()) error = series->error();
     changed = true;
   }
-  if (changed) plot_frames(series->values(), statics.mean_diameter, plots);
+  if (changed) plot_frames(series->values(), statics().mean_diameter, plots);
   return changed;
 }
 
@@ -140,7 +141,7 @@ std::optional<std::size_t> ViewModel::Data::place_of(Landmark landmark) const {
       return dilation;
     case Landmark::length_jump:
       if (!series->has_all_values()) return std::nullopt;
-      return length_jump_frame(series->values(), length_cut(statics, series->rule().l_min),
+      return length_jump_frame(series->values(), length_cut(statics(), series->rule().l_min),
                                theta_c.value_or(std::nan("")));
   }
   return std::nullopt;

@@ -30,10 +30,10 @@ class RecordedFrames {
 };
 
 struct ViewModel::Data {
-  std::string path;
+  /// Of the run, with the map that is shown, and as much of the bed. Its statics are those of the frame
+  /// shown: while a bed is poured, of the grains that have arrived.
+  PictureSeries pictures;
   RunStatics all_statics;
-  RunStatics statics;  ///< of the frame shown: while a bed is poured, of the grains that have arrived
-  std::uint64_t seed = 0;
   std::shared_ptr<const Frame> stored;  ///< the frame that is shown, as it was read or computed
   std::shared_ptr<const Frame> frame;   ///< the same with the gamma of neighbourhoods of l_min
   double l_min = default_l_min;         ///< D
@@ -68,12 +68,6 @@ struct ViewModel::Data {
   struct {
     std::shared_ptr<const Frame> frame;
     OverloadRule rule;
-    std::size_t met = 0;
-    std::vector<ClusterColour> colours;
-  } colours;
-  struct {
-    std::shared_ptr<const Frame> frame;
-    OverloadRule rule;
     double neighbourhood = 0.0;
     Inspection of;
   } inspection;
@@ -105,15 +99,17 @@ struct ViewModel::Data {
   std::optional<std::size_t> place_of(Landmark landmark) const;
 
   // view_shown.cpp: what is made of it.
+  const RunStatics& statics() const { return pictures.run.statics; }
+  /// The tilts of the frames of the tilt.
+  std::vector<double> frame_tilts() const;
   double shown_theta_c() const;
   /// The settings of the map, with what the run has to say.
   MapSettings map_settings(const ViewState& asked) const;
   const Clusters& shown_clusters(const MapSettings& settings);
-  const std::vector<ClusterColour>& shown_colours(const MapSettings& settings);
   const Inspection* inspect_selected(const ViewState& asked);
   MapExtent part(const ViewState& asked, double aspect) const;
-  /// The frame that displacements are measured from; null where there is none.
-  std::shared_ptr<const Frame> reference(const MapSettings& settings, std::optional<double> since);
+  /// Which of the frames of the run the one shown is, or would be if it were one of them.
+  std::size_t shown_index() const;
   /// Width over height of a picture in which the bed just has room.
   double bed_aspect(const ViewState& asked) const;
   const FrameView& whole_map(const ViewState& asked, const MapExtent& part);

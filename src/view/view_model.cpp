@@ -29,7 +29,7 @@ std::string next_output(const std::string& first) {
 ViewModel ViewModel::open(const std::string& path, const std::vector<std::string>& settings,
                           const std::string& output, bool overwrite, const std::string& command_line) {
   auto data = std::make_unique<Data>();
-  data->path = path;
+  data->pictures.path = path;
   if (is_run(path)) {
     if (!settings.empty() || !output.empty() || overwrite)
       throw Error(ExitCode::usage,
@@ -55,9 +55,9 @@ ViewModel& ViewModel::operator=(ViewModel&&) noexcept = default;
 ViewModel::~ViewModel() = default;
 
 bool ViewModel::is_live() const { return !data_->replay; }
-const std::string& ViewModel::path() const { return data_->path; }
+const std::string& ViewModel::path() const { return data_->pictures.path; }
 LiveRun* ViewModel::live() { return data_->live.get(); }
-std::uint64_t ViewModel::seed() const { return data_->seed; }
+std::uint64_t ViewModel::seed() const { return data_->pictures.run.seed; }
 
 void ViewModel::restart(std::uint64_t seed) {
   if (!is_live()) return;
@@ -90,7 +90,7 @@ void ViewModel::hold() {
 }
 
 Recording ViewModel::recording() const {
-  return {data_->path, data_->scenario_settings, data_->output, data_->seed};
+  return {data_->pictures.path, data_->scenario_settings, data_->output, data_->pictures.run.seed};
 }
 
 // --- replay ---
@@ -147,11 +147,11 @@ bool ViewModel::update(double seconds) {
 
 // --- what is shown ---
 
-const RunStatics& ViewModel::statics() const { return data_->statics; }
+const RunStatics& ViewModel::statics() const { return data_->statics(); }
 const Frame& ViewModel::frame() const { return *data_->frame; }
 double ViewModel::theta_c() const { return data_->shown_theta_c(); }
 bool ViewModel::theta_c_known() const { return data_->theta_c.has_value(); }
-double ViewModel::mean_diameter() const { return data_->statics.mean_diameter; }
+double ViewModel::mean_diameter() const { return data_->statics().mean_diameter; }
 
 FrameView ViewModel::map(double aspect) const {
   data_->aspect = aspect;
@@ -162,7 +162,7 @@ FrameView ViewModel::furnished_map() const {
   const MapExtent part = common_part(data_->part(state, data_->aspect), data_->bed);
   const FrameView& whole = data_->whole_map(state, part);
   FrameView view = data_->picture(state, part);
-  add_surroundings(view, {*data_->frame, data_->statics});
+  add_surroundings(view, {*data_->frame, data_->statics()});
   view.furniture = true;
   view.transparent = whole.transparent;
   view.title = whole.title;
@@ -183,7 +183,7 @@ std::array<double, 4> ViewModel::shown_region(double aspect) const {
 }
 
 std::optional<Index> ViewModel::grain_at(double x, double y) const {
-  return find_grain({*data_->frame, data_->statics}, x, y);
+  return find_grain({*data_->frame, data_->statics()}, x, y);
 }
 
 const Inspection* ViewModel::inspection() const { return data_->inspect_selected(state); }

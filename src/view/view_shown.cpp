@@ -8,23 +8,21 @@
 #include "view/view_data.h"
 
 namespace talus {
-namespace {
 
-/// How many of the frames recorded come before a step.
-std::size_t count_before(const RecordedFrames& recorded, std::int64_t step) {
-  const auto& all = recorded.all();
-  const auto after = std::ranges::partition_point(
-      all, [step](const std::shared_ptr<const Frame>& frame) { return frame->step < step; });
-  return static_cast<std::size_t>(after - all.begin());
-}
-
-std::vector<double> tilts_of(const RecordedFrames& recorded) {
+std::vector<double> ViewModel::Data::frame_tilts() const {
+  if (replay) return frames->file().frame_tilts();
   std::vector<double> tilts;
-  for (const auto& frame : recorded.all()) tilts.push_back(frame->tilt);
+  for (const auto& recorded_frame : recorded->all()) tilts.push_back(recorded_frame->tilt);
   return tilts;
 }
 
-}  // namespace
+std::size_t ViewModel::Data::shown_index() const {
+  if (replay) return replay->index();
+  const auto& all = recorded->all();
+  const auto after = std::ranges::partition_point(
+      all, [this](const std::shared_ptr<const Frame>& of) { return of->step < frame->step; });
+  return static_cast<std::size_t>(after - all.begin());
+}
 
 double ViewModel::Data::shown_theta_c() const { return theta_c.value_or(radians(assumed_theta_c)); }
 
@@ -34,7 +32,7 @@ MapSettings ViewModel::Data::map_settings(const ViewState& asked) const {
   settings.theta_c = shown_theta_c();
   settings.theta_c_assumed = !theta_c;
   settings.l_min = l_min;
-  settings.length = std::clamp(settings.length, 1.0, statics.length / statics.mean_diameter);
+  settings.length = std::clamp(settings.length, 1.0, statics().length / statics().mean_diameter);
   settings.furniture = true;
   settings.tilt_max = 0.0;
   if (settings.turned)  // all frames in one size
@@ -46,22 +44,8 @@ MapSettings ViewModel::Data::map_settings(const ViewState& asked) const {
 const Clusters& ViewModel::Data::shown_clusters(const MapSettings& settings) {
   const OverloadRule& rule = settings;
   if (clusters.frame != frame || !(clusters.rule == rule))
-    clusters = {frame, rule, overloaded_clusters({*frame, statics}, settings)};
+    clusters = {frame, rule, overloaded_clusters({*frame, statics()}, settings)};
   return clusters.clusters;
-}
-
-const std::vector<ClusterColour>& ViewModel::Data::shown_colours(const MapSettings& settings) {
-  const OverloadRule& rule = settings;
-  // Colours of another rule are of other clusters.
-  const std::size_t met = series->rule() == rule ? series->colours().size() : 0;
-  if (colours.frame == frame && colours.rule == rule && colours.met == met) return colours.colours;
-  colours = {frame, rule, met, {}};
-  for (std::size_t k = 0; k < met && !replay; ++k)
-    if (recorded->all()[k]->step == frame->step) return colours.colours = series->colours()[k];
-  if (replay && replay->index() < met) return colours.colours = series->colours()[replay->index()];
-  // A frame that was not met yet follows the last that was.
-  ClusterColours tracker = met > 0 ? series->tracker() : ClusterColours();
-  return colours.colours = tracker.next(shown_clusters(settings));
 }
 
 const Inspection* ViewModel::Data::inspect_selected(const ViewState& asked) {
@@ -70,13 +54,14 @@ const Inspection* ViewModel::Data::inspect_selected(const ViewState& asked) {
   const OverloadRule& rule = by;
   if (inspection.frame != frame || !(inspection.rule == rule) ||
       inspection.neighbourhood != asked.neighbourhood || inspection.of.grain != *asked.selected) {
-    const double widest = statics.periodic ? statics.length : 2.0 * std::max(statics.length, statics.depth);
-    const double neighbourhood = std::clamp(asked.neighbourhood * statics.mean_diameter, 0.0, widest);
+    const double widest =
+        statics().periodic ? statics().length : 2.0 * std::max(statics().length, statics().depth);
+    const double neighbourhood = std::clamp(asked.neighbourhood * statics().mean_diameter, 0.0, widest);
     inspection = {frame, rule, asked.neighbourhood,
-                  inspect({*frame, statics}, shown_clusters(by),
+                  inspect({*frame, statics()}, shown_clusters(by),
                           {.threshold = threshold_of(rule),
-                           .l_min = l_min * statics.mean_diameter,
-                           .cut = length_cut(statics, l_min),
+                           .l_min = l_min * statics().mean_diameter,
+                           .cut = length_cut(statics(), l_min),
                            .neighbourhood = neighbourhood},
                           *asked.selected)};
   }
@@ -90,34 +75,22 @@ double ViewModel::Data::bed_aspect(const ViewState& asked) const {
 
 MapExtent ViewModel::Data::part(const ViewState& asked, double shown_aspect) const {
   const double turn_max = std::max(0.0, map_settings(asked).tilt_max);
-  return shown_part(asked.camera, bed, statics.mean_diameter,
+  return shown_part(asked.camera, bed, statics().mean_diameter,
                     shown_aspect > 0.0 ? shown_aspect : bed_aspect(asked), turn_max);
 }
 
-std::shared_ptr<const Frame> ViewModel::Data::reference(const MapSettings& settings,
-                                                        std::optional<double> since) {
-  if (!any_layer(settings.layers, needs_reference)) return nullptr;
-  std::optional<std::size_t> begin;
-  if (since) {
-    begin = nearest_frame(replay ? frames->file().frame_tilts() : tilts_of(*recorded), *since);
-    if (!begin) return nullptr;
-  }
-  const std::size_t k = replay ? replay->index() : count_before(*recorded, frame->step);
-  const std::optional<std::size_t> from = reference_frame(k, begin);
-  if (!from) return nullptr;
-  return replay ? read(*from) : recorded->all()[*from];
-}
-
 const FrameView& ViewModel::Data::whole_map(const ViewState& asked, const MapExtent& shown) {
-  MapSource source;
-  source.settings = map_settings(asked);
-  source.frame = frame;
-  source.reference = reference(source.settings, asked.since);
-  source.per_degree = !asked.since;
-  if (shows(source.settings.layers, MapKind::clusters)) source.colours = shown_colours(source.settings);
-  source.extent = depends_on_extent(source.settings.layers) ? common_part(shown, bed) : bed;
+  pictures.plan.maps = {map_settings(asked)};
+  pictures.extent = depends_on_extent(asked.map.layers) ? common_part(shown, bed) : bed;
+  pictures.since.reset();
+  if (asked.since) pictures.since = nearest_frame(frame_tilts(), *asked.since).value_or(0);
+  const std::size_t k = shown_index();
+  const std::optional<std::size_t> from = reference_of(pictures, k);
+  std::shared_ptr<const Frame> reference;
+  if (from) reference = replay ? read(*from) : recorded->all()[*from];
+  MapSource source = source_of(pictures, k, frame, reference);
   if (!(map.source == source)) {
-    map.view = draw_map(source, statics);
+    map.view = draw_map(pictures, k, *frame, reference.get());
     map.source = std::move(source);
   }
   return map.view;
@@ -130,28 +103,28 @@ FrameView ViewModel::Data::picture(const ViewState& asked, const MapExtent& show
     if (asked.highlight_cluster) overlay.cluster = of->cluster;
     if (asked.show_neighbourhoods && of->free) {
       for (const double diameter : growing_diameters(asked.neighbourhood))
-        overlay.diameters.push_back(diameter * statics.mean_diameter);
+        overlay.diameters.push_back(diameter * statics().mean_diameter);
       overlay.critical_length = of->coarse_graining_length;
     }
   }
-  return shown_map(whole_map(asked, shown), shown, {*frame, statics}, overlay,
+  return shown_map(whole_map(asked, shown), shown, {*frame, statics()}, overlay,
                    shown_clusters(map_settings(asked)));
 }
 
 std::string ViewModel::Data::render_command(const ViewState& asked) const {
   RenderRequest shown;
-  shown.run = path;
+  shown.run = pictures.path;
   shown.settings = map_settings(asked);
   shown.tilt = frame->tilt;
   shown.since = asked.since;
-  shown.mean_diameter = statics.mean_diameter;
+  shown.mean_diameter = statics().mean_diameter;
   if (replay && replay->index() >= frames->file().frame_count()) {
     shown.in_flow = true;
     shown.tilt = frames->file().frame_tilts().back();
   }
   if (!replay) {
     if (output.empty()) return {};
-    const auto nearest = nearest_frame(tilts_of(*recorded), frame->tilt);
+    const auto nearest = nearest_frame(frame_tilts(), frame->tilt);
     if (!nearest) return {};
     shown.run = output;
     shown.tilt = recorded->all()[*nearest]->tilt;

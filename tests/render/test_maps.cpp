@@ -105,17 +105,13 @@ TEST(OverloadedMap, IsBlackFromTheThresholdOn) {
   EXPECT_EQ(higher.legends[0].swatches[0].label, "γ ≥ 1.5Γ_c = 0.75");
 }
 
-TEST(BareMap, TakesItsLooksAndHasNoFurniture) {
+TEST(OutlinedBed, HasOutlinesAndNoFurniture) {
   Packing packing = row_of_grains({0.1, 0.1, 0.1});
   test::add_floor_grain(packing, 0.5, -0.5);
-  const Scale scale{ColourMap::gray, 0.0, 1.0};
-  const FrameView view = bare_map({packing.frame, packing.statics},
-                                  looks_of(scale, std::vector{0.0, 0.25, 1.0}), {0.0, 3.0, -1.0, 2.0});
+  const FrameView view = outlined_bed({packing.frame, packing.statics}, {0.0, 3.0, -1.0, 2.0});
   ASSERT_EQ(view.discs.size(), 4u);
   EXPECT_EQ(view.discs[0].fill, white);
-  EXPECT_EQ(view.discs[0].rim, gray(0.45));
-  EXPECT_EQ(view.discs[1].fill, gray(0.25));
-  EXPECT_EQ(view.discs[2].fill, black);
+  EXPECT_EQ(view.discs[0].rim, gray(0.25));
   EXPECT_EQ(view.discs[2].hatched, 0.0f);
   EXPECT_EQ(view.discs[3].hatched, 1.0f);
   EXPECT_FALSE(view.furniture);

@@ -25,20 +25,23 @@ std::shared_ptr<const Frame> read_bed(std::size_t k) {
       example::bed_frame(5.0 * static_cast<double>(k), example::overloaded_of_frames.at(k)));
 }
 
-/// Takes in until so many frames were met.
-void wait_for(FrameSeries& series, std::size_t frames) {
+/// Takes in until so many frames were met, and says what is known of them.
+MetFrames wait_for(FrameSeries& series, std::size_t frames) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
-  while (series.colours().size() < frames && series.error().empty() &&
+  PictureSeries pictures;
+  while (pictures.met.instants.size() < frames && series.error().empty() &&
          std::chrono::steady_clock::now() < end) {
-    series.take_in();
+    series.take_in(pictures);
     std::this_thread::yield();
   }
+  return pictures.met;
 }
 
 TEST(FrameSeries, has_the_values_of_each_frame) {
   FrameSeries series(example::bed_statics(), read_bed);
   series.set_counts(6, 6);
-  EXPECT_FALSE(series.take_in()) << "nothing was begun";
+  PictureSeries pictures;
+  EXPECT_FALSE(series.take_in(pictures)) << "nothing was begun";
   series.begin(rule, {});
   EXPECT_FALSE(series.has_all_values());
   wait_for(series, 6);
@@ -66,12 +69,12 @@ TEST(FrameSeries, has_values_of_the_tilt_and_colours_of_all_frames) {
   FrameSeries series(example::bed_statics(), read_bed);
   series.set_counts(6, 4);
   series.begin(rule, {});
-  wait_for(series, 6);
+  const MetFrames met = wait_for(series, 6);
   EXPECT_EQ(series.values().size(), 4u);
-  ASSERT_EQ(series.colours().size(), 6u);
-  EXPECT_TRUE(series.colours()[0].empty());
-  ASSERT_EQ(series.colours()[5].size(), 1u);
-  EXPECT_EQ(series.colours()[5][0].track, series.colours()[1][0].track) << "the same cluster, grown";
+  ASSERT_EQ(met.cluster_colours.size(), 6u);
+  EXPECT_TRUE(met.cluster_colours[0].empty());
+  ASSERT_EQ(met.cluster_colours[5].size(), 1u);
+  EXPECT_EQ(met.cluster_colours[5][0].track, met.cluster_colours[1][0].track) << "the same cluster, grown";
 }
 
 TEST(FrameSeries, does_not_work_out_what_is_known) {
@@ -80,10 +83,9 @@ TEST(FrameSeries, does_not_work_out_what_is_known) {
   series.begin(rule,
                std::vector(6, FrameRecord{.tilt = 1.0, .thresholds = {{.overloaded_fraction = 0.125}}}));
   EXPECT_TRUE(series.has_all_values());
-  wait_for(series, 6);
+  EXPECT_EQ(wait_for(series, 6).cluster_colours.size(), 6u);
   ASSERT_EQ(series.values().size(), 6u);
   EXPECT_EQ(series.values()[5].thresholds[0].overloaded_fraction, 0.125);
-  EXPECT_EQ(series.colours().size(), 6u);
 }
 
 TEST(FrameSeries, begins_anew_with_another_rule) {
@@ -95,11 +97,13 @@ TEST(FrameSeries, begins_anew_with_another_rule) {
   other.threshold_factor = 4.0;  // above 1: nothing is overloaded
   series.begin(other, {});
   EXPECT_TRUE(series.values().empty());
-  EXPECT_TRUE(series.colours().empty());
-  wait_for(series, 6);
+  const MetFrames met = wait_for(series, 6);
   ASSERT_EQ(series.values().size(), 6u);
   EXPECT_EQ(series.values()[5].thresholds[0].overloaded_fraction, 0.0);
   EXPECT_EQ(series.rule(), other);
+  EXPECT_EQ(met.rule, other);
+  ASSERT_EQ(met.cluster_colours.size(), 6u);
+  EXPECT_TRUE(met.cluster_colours[5].empty());
 }
 
 TEST(FrameSeries, takes_grains_with_their_neighbours) {
@@ -141,8 +145,7 @@ TEST(FrameSeries, has_a_tracker_that_has_met_its_frames) {
   });
   series.set_counts(3, 3);
   series.begin(rule, {});
-  wait_for(series, 3);
-  ClusterColours tracker = series.tracker();
+  ClusterColours tracker = wait_for(series, 3).tracker;
   const RunStatics statics = example::bed_statics();
   const Frame frame = example::bed_frame(3.0, 2);
   const auto next = tracker.next(overloaded_clusters({frame, statics}, {.theta_c = rule.theta_c}));
@@ -177,7 +180,8 @@ TEST(FrameSeries, says_why_a_frame_cannot_be_read) {
   series.begin(rule, {});
   wait_for(series, 6);
   EXPECT_EQ(series.error(), "frame 2 is damaged");
-  while (series.take_in()) {
+  PictureSeries pictures;
+  while (series.take_in(pictures)) {
   }
   EXPECT_EQ(series.values().size(), 2u);
 }

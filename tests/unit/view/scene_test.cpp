@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "core/trigonometry.h"
 #include "pictures/overload_rule.h"
@@ -15,24 +16,29 @@ namespace talus {
 namespace {
 
 struct Drawn {
-  RunStatics statics = example::bed_statics();
-  MapSource source;
+  PictureSeries pictures;
+  Frame frame = example::bed_frame(10.0, 4);
   Clusters clusters;
   FrameView map;
 
   Drawn() {
-    source.frame = std::make_shared<const Frame>(example::bed_frame(10.0, 4));
-    source.settings.layers = {MapKind::gamma};
-    source.settings.theta_c = radians(20.0);
-    source.extent = bed_extent(statics);
-    extend(source.extent, {*source.frame, statics});
-    clusters = overloaded_clusters({*source.frame, statics}, source.settings);
-    map = draw_map(source, statics);
+    pictures.run.statics = example::bed_statics();
+    settings().layers = {MapKind::gamma};
+    settings().theta_c = radians(20.0);
+    pictures.extent = bed_extent(pictures.run.statics);
+    extend(pictures.extent, bed());
+    clusters = overloaded_clusters(bed(), settings());
+    map = draw_map(pictures, 0, frame, nullptr);
   }
+  MapSettings& settings() {
+    pictures.plan.maps.resize(1);
+    return pictures.plan.maps[0];
+  }
+  BedFrame bed() const { return {frame, pictures.run.statics}; }
   FrameView shown(const Overlay& overlay, const MapExtent& part) const {
-    return shown_map(map, part, {*source.frame, statics}, overlay, clusters);
+    return shown_map(map, part, bed(), overlay, clusters);
   }
-  FrameView shown(const Overlay& overlay) const { return shown(overlay, source.extent); }
+  FrameView shown(const Overlay& overlay) const { return shown(overlay, pictures.extent); }
 };
 
 Overlay selection_of(Index grain) {
@@ -127,10 +133,8 @@ TEST(Scene, rims_the_cluster_and_keeps_its_fill) {
 
 TEST(Scene, rims_images_across_the_edge) {
   Drawn drawn;
-  auto frame = *drawn.source.frame;
-  for (Index row = 0; row < example::rows; ++row) frame.x[row * example::columns] = 0.25;
-  drawn.source.frame = std::make_shared<const Frame>(frame);
-  drawn.map = draw_map(drawn.source, drawn.statics);
+  for (Index row = 0; row < example::rows; ++row) drawn.frame.x[row * example::columns] = 0.25;
+  drawn.map = draw_map(drawn.pictures, 0, drawn.frame, nullptr);
   Overlay overlay = selection_of(10);
   overlay.cluster = 0;
   const FrameView view = drawn.shown(overlay);
@@ -140,7 +144,7 @@ TEST(Scene, rims_images_across_the_edge) {
 
 TEST(Scene, draws_walls_where_they_are) {
   Drawn drawn;
-  drawn.statics.periodic = false;
+  drawn.pictures.run.statics.periodic = false;
   const FrameView view = drawn.shown({}, {-2.0, 12.0, -3.0, 6.0});
   ASSERT_EQ(view.lines.size(), 2u);
   EXPECT_EQ(view.lines[0].x0, 0.0f);
@@ -153,25 +157,42 @@ TEST(Scene, draws_walls_where_they_are) {
 
 TEST(Scene, knows_when_a_map_is_another) {
   const Drawn drawn;
-  MapSource other = drawn.source;
-  EXPECT_EQ(drawn.source, other);
-  other.settings.threshold_factor = 2.0;
-  EXPECT_NE(drawn.source, other);
-  other = drawn.source;
-  other.extent.y_max += 1.0;
-  EXPECT_NE(drawn.source, other);
-  other = drawn.source;
-  other.colours.resize(1);
-  EXPECT_NE(drawn.source, other);
-  other = drawn.source;
-  other.reference = other.frame;
-  EXPECT_NE(drawn.source, other);
+  const auto frame = std::make_shared<const Frame>(drawn.frame);
+  const MapSource own = source_of(drawn.pictures, 0, frame, nullptr);
+  const auto changed = [&](const std::function<void(Drawn&)>& change, std::size_t k = 0) {
+    Drawn other;
+    change(other);
+    return !(source_of(other.pictures, k, frame, nullptr) == own);
+  };
+  EXPECT_FALSE(changed([](Drawn&) {}));
+  EXPECT_TRUE(changed([](Drawn& other) { other.settings().threshold_factor = 2.0; }));
+  EXPECT_TRUE(changed([](Drawn& other) { other.pictures.extent.y_max += 1.0; }));
+  EXPECT_TRUE(changed([](Drawn& other) { other.pictures.since = 1; }));
+  EXPECT_NE(own, source_of(drawn.pictures, 0, frame, frame));
+  EXPECT_NE(own, source_of(drawn.pictures, 0, std::make_shared<const Frame>(drawn.frame), nullptr));
+  EXPECT_FALSE(changed([](Drawn& other) { meet(other.pictures, other.frame); })) << "it shows no clusters";
+}
+
+TEST(Scene, colours_of_clusters_depend_on_the_frames_met) {
+  Drawn drawn;
+  drawn.settings().layers = {MapKind::clusters};
+  const auto frame = std::make_shared<const Frame>(drawn.frame);
+  const auto source = [&] { return source_of(drawn.pictures, 1, frame, nullptr); };
+  const MapSource none = source();
+  meet(drawn.pictures, drawn.frame);
+  const MapSource one = source();
+  EXPECT_NE(none, one) << "colours follow those of the first frame";
+  meet(drawn.pictures, drawn.frame);
+  const MapSource two = source();
+  EXPECT_NE(one, two) << "the frame itself was met";
+  meet(drawn.pictures, drawn.frame);
+  EXPECT_EQ(two, source()) << "what comes later changes nothing";
 }
 
 TEST(Scene, gives_the_reason_where_a_map_cannot_be_drawn) {
   Drawn drawn;
-  drawn.source.settings.theta_c = radians(1.0);
-  const FrameView view = draw_map(drawn.source, drawn.statics);
+  drawn.settings().theta_c = radians(1.0);
+  const FrameView view = draw_map(drawn.pictures, 0, drawn.frame, nullptr);
   EXPECT_NE(view.title.find("angle of repose"), std::string::npos);
   EXPECT_EQ(view.discs.size(), drawn.map.discs.size());
 }
