@@ -43,11 +43,9 @@ void animate(const AnimateArguments& arguments) {
   const MapPlan plan = plan_movie(arguments);
   output_target(arguments.output, output_of_run(arguments.run, arguments.overwrite));
   DrawnRun run = open_drawn_run(arguments.run, plan, count_shown("reading", arguments.quiet));
-  const volatile std::sig_atomic_t* stop = stop_request();
   prepare_folder_of(arguments.output);
-  const std::size_t count =
-      draw_movie(run, arguments.timing, arguments.output,
-                 {count_shown("animating", arguments.quiet), [stop] { return *stop != 0; }});
+  const std::size_t count = draw_movie(run, arguments.timing, arguments.output,
+                                       {count_shown("animating", arguments.quiet), asked_to_stop});
   if (!arguments.quiet)
     std::printf("%s: %zu frames, %.3g s\n", arguments.output.c_str(), count,
                 static_cast<double>(count) / arguments.timing.fps);

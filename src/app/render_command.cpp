@@ -33,15 +33,14 @@ std::string default_folder(std::filesystem::path run) {
 
 void render(const RenderArguments& arguments) {
   const std::string folder = arguments.folder.empty() ? default_folder(arguments.run) : arguments.folder;
+  const CountDone reading = count_shown("reading", arguments.quiet);
+  const Watch rendering = {count_shown("rendering", arguments.quiet), asked_to_stop};
   const MapPlan plan = plan_maps(arguments.maps);
-  DrawnRun run = open_drawn_run(arguments.run, plan, count_shown("reading", arguments.quiet));
+  DrawnRun run = open_drawn_run(arguments.run, plan, reading);
   const FrameChoice choice = choose_frames(run, arguments.frames);
   const std::vector<PictureFile> missing = files_to_draw(run, choice, folder, arguments.overwrite);
   for (const PictureFile& file : missing) output_target(file.path, output_of_run(arguments.run, true));
-  const volatile std::sig_atomic_t* stop = stop_request();
-  if (!missing.empty())
-    draw_files(run, missing, folder,
-               {count_shown("rendering", arguments.quiet), [stop] { return *stop != 0; }});
+  if (!missing.empty()) draw_files(run, missing, folder, rendering);
   if (arguments.quiet) return;
   const std::size_t count = choice.size() * plan.maps.size(), kept = count - missing.size();
   std::printf("%zu picture%s in %s", count, count == 1 ? "" : "s", folder.c_str());

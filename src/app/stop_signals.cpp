@@ -61,8 +61,10 @@ void end_on_signals() {
 
 const volatile std::sig_atomic_t* stop_request() { return &stop_requested; }
 
+bool asked_to_stop() { return stop_requested != 0; }
+
 void stop_if_asked() {
-  if (stop_requested != 0) throw Error(ExitCode::stopped, sentence);
+  if (asked_to_stop()) throw Error(ExitCode::stopped, sentence);
 }
 
 CommitOnSignals::CommitOnSignals() {

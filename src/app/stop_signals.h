@@ -11,6 +11,7 @@ void end_on_signals();
 
 /// Set by the first signal.
 const volatile std::sig_atomic_t* stop_request();
+bool asked_to_stop();
 
 /// Throws Error(stopped) where a signal has asked for it.
 void stop_if_asked();

@@ -81,8 +81,10 @@ struct MapFrame : BedFrame {
   /// always the latter where there was no tilt between them, as in a flow.
   const Frame* reference = nullptr;
   bool per_degree = true;
-  /// For `clusters`: from a ClusterColours (cluster_colours.h) that has met all earlier frames; else empty.
+  /// For `clusters`: from a ClusterColours (cluster_colours.h) that has met all earlier frames. Where there
+  /// are none, colours follow those of the last frame that `tracker` has met; null: it has met none.
   std::span<const ClusterColour> cluster_colours = {};
+  const ClusterColours* tracker = nullptr;
 };
 
 /// The outlines of the grains of a frame, without furniture.

@@ -94,8 +94,9 @@ MapLayer overloaded_layer(const MapFrame& of, const MapSettings& settings, bool 
 MapLayer clusters_layer(const MapFrame& of, const MapSettings& settings, bool over_grains) {
   const Clusters clusters = overloaded_clusters(of, settings);
   const Spanning spanning = find_spanning(clusters, bed_edges(of));
+  ClusterColours tracker = of.tracker != nullptr ? *of.tracker : ClusterColours();
   const std::vector<Colour> colours = colours_of(
-      of.cluster_colours.empty() ? ClusterColours().next(clusters)
+      of.cluster_colours.empty() ? tracker.next(clusters)
                                  : std::vector(of.cluster_colours.begin(), of.cluster_colours.end()));
   MapLayer layer;
   layer.title = clusters_title(clusters, settings);

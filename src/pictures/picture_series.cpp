@@ -85,18 +85,6 @@ MapExtent cropped(const MapExtent& bed, const Crop& crop, double diameter) {
   return asked;
 }
 
-/// Of the clusters of frame k; empty where no map shows them.
-std::vector<ClusterColour> colours_of(const PictureSeries& series, std::size_t k, const Frame& frame) {
-  if (!shows(series.plan, MapKind::clusters)) return {};
-  const OverloadRule& rule = series.plan.maps[0];
-  const MetFrames& met = series.met;
-  const bool same = met.rule == rule;  // colours of another rule are of other clusters
-  if (same && k < met.cluster_colours.size() && met.instants[k].step == frame.step)
-    return met.cluster_colours[k];
-  ClusterColours tracker = same ? met.tracker : ClusterColours();
-  return tracker.next(overloaded_clusters({frame, series.run.statics}, rule));
-}
-
 void add_instant(MetFrames& met, const Frame& frame) {
   if (met.instants.empty() || frame.tilt > met.instants[met.highest].tilt) met.highest = met.instants.size();
   met.instants.push_back({frame.step, frame.time, frame.tilt});
@@ -141,9 +129,15 @@ std::optional<std::size_t> reference_of(const PictureSeries& series, std::size_t
 FrameView picture(const PictureSeries& series, std::size_t k, const Frame& frame, const Frame* reference,
                   std::size_t map) {
   const MapSettings& settings = series.plan.maps[map];
-  const std::vector<ClusterColour> colours = colours_of(series, k, frame);
-  const BedFrame bed{frame, series.run.statics};
-  FrameView view = make_map({bed, reference, !series.since, colours}, settings, series.extent);
+  const MetFrames& met = series.met;
+  MapFrame of{{frame, series.run.statics}, reference, !series.since};
+  const OverloadRule& rule = settings;
+  if (met.rule == rule) {  // colours of another rule are of other clusters
+    of.tracker = &met.tracker;
+    if (k < met.cluster_colours.size() && met.instants[k].step == frame.step)
+      of.cluster_colours = met.cluster_colours[k];
+  }
+  FrameView view = make_map(of, settings, series.extent);
   for (std::size_t t = 0; t < series.curves.size(); ++t)
     view.traces.push_back(make_trace(series.plan.traces[t], series.curves[t].tilts, series.curves[t].values,
                                      settings, frame.tilt));
