@@ -1,6 +1,7 @@
 # The threshold over the distance to theta_c, as a velocity and as an energy. A bar is a bracket, its point the
 # middle on the scale of the axis. One symbol for each seed; triangles are states with one end only. Lines join what follows
-# without a gap. Bars are vectors: those of gnuplot blank what lies around them.
+# without a gap. Bars are vectors: those of gnuplot blank what lies around them. The first
+# point, which nobody sees, gives the axis a range where no state has a threshold.
 file = figure . ".csv"
 set logscale y
 set format y "10^{%T}"
@@ -28,7 +29,8 @@ do for [panel = 1:2] {
   low = quantity . "_without"
   high = quantity . "_with"
   if (panel == 1) { set ylabel "{/:Italic v} / ({/:Italic gD})^{1/2}" } else { set ylabel "{/:Italic E} / {/:Italic mgD}"; unset key }
-  plot for [s = 1:words(seeds)] file using (x(s)):(none(high) ? column(low) : NaN) with points linetype type(s) linewidth 1 pointtype 8 pointsize 0.6 notitle, \
+  plot file every ::0::0 using (0):(1) with points pointtype -1 notitle, \
+       for [s = 1:words(seeds)] file using (x(s)):(none(high) ? column(low) : NaN) with points linetype type(s) linewidth 1 pointtype 8 pointsize 0.6 notitle, \
        for [s = 1:words(seeds)] file using (x(s)):(column(low) == 0 && !none(high) ? column(high) : NaN) with points linetype type(s) pointtype 10 pointsize 0.6 notitle, \
        for [s = 1:words(seeds)] file using (x(s)):(middle(low, high)) with lines linetype type(s) linewidth 0.7 notitle, \
        for [s = 1:words(seeds)] file using (x(s)):(both(column(low), column(high)) ? column(low) : NaN):(0):(column(high) - column(low)) \

@@ -88,12 +88,12 @@ std::vector<std::string> worker_words(const EnsembleArguments& arguments) {
   return words;
 }
 
-/// Workers side by side, until nothing is left that they can begin.
-void run_workers(const EnsembleArguments& arguments, const EnsemblePlan& plan) {
+/// Workers side by side, until nothing is left that they can begin. Returns those that ended with an error.
+std::vector<FailedJob> run_workers(const EnsembleArguments& arguments, const EnsemblePlan& plan) {
   const std::vector<MemberState> states = look_at_members(plan);
   const std::size_t missing =
       states.size() - count_of(states, MemberStage::done) - count_of(states, MemberStage::failed);
-  if (missing == 0) return;
+  if (missing == 0) return {};
   std::vector<Job> workers;
   for (std::size_t k = 1; k <= std::min<std::size_t>(missing, static_cast<std::size_t>(arguments.jobs));
        ++k) {
@@ -114,29 +114,32 @@ void run_workers(const EnsembleArguments& arguments, const EnsemblePlan& plan) {
   const std::vector<FailedJob> failed =
       run_jobs(workers, {"ensemble", arguments.jobs, workers.size(), show_now_and_then});
   line.finish();
-  if (failed.empty()) return;
-  if (failed.front().exit_code == static_cast<int>(ExitCode::stopped))
-    throw Error(ExitCode::stopped, "the ensemble was stopped; repeat the command to continue");
-  refuse(failed, "and the members that it would have computed are missing");
+  const bool stopped = std::ranges::any_of(failed, [](const FailedJob& worker) {
+    return worker.exit_code == static_cast<int>(ExitCode::stopped);
+  });
+  if (stopped) throw Error(ExitCode::stopped, "the ensemble was stopped; repeat the command to continue");
+  return failed;
 }
 
-/// Whether no more members will be begun.
-bool is_over(const std::string& folder) {
-  const EnsembleView view = view_of_ensemble(folder);
-  const std::size_t ended =
-      count_of(view.states, MemberStage::done) + count_of(view.states, MemberStage::failed);
+/// Members that will not be begun any more: done, failed, or not needed for the precision that was asked for.
+std::size_t count_ended(const EnsembleView& view) {
   const std::string& until = view.manifest.until;
-  return ended == view.states.size() ||
-         (!until.empty() && is_reached(parse_precision(until), view.plan, view.numbers));
+  if (!until.empty() && is_reached(parse_precision(until), view.plan, view.numbers))
+    return view.states.size();
+  return count_of(view.states, MemberStage::done) + count_of(view.states, MemberStage::failed);
 }
 
-/// Members that others compute are waited for, and taken over where their workers end before them. With a
-/// limit of time others are left alone.
+/// Members that others compute are waited for, and taken over where their workers end before them; workers
+/// that were killed are replaced, as long as members come to an end. With a limit of time others are left
+/// alone.
 void compute_members(const EnsembleArguments& arguments, const EnsemblePlan& plan) {
-  run_workers(arguments, plan);
-  while (arguments.max_wall.empty() && !is_over(arguments.folder)) {
+  for (std::size_t ended = 0;;) {
+    const std::vector<FailedJob> killed = run_workers(arguments, plan);
+    const std::size_t ended_now = count_ended(view_of_ensemble(arguments.folder));
+    if (ended_now == plan.members.size() || !arguments.max_wall.empty()) return;
+    if (!killed.empty() && ended_now == ended) refuse(killed, "and no member came to an end meanwhile");
+    ended = ended_now;
     std::this_thread::sleep_for(std::chrono::seconds(1));
-    run_workers(arguments, plan);
   }
 }
 

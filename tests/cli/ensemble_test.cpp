@@ -6,6 +6,7 @@
 #include <csignal>
 #include <fstream>
 #include <sstream>
+#include <thread>
 
 #include "process.h"
 
@@ -118,6 +119,25 @@ TEST(Ensemble, is_shared_by_workers_which_begin_each_member_once) {
     ASSERT_NE(at, std::string::npos) << line;
     EXPECT_EQ(begun.find(line, at + 1), std::string::npos) << "twice: " << line;
   }
+}
+
+TEST(Ensemble, replaces_a_worker_that_was_killed) {
+  const TemporaryFolder folder;
+  write_file(folder, "bed.toml", tiny_bed);
+  std::vector<std::string> words = ensemble_of("e", "1-6");
+  words.insert(words.end(), {"--jobs", "1"});
+  const pid_t ensemble = start_talus(words, folder.path());
+  // The worker tells its number in its claim: "process 123 on host a, ...". The first member is done by then.
+  const std::string claim = folder.path("e/seed-2.claim-0");
+  std::string word, worker;
+  for (int wait = 0; wait < 3000 && worker.empty(); ++wait) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    std::ifstream(claim) >> word >> worker;
+  }
+  ASSERT_FALSE(worker.empty());
+  kill(std::stoi(worker), SIGKILL);
+  EXPECT_EQ(wait_for(ensemble), 0) << errors_in(folder.path());
+  EXPECT_EQ(count_of_lines(text_of(folder.path("e/members.csv"))), 7u);
 }
 
 TEST(Ensemble, takes_over_what_a_worker_of_another_machine_has_left) {
