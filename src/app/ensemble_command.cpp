@@ -111,7 +111,7 @@ std::vector<FailedJob> run_workers(const EnsembleArguments& arguments, const Ens
     shown = std::chrono::steady_clock::now();
     show(line, plan, pace);
   };
-  const std::vector<FailedJob> failed =
+  std::vector<FailedJob> failed =
       run_jobs(workers, {"ensemble", arguments.jobs, workers.size(), show_now_and_then});
   line.finish();
   const bool stopped = std::ranges::any_of(failed, [](const FailedJob& worker) {
@@ -132,12 +132,19 @@ std::size_t count_ended(const EnsembleView& view) {
 /// Members that others compute are waited for, and taken over where their workers end before them; workers
 /// that were killed are replaced, as long as members come to an end. With a limit of time others are left
 /// alone.
-void compute_members(const EnsembleArguments& arguments, const EnsemblePlan& plan) {
+void compute_members(const EnsembleArguments& arguments) {
+  ClaimWatch watch{arguments.times, {}};
   for (std::size_t ended = 0;;) {
-    const std::vector<FailedJob> killed = run_workers(arguments, plan);
-    const std::size_t ended_now = count_ended(view_of_ensemble(arguments.folder));
-    if (ended_now == plan.members.size() || !arguments.max_wall.empty()) return;
-    if (!killed.empty() && ended_now == ended) refuse(killed, "and no member came to an end meanwhile");
+    const EnsemblePlan plan = plan_of(read_ensemble(arguments.folder), arguments.folder);
+    std::vector<FailedJob> killed;
+    if (has_work(plan, look_at_members(plan), watch)) killed = run_workers(arguments, plan);
+    const EnsembleView view = view_of_ensemble(arguments.folder);
+    const std::size_t ended_now = count_ended(view);
+    if (ended_now == view.states.size()) return;
+    const bool limited = !arguments.max_wall.empty();
+    if (!killed.empty() && (limited || ended_now == ended))
+      refuse(killed, "and no member came to an end meanwhile");
+    if (limited) return;
     ended = ended_now;
     std::this_thread::sleep_for(std::chrono::seconds(1));
   }
@@ -163,8 +170,8 @@ void run_ensemble(const EnsembleArguments& arguments) {
   prepare_folder(arguments.folder);
   const std::string table = (std::filesystem::path(arguments.folder) / "members.csv").string();
   output_target(table, {true, {arguments.scenario}});
-  const EnsembleManifest manifest = extend_ensemble(arguments.folder, wanted);
-  compute_members(arguments, plan_of(manifest, arguments.folder));
+  extend_ensemble(arguments.folder, wanted);
+  compute_members(arguments);
   const EnsembleView view = view_of_ensemble(arguments.folder);
   write_text(table, members_csv(view));
   std::printf("%s", (arguments.json ? ensemble_json(view) + "\n" : ensemble_text(view)).c_str());
@@ -235,8 +242,10 @@ void add_time_options(CLI::App& command, const std::shared_ptr<EnsembleArguments
   command.add_option("--max-wall", arguments->max_wall,
                      "Stop with checkpoints before this much wall time has passed, HH:MM or HH:MM:SS");
   command
-      .add_option("--stale", arguments->times.stale,
-                  "Time without a heartbeat after which a worker of another machine is taken for dead, s")
+      .add_option(
+          "--stale", arguments->times.stale,
+          "Time without a heartbeat after which a worker of another machine is taken for dead, s; the "
+          "same for all workers")
       ->capture_default_str()
       ->check(CLI::Range(1.0, 86400.0));
 }

@@ -1,5 +1,6 @@
 #include "app/ensemble_report.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <fmt/core.h>
@@ -169,21 +170,26 @@ std::string ensemble_json(const EnsembleView& view) {
 }
 
 std::string members_csv(const EnsembleView& view) {
-  std::string text;
+  // Members of different versions of Talus may have different numbers.
+  std::vector<NamedNumber> columns;
+  for (const MemberNumbers& member : view.numbers)
+    for (const NamedNumber& number : member.numbers)
+      if (std::ranges::find(columns, number.name, &NamedNumber::name) == columns.end())
+        columns.push_back(number);
+  std::string text = "variant,seed,state_hash,version,seconds";
+  for (const NamedNumber& column : columns)
+    text += fmt::format(",{}", cell(fmt::format("{} ({})", column.name, column.unit)));
+  text += "\n";
   for (std::size_t m = 0; m < view.plan.members.size(); ++m) {
     const MemberNumbers& member = view.numbers[m];
     if (view.states[m].stage != MemberStage::done) continue;
-    if (text.empty()) {
-      text = "variant,seed,state_hash,version,seconds";
-      for (const NamedNumber& number : member.numbers)
-        text += fmt::format(",{}", cell(fmt::format("{} ({})", number.name, number.unit)));
-      text += "\n";
-    }
     text += fmt::format("{},{},{},{},{}", cell(view.plan.variants[view.plan.members[m].variant].name),
                         view.plan.members[m].seed, member.state_hash, cell(member.version),
                         short_text(member.seconds));
-    for (const NamedNumber& number : member.numbers)
-      text += fmt::format(",{}", std::isnan(number.value) ? std::string() : short_text(number.value));
+    for (const NamedNumber& column : columns) {
+      const double value = number_called(member, column.name);
+      text += fmt::format(",{}", std::isnan(value) ? std::string() : short_text(value));
+    }
     text += "\n";
   }
   return text;

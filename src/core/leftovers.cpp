@@ -3,9 +3,12 @@
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/stat.h>
+#include <sys/vfs.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <filesystem>
 #include <string_view>
 #include <system_error>
@@ -69,12 +72,32 @@ void clear(const std::string& path) {
     remove_figure_folder(path);
 }
 
+/// Whether other machines may write to the file system of a folder, to which the locks of this one need not
+/// reach (statfs(2), and what the file systems themselves say).
+bool is_shared_with_other_machines(const std::string& folder) {
+  struct statfs system {};
+  if (::statfs(folder.c_str(), &system) != 0) return true;
+  constexpr std::array<std::uint32_t, 10> network = {
+      0x6969,      // NFS
+      0x517b,      // SMB
+      0xff534d42,  // CIFS
+      0xfe534d42,  // SMB 2
+      0x0bd00bd0,  // Lustre
+      0x47504653,  // GPFS
+      0x00c36400,  // Ceph
+      0x5346414f,  // AFS
+      0x19830326,  // BeeGFS
+      0x65735546,  // FUSE: sshfs and the like
+  };
+  return std::ranges::find(network, static_cast<std::uint32_t>(system.f_type)) != network.end();
+}
+
 }  // namespace
 
 void clear_leftovers(const std::string& folder) {
   std::vector<std::string> names = names_in(folder);
   std::erase_if(names, [](const std::string& name) { return name_before_ending(name).empty(); });
-  if (names.empty()) return;
+  if (names.empty() || is_shared_with_other_machines(folder)) return;
   // One process at a time: of two that share a lock one could remove what a third has made since.
   const Descriptor place(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (place.get() < 0 || ::flock(place.get(), LOCK_EX | LOCK_NB) != 0) return;

@@ -38,12 +38,6 @@ std::string first_line() {
   return fmt::format("process {} on host {}, boot {}\n", ::getpid(), host.data(), this_boot());
 }
 
-void append(const Descriptor& file, const std::string& text, const std::string& path) {
-  if (::write(file.get(), text.data(), text.size()) != static_cast<ssize_t>(text.size()))
-    throw system_error(ExitCode::io_error, "write", path, errno);
-  ::fdatasync(file.get());  // other machines see it sooner; where it fails they see it later
-}
-
 /// Whether a process of this machine holds the claim.
 bool is_held(const std::string& path) {
   const Descriptor file(::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC));
@@ -87,10 +81,11 @@ ClaimState claim_state(const std::string& run, int number, ClaimWatch& watch) {
   if (holder && holder->boot == this_boot())
     return is_held(claim_path(run, number)) ? ClaimState::alive : ClaimState::dead;
   const std::uint64_t beats = holder ? holder->beats : 0;
+  const std::string who = holder ? holder->worker + holder->boot : "";
   auto [found, is_new] = watch.seen.try_emplace(run);
   ClaimWatch::Seen& seen = found->second;
-  if (is_new || seen.number != number || beats > seen.beats)
-    seen = {number, beats, Clock::now(), !is_new && seen.number == number};
+  const bool is_same = !is_new && seen.number == number && (seen.who == who || !holder);
+  if (!is_same || beats > seen.beats) seen = {number, beats, Clock::now(), is_same, who};
   if (std::chrono::duration<double>(Clock::now() - seen.since).count() >= watch.times.stale)
     return ClaimState::dead;
   return seen.grew ? ClaimState::alive : ClaimState::unknown;
@@ -111,8 +106,11 @@ std::optional<Claim> Claim::take(const std::string& run, std::optional<int> foun
   if (file.get() < 0 && errno == EEXIST) return std::nullopt;
   if (file.get() < 0) throw creation_error("create", path, errno);
   ::flock(file.get(), LOCK_EX | LOCK_NB);  // for this machine; others go by the heartbeats
-  Claim claim(path, claim_path(run, number + 1), std::move(file), times.beat);
-  append(claim.file_, first_line(), path);
+  Claim claim(path, claim_path(run, number + 1), std::move(file), times.beat());
+  const std::string text = first_line();
+  if (::write(claim.file_.get(), text.data(), text.size()) != static_cast<ssize_t>(text.size()))
+    throw system_error(ExitCode::io_error, "write", path, errno);
+  ::fdatasync(claim.file_.get());  // other machines see it sooner; where it fails they see it later
   // The dead claim is still the one that was found, or this one is a number too high by now.
   if (found && ::unlink(claim_path(run, *found).c_str()) != 0) return std::nullopt;
   return claim;
@@ -123,10 +121,12 @@ Claim::~Claim() {
 }
 
 bool Claim::beat() {
-  if (!is_named(path_, file_) || std::filesystem::exists(next_)) return false;
+  std::error_code unknown;
+  if (!is_named(path_, file_) || std::filesystem::exists(next_, unknown)) return false;
   if (Clock::now() - last_ < interval_) return true;
   last_ = Clock::now();
-  append(file_, ".", path_);
+  // A full disk is no reason to give up a member that computes.
+  if (::write(file_.get(), ".", 1) == 1) ::fdatasync(file_.get());
   return true;
 }
 

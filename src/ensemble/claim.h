@@ -17,8 +17,10 @@
 namespace talus {
 
 struct ClaimTimes {
-  double beat = 10.0;    ///< s between two heartbeats
   double stale = 120.0;  ///< s without a heartbeat after which a claim of another machine is dead
+
+  /// s between two heartbeats
+  double beat() const { return stale / 12.0; }
 };
 
 /// What stands in a claim.
@@ -49,6 +51,7 @@ struct ClaimWatch {
     std::uint64_t beats = 0;
     std::chrono::steady_clock::time_point since;
     bool grew = false;  ///< while it was watched: somebody is at work
+    std::string who;    ///< has it: a new holder counts from its own first heartbeat
   };
   ClaimTimes times;
   std::map<std::string, Seen> seen;  ///< by run
@@ -69,7 +72,8 @@ class Claim {
   Claim& operator=(Claim&&) = delete;
   ~Claim();
 
-  /// Adds a heartbeat where one is due. False where the claim is lost: it was taken for dead, or removed.
+  /// Adds a heartbeat where one is due; one that cannot be written is left out. False where the claim is
+  /// lost: it was taken for dead, or removed.
   bool beat();
 
  private:

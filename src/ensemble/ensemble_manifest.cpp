@@ -1,14 +1,18 @@
 #include "ensemble/ensemble_manifest.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cstddef>
 #include <filesystem>
 #include <fmt/core.h>
+#include <optional>
 #include <span>
 #include <sstream>
+#include <thread>
 
 #include "core/errors.h"
 #include "core/hash.h"
+#include "core/locked_file.h"
 #include "core/output_file.h"
 #include "core/text.h"
 #include "core/text_stream.h"
@@ -44,13 +48,23 @@ std::string seeds_text(const std::vector<std::uint64_t>& seeds) {
   return joined(parts, ",");
 }
 
+/// The scenarios are written already, and stay as they are: another version of Talus would write them
+/// otherwise.
 std::string text_of(const EnsembleManifest& manifest) {
   std::string text =
       fmt::format("{}\nversion {}\nseeds {}\n", first_line, manifest.version, seeds_text(manifest.seeds));
   if (!manifest.until.empty()) text += fmt::format("until {}\n", manifest.until);
   for (const Variant& variant : manifest.variants)
-    text += fmt::format("variant {} {}\n", hash_of(resolved_toml(variant.scenario)), variant.name);
+    text += fmt::format("variant {} {}\n", hash_of(read_text(variant.scenario_file)), variant.name);
   return fmt::format("{}hash {}\n", text, hash_of(text));
+}
+
+/// Only one process at a time extends an ensemble; the others wait.
+Descriptor wait_for_lock(const std::string& path) {
+  for (;;) {
+    if (std::optional<Descriptor> lock = create_locked(path)) return std::move(*lock);
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
 }
 
 [[noreturn]] void refuse_damaged(const std::string& path) {
@@ -58,6 +72,12 @@ std::string text_of(const EnsembleManifest& manifest) {
               path +
                   " is not what talus wrote; its runs are not affected: begin another ensemble from its "
                   "scenario, and move them there");
+}
+
+std::vector<std::uint64_t> sorted(std::vector<std::uint64_t> seeds) {
+  std::ranges::sort(seeds);
+  seeds.erase(std::unique(seeds.begin(), seeds.end()), seeds.end());
+  return seeds;
 }
 
 /// The scenario of a variant, which must be the text of this hash.
@@ -181,33 +201,32 @@ std::vector<Variant> plan_variants(const std::string& scenario_file, const std::
 }
 
 EnsembleManifest extend_ensemble(const std::string& folder, const EnsembleManifest& wanted) {
-  EnsembleManifest all = wanted;
-  all.version = version_text();
+  const std::string lock_path = manifest_path(folder) + ".lock";
+  prepare_folder(folder);
+  const Descriptor lock = wait_for_lock(lock_path);
+  EnsembleManifest all{version_text(), wanted.seeds, wanted.until, {}};
+  std::string before;
   if (is_ensemble(folder)) {
-    EnsembleManifest found = read_ensemble(folder);
+    before = read_text(manifest_path(folder));
+    const EnsembleManifest found = read_ensemble(folder);
     require_same(found, wanted, folder);
     all.version = found.version;
     all.seeds.insert(all.seeds.end(), found.seeds.begin(), found.seeds.end());
-    std::ranges::sort(all.seeds);
-    all.seeds.erase(std::unique(all.seeds.begin(), all.seeds.end()), all.seeds.end());
     if (wanted.until.empty()) all.until = found.until;
-    all.variants = std::move(found.variants);
-    for (const Variant& variant : wanted.variants)
-      if (variant_called(all, variant.name) == nullptr) all.variants.push_back(variant);
+    all.variants = found.variants;
   }
-  for (Variant& variant : all.variants) {
-    variant.scenario_file = scenario_path(folder, variant.name);
-    if (fs::exists(variant.scenario_file) && is_ensemble(folder) &&
-        read_text(variant.scenario_file) == resolved_toml(variant.scenario))
-      continue;
-    prepare_folder_of(variant.scenario_file);
-    write_text(variant.scenario_file, resolved_toml(variant.scenario));
+  all.seeds = parse_seeds(seeds_text(sorted(all.seeds)));  // refuses too many of them
+  for (const Variant& variant : wanted.variants) {
+    if (variant_called(all, variant.name) != nullptr) continue;
+    all.variants.push_back(variant);
+    all.variants.back().scenario_file = scenario_path(folder, variant.name);
+    prepare_folder_of(all.variants.back().scenario_file);
+    write_text(all.variants.back().scenario_file, resolved_toml(variant.scenario));
   }
   for (const Member& member : plan_ensemble({all.seeds.front()}, all.variants, folder).members)
     prepare_folder_of(member.path);
-  const std::string text = text_of(all);
-  if (!is_ensemble(folder) || read_text(manifest_path(folder)) != text)
-    write_text(manifest_path(folder), text);
+  if (const std::string text = text_of(all); text != before) write_text(manifest_path(folder), text);
+  remove_file(lock_path);
   return all;
 }
 

@@ -12,6 +12,8 @@
 #include "ensemble/member_state.h"
 #include "ensemble/pool.h"
 #include "ensemble/until.h"
+#include "io/run_store.h"
+#include "io/writer_lock.h"
 #include "session/estimate.h"
 
 namespace talus {
@@ -86,9 +88,26 @@ std::optional<std::string> time_left(const Worker& worker) {
   return fmt::format("{:02}:{:02}:{:02}", seconds / 3600, seconds / 60 % 60, seconds % 60);
 }
 
+/// Whether no process writes the run of the member: one whose claim was taken for dead may still do. Waits
+/// for it for a while.
+bool is_free_to_write(Taken& taken) {
+  for (int tries = 0; tries < 150; ++tries) {
+    try {
+      require_no_writer(run_folder(taken.member.path));
+      return true;
+    } catch (const Error& error) {
+      if (error.code() != ExitCode::cannot_create) throw;
+    }
+    if (!taken.claim.beat()) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  }
+  return false;
+}
+
 /// One process computes the member and analyses it, while this one keeps the claim alive.
 void compute(Worker& worker, Taken& taken) {
   const Member& member = taken.member;
+  if (!is_free_to_write(taken)) return;
   std::vector<std::string> arguments = {"ensemble", "member", path_word(worker.options.folder),
                                         path_word(member.name)};
   if (const std::optional<std::string> left = time_left(worker)) {
@@ -114,6 +133,16 @@ void compute(Worker& worker, Taken& taken) {
 }
 
 }  // namespace
+
+bool has_work(const EnsemblePlan& plan, const std::vector<MemberState>& states, ClaimWatch& watch) {
+  for (std::size_t m = 0; m < states.size(); ++m) {
+    if (states[m].stage == MemberStage::waiting) return true;
+    if (states[m].stage == MemberStage::claimed &&
+        claim_state(plan.members[m].path, *states[m].claim, watch) == ClaimState::dead)
+      return true;
+  }
+  return false;
+}
 
 WorkerEnd work_on_ensemble(const WorkerOptions& options) {
   Worker worker{options, {options.times, {}}};

@@ -5,8 +5,11 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "ensemble/claim.h"
+#include "ensemble/member_state.h"
+#include "ensemble/plan.h"
 
 namespace talus {
 
@@ -25,6 +28,9 @@ struct WorkerEnd {
   std::size_t elsewhere = 0;  ///< members that others are computing
   bool enough = false;        ///< the precision that was asked for is reached
 };
+
+/// Whether there is a member that a worker could begin now: it waits, or its claim is dead.
+bool has_work(const EnsemblePlan& plan, const std::vector<MemberState>& states, ClaimWatch& watch);
 
 /// Works until there is nothing left to begin: every member is done, has failed, or is being computed by
 /// somebody whose claim is alive. The manifest is read again before each member, so members may be added

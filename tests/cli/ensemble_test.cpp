@@ -104,6 +104,9 @@ TEST(Ensemble, is_shared_by_workers_which_begin_each_member_once) {
   write_file(folder, "bed.toml", tiny_bed);
   ASSERT_EQ(run_talus(ensemble_of("e", "1"), folder.path()).exit_code, 0);  // for workers to find it
   const pid_t first = start_talus(ensemble_of("e", "1-12"), folder.path());
+  const std::string manifest = folder.path("e/ensemble.manifest");
+  for (int wait = 0; wait < 1000 && text_of(manifest).find("seeds 1-12") == std::string::npos; ++wait)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
   std::vector<Outcome> ends;
   for (int k = 0; k < 2; ++k) ends.push_back(run_talus({"ensemble", "work", "e"}, folder.path()));
   EXPECT_EQ(wait_for(first), 0) << errors_in(folder.path());
@@ -121,18 +124,30 @@ TEST(Ensemble, is_shared_by_workers_which_begin_each_member_once) {
   }
 }
 
+TEST(Ensemble, may_be_extended_while_it_is_computed) {
+  const TemporaryFolder folder;
+  write_file(folder, "bed.toml", tiny_bed);
+  const pid_t first = start_talus(ensemble_of("e", "1-4"), folder.path());
+  for (int wait = 0; wait < 1000 && !std::filesystem::exists(folder.path("e/ensemble.manifest")); ++wait)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  const Outcome second = run_talus(ensemble_of("e", "5-6"), folder.path());
+  EXPECT_EQ(second.exit_code, 0) << second.err;
+  EXPECT_NE(second.out.find("e: 6 of 6 done"), std::string::npos) << second.out;
+  EXPECT_EQ(wait_for(first), 0) << errors_in(folder.path());
+}
+
 TEST(Ensemble, replaces_a_worker_that_was_killed) {
   const TemporaryFolder folder;
   write_file(folder, "bed.toml", tiny_bed);
   std::vector<std::string> words = ensemble_of("e", "1-6");
   words.insert(words.end(), {"--jobs", "1"});
   const pid_t ensemble = start_talus(words, folder.path());
-  // The worker tells its number in its claim: "process 123 on host a, ...". The first member is done by then.
-  const std::string claim = folder.path("e/seed-2.claim-0");
+  // The worker tells its number in its claim: "process 123 on host a, ...".
   std::string word, worker;
-  for (int wait = 0; wait < 3000 && worker.empty(); ++wait) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    std::ifstream(claim) >> word >> worker;
+  for (int wait = 0; wait < 30000 && worker.empty(); ++wait) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    for (int seed = 2; seed <= 6 && worker.empty(); ++seed)  // a first member is done by then
+      std::ifstream(folder.path("e/seed-" + std::to_string(seed) + ".claim-0")) >> word >> worker;
   }
   ASSERT_FALSE(worker.empty());
   kill(std::stoi(worker), SIGKILL);
@@ -184,6 +199,10 @@ TEST(Ensemble, begins_no_more_once_the_mean_is_known_well_enough) {
   EXPECT_EQ(json_value(status.out, "waiting"), "25");
 }
 
+int steps_of(const std::string& run, const TemporaryFolder& folder) {
+  return std::stoi("0" + json_value(run_talus({"info", run, "--json"}, folder.path()).out, "steps"));
+}
+
 TEST(Ensemble, stops_in_time_and_goes_on_where_it_was) {
   const TemporaryFolder folder;
   write_file(folder, "bed.toml", "[bed]\nlength = 50\ndepth = 20\n");
@@ -191,8 +210,11 @@ TEST(Ensemble, stops_in_time_and_goes_on_where_it_was) {
   words.insert(words.end(), {"--max-wall", "00:00:03"});
   const Outcome stopped = run_talus(words, folder.path());
   EXPECT_EQ(stopped.exit_code, 75) << stopped.err;
-  EXPECT_TRUE(std::filesystem::exists(folder.path("e/seed-1.h5.run/manifest")));
   EXPECT_FALSE(std::filesystem::exists(folder.path("e/seed-1.claim-0")));
+  const int steps = steps_of("e/seed-1.h5", folder);
+  EXPECT_GT(steps, 1);
+  EXPECT_EQ(run_talus(words, folder.path()).exit_code, 75);
+  EXPECT_GT(steps_of("e/seed-1.h5", folder), steps);
 }
 
 TEST(Ensemble, of_a_bad_form_is_refused_before_anything_is_made) {

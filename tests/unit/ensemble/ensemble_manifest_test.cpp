@@ -99,6 +99,24 @@ TEST_F(EnsembleManifestTest, whose_scenario_was_changed_is_refused) {
   EXPECT_EQ(test::exit_code_of([&] { read_ensemble(ensemble); }), ExitCode::bad_data);
 }
 
+TEST_F(EnsembleManifestTest, keeps_the_scenarios_that_it_began_with_as_they_were_written) {
+  extend_ensemble(ensemble, wanted({1}));
+  // As an earlier version wrote it: the same values, other words.
+  const std::string scenario_file = ensemble + "/scenarios/scenario.toml",
+                    text = text_of(scenario_file) + "# x\n";
+  std::ofstream(scenario_file) << text;
+  EXPECT_EQ(test::exit_code_of([&] { extend_ensemble(ensemble, wanted({2})); }), ExitCode::bad_data);
+  EXPECT_EQ(text_of(scenario_file), text);
+}
+
+TEST_F(EnsembleManifestTest, of_too_many_seeds_is_refused_and_stays_as_it_is) {
+  Seeds many(10000);
+  for (std::size_t k = 0; k < many.size(); ++k) many[k] = k + 1;
+  extend_ensemble(ensemble, wanted(many));
+  EXPECT_EQ(test::exit_code_of([&] { extend_ensemble(ensemble, wanted({10001})); }), ExitCode::usage);
+  EXPECT_EQ(read_ensemble(ensemble).seeds.size(), 10000u);
+}
+
 TEST_F(EnsembleManifestTest, that_is_missing_is_missing_input) {
   EXPECT_EQ(test::exit_code_of([&] { read_ensemble(ensemble); }), ExitCode::missing_input);
 }
