@@ -45,8 +45,7 @@ struct EnsembleArguments {
   bool json = false;
 };
 
-/// "1 min 20 s", where members that are done tell how long the others take: by their estimates, and by how
-/// far these were off since `begin`.
+/// What tells how long the rest will take: the members that came to an end since `begin`, by their estimates.
 struct EnsemblePace {
   double estimate_before = 0.0;  ///< s, of the members that were done before
   std::chrono::steady_clock::time_point begin = std::chrono::steady_clock::now();

@@ -118,14 +118,6 @@ std::string member_json(const EnsembleView& view, std::size_t m) {
   return json::object(members, 2);
 }
 
-/// A cell of CSV: in quotes where it holds a comma or a quote.
-std::string cell(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + "\"";
-}
-
 }  // namespace
 
 EnsembleView view_of_ensemble(const std::string& folder) {
@@ -177,15 +169,14 @@ std::string members_csv(const EnsembleView& view) {
       if (std::ranges::find(columns, number.name, &NamedNumber::name) == columns.end())
         columns.push_back(number);
   std::string text = "variant,seed,state_hash,version,seconds";
-  for (const NamedNumber& column : columns)
-    text += fmt::format(",{}", cell(fmt::format("{} ({})", column.name, column.unit)));
+  for (const NamedNumber& column : columns) text += fmt::format(",{} ({})", column.name, column.unit);
   text += "\n";
   for (std::size_t m = 0; m < view.plan.members.size(); ++m) {
     const MemberNumbers& member = view.numbers[m];
     if (view.states[m].stage != MemberStage::done) continue;
-    text += fmt::format("{},{},{},{},{}", cell(view.plan.variants[view.plan.members[m].variant].name),
-                        view.plan.members[m].seed, member.state_hash, cell(member.version),
-                        short_text(member.seconds));
+    text +=
+        fmt::format("{},{},{},{},{}", csv_quoted(view.plan.variants[view.plan.members[m].variant].name),
+                    view.plan.members[m].seed, member.state_hash, member.version, short_text(member.seconds));
     for (const NamedNumber& column : columns) {
       const double value = number_called(member, column.name);
       text += fmt::format(",{}", std::isnan(value) ? std::string() : short_text(value));

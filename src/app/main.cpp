@@ -38,8 +38,10 @@ void refuse_empty_words(CLI::App& app) {
   const auto refuse = [](const std::string& word) {
     return word.empty() ? std::string("expected a value, found an empty one") : std::string();
   };
-  for (CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+  for (CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
     for (CLI::Option* option : command->get_options()) option->check(refuse);
+    refuse_empty_words(*command);
+  }
 }
 
 void run(int argc, char** argv, CLI::App& app) {

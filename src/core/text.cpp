@@ -2,6 +2,12 @@
 
 namespace talus {
 
+std::string csv_quoted(const std::string& text) {
+  std::string field = "\"";
+  for (const char c : text) field += c == '"' ? "\"\"" : std::string(1, c);
+  return field + "\"";
+}
+
 std::string shell_quoted(const std::string& word) {
   const std::string plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_./,=:+%@";
   if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;

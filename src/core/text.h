@@ -19,6 +19,9 @@ std::string joined(const Items& items, std::string_view between, const TextOf& t
   return text;
 }
 
+/// A field of CSV in quotes (RFC 4180), for texts that may hold commas.
+std::string csv_quoted(const std::string& text);
+
 /// A word as a shell reads it: in quotes where it has to be.
 std::string shell_quoted(const std::string& word);
 

@@ -158,7 +158,10 @@ std::string manifest_path(const std::string& folder) {
   return (fs::path(folder) / "ensemble.manifest").string();
 }
 
-bool is_ensemble(const std::string& folder) { return fs::exists(manifest_path(folder)); }
+bool is_ensemble(const std::string& folder) {
+  std::error_code unknown;
+  return fs::exists(manifest_path(folder), unknown);
+}
 
 EnsemblePlan plan_of(const EnsembleManifest& manifest, const std::string& folder) {
   return plan_ensemble(manifest.seeds, manifest.variants, folder);

@@ -1,6 +1,7 @@
 #include "ensemble/member_numbers.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <fmt/core.h>
@@ -21,6 +22,10 @@ namespace talus {
 namespace {
 
 constexpr const char* header = "quantity,unit,value";
+
+/// What a run finds by itself, without an analysis.
+constexpr const char* angle_at_rest = "theta_r";
+constexpr std::array<const char*, 2> counted_steps = {"unconverged_steps_deposition", "unconverged_steps"};
 
 /// Whether there is one of it, or one for each threshold, in a run: no lists of frames, bins or edges.
 bool is_of_run(const Quantity& quantity) {
@@ -69,10 +74,23 @@ MemberNumbers member_numbers(const RunFile& run, const Analysis& analysis) {
   for (const Quantity& quantity : quantities())
     if (is_of_run(quantity))
       add_numbers(found.numbers, quantity, analysis, run.header().statics.mean_diameter);
-  found.numbers.push_back({"theta_r", "deg", degrees(result(end.results, "theta_r"))});
-  for (const char* name : {"unconverged_steps_deposition", "unconverged_steps"})
-    found.numbers.push_back({name, "1", result(end.results, name)});
+  found.numbers.push_back({angle_at_rest, "deg", degrees(result(end.results, angle_at_rest))});
+  for (const char* name : counted_steps) found.numbers.push_back({name, "1", result(end.results, name)});
   return found;
+}
+
+std::vector<std::string> numbers_of_run() {
+  std::vector<std::string> names;
+  for (const Quantity& quantity : quantities())
+    if (is_of_run(quantity)) names.push_back(quantity.name);
+  names.emplace_back(angle_at_rest);
+  names.insert(names.end(), counted_steps.begin(), counted_steps.end());
+  return names;
+}
+
+bool is_number_of_run(const std::string& name) {
+  const std::vector<std::string> names = numbers_of_run();
+  return std::ranges::find(names, name.substr(0, name.find('['))) != names.end();
 }
 
 std::string numbers_csv(const MemberNumbers& numbers) {

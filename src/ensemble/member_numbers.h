@@ -27,6 +27,12 @@ struct MemberNumbers {
 /// found by itself (theta_r).
 MemberNumbers member_numbers(const RunFile& run, const Analysis& analysis);
 
+/// The names that members have numbers of, the first of each: "theta_d/dilation", not "theta_d/dilation[1]".
+std::vector<std::string> numbers_of_run();
+
+/// Whether it is one of these names, or a further one of it ("theta_d/dilation[1]").
+bool is_number_of_run(const std::string& name);
+
 /// CSV: name, unit, value in full digits.
 std::string numbers_csv(const MemberNumbers& numbers);
 

@@ -145,13 +145,6 @@ std::string differences(const StudyResult& result) {
       text, differing, made, 0.05 * made);
 }
 
-/// A field of CSV (RFC 4180).
-std::string quoted(const std::string& text) {
-  std::string field = "\"";
-  for (const char c : text) field += c == '"' ? "\"\"" : std::string(1, c);
-  return field + "\"";
-}
-
 }  // namespace
 
 std::string study_csv(const StudyResult& result) {
@@ -161,7 +154,8 @@ std::string study_csv(const StudyResult& result) {
   std::string text = joined(head, ",") + "\n";
   for (const StudyOutcome& outcome : result.outcomes) {
     const Member& run = result.plan.members[outcome.member];
-    std::vector<std::string> row = {quoted(result.plan.variants[run.variant].name), std::to_string(run.seed)};
+    std::vector<std::string> row = {csv_quoted(result.plan.variants[run.variant].name),
+                                    std::to_string(run.seed)};
     for (const double value : outcome.figures) row.push_back(std::isnan(value) ? "" : short_text(value));
     row.insert(row.end(), {short_text(result.reference), outcome.state_hash, outcome.version});
     text += joined(row, ",") + "\n";

@@ -11,17 +11,6 @@
 #include "io/durable_file.h"
 
 namespace talus {
-namespace {
-
-void require_quantity(const Precision& precision, const MemberNumbers& numbers) {
-  if (std::ranges::find(numbers.numbers, precision.quantity, &NamedNumber::name) != numbers.numbers.end())
-    return;
-  throw Error(ExitCode::usage,
-              fmt::format("--until {}: no number of a run; there are {}", visible_word(precision.quantity),
-                          joined(numbers.numbers, ", ", &NamedNumber::name)));
-}
-
-}  // namespace
 
 Precision parse_precision(const std::string& text) {
   const std::size_t colon = text.rfind(':');
@@ -30,7 +19,12 @@ Precision parse_precision(const std::string& text) {
     precision.quantity = text.substr(0, colon);
     const char* const last = text.data() + text.size();
     const auto [end, error] = std::from_chars(text.data() + colon + 1, last, precision.error);
-    if (error == std::errc() && end == last && precision.error > 0.0) return precision;
+    const bool has_error = error == std::errc() && end == last && precision.error > 0.0;
+    if (has_error && is_number_of_run(precision.quantity)) return precision;
+    if (has_error)
+      throw Error(ExitCode::usage,
+                  fmt::format("--until {}: {} is no number of a run; there are {}", visible_word(text),
+                              visible_word(precision.quantity), joined(numbers_of_run(), ", ")));
   }
   throw Error(ExitCode::usage,
               fmt::format("--until {}: expected a quantity and the standard error asked of its mean, such as "
@@ -53,7 +47,6 @@ bool is_reached(const Precision& precision, const EnsemblePlan& plan,
   std::vector<std::vector<double>> values(plan.variants.size());
   for (std::size_t m = 0; m < plan.members.size(); ++m) {
     if (numbers[m].numbers.empty()) continue;
-    require_quantity(precision, numbers[m]);
     values[plan.members[m].variant].push_back(number_called(numbers[m], precision.quantity));
   }
   return std::ranges::all_of(values, [&](const std::vector<double>& of_variant) {

@@ -19,7 +19,8 @@ struct Precision {
 /// Fewer values than this have no error that means anything.
 inline constexpr int least_members = 5;
 
-/// Throws Error(usage), naming --until, where the text has another form.
+/// Throws Error(usage), naming --until, where the text has another form, or the quantity is no number of a
+/// run.
 Precision parse_precision(const std::string& text);
 
 /// The numbers of the members that are done, in the order of the plan; of the others nothing. Throws as
@@ -27,7 +28,7 @@ Precision parse_precision(const std::string& text);
 std::vector<MemberNumbers> numbers_of(const EnsemblePlan& plan, const std::vector<MemberState>& states);
 
 /// Whether the mean of each variant is known that well, each from `least_members` values or more. `numbers`
-/// as numbers_of gives them. Throws Error(bad_data) where a member has no quantity of this name.
+/// as numbers_of gives them.
 bool is_reached(const Precision& precision, const EnsemblePlan& plan,
                 const std::vector<MemberNumbers>& numbers);
 

@@ -226,7 +226,11 @@ TEST(Ensemble, of_a_bad_form_is_refused_before_anything_is_made) {
   EXPECT_EQ(run_talus({"ensemble", "bed.toml", "--seeds", "4-1", "-o", "e"}, folder.path()).exit_code, 64);
   EXPECT_EQ(run_talus({"ensemble", "bed.toml", "--vary", "tilt.stp=1", "-o", "e"}, folder.path()).exit_code,
             65);
+  EXPECT_EQ(run_talus({"ensemble", "bed.toml", "--until", "theta_x:1", "-o", "e"}, folder.path()).exit_code,
+            64);
   EXPECT_EQ(run_talus({"ensemble", "status", "e"}, folder.path()).exit_code, 66);
+  EXPECT_EQ(run_talus({"ensemble", "work", ""}, folder.path()).exit_code, 64)
+      << "as work \"$FOLDER\" without it";
   EXPECT_FALSE(std::filesystem::exists(folder.path("e")));
 }
 

@@ -121,6 +121,13 @@ TEST_F(EnsembleManifestTest, that_is_missing_is_missing_input) {
   EXPECT_EQ(test::exit_code_of([&] { read_ensemble(ensemble); }), ExitCode::missing_input);
 }
 
+TEST_F(EnsembleManifestTest, names_the_file_of_a_bed_from_anywhere) {
+  const std::vector<Variant> variants =
+      plan_variants(scenario, {"deposition.method=file", "deposition.file=bed.csv"}, {});
+  EXPECT_EQ(variants.front().scenario.deposition.file,
+            (std::filesystem::current_path() / "bed.csv").string());
+}
+
 TEST_F(EnsembleManifestTest, has_each_combination_of_what_varies_once) {
   const std::vector<Variant> variants = plan_variants(
       scenario, {}, {"contact.friction=0.3,0.30,0.5", "tilt.rate:tilt.step=2:0.002,0.5:0.0005"});

@@ -39,12 +39,16 @@ TEST(Precision, is_reached_where_the_mean_of_every_variant_is_known_so_well) {
   EXPECT_FALSE(is_reached({"theta_d/lc_jump[1]", 10.0}, plan, numbers)) << "no member has a value";
 }
 
-TEST(Precision, of_what_no_member_has_is_refused) {
-  const EnsemblePlan plan = plan_ensemble({1}, {{"", "", {}, {}}}, "none");
-  EXPECT_EQ(test::exit_code_of([&] {
-              is_reached({"theta_x", 1.0}, plan, {member_with(20.0)});
-            }),
-            ExitCode::usage);
+TEST(Precision, of_what_no_run_has_is_refused_and_says_what_there_is) {
+  try {
+    parse_precision("theta_x:1");
+    FAIL() << "nothing was refused";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::usage);
+    for (const char* name : {"theta_x", "theta_c", "theta_d/dilation", "theta_r"})
+      EXPECT_NE(std::string(error.what()).find(name), std::string::npos) << error.what();
+  }
+  EXPECT_EQ(parse_precision("theta_d/dilation[1]:1").quantity, "theta_d/dilation[1]");
 }
 
 TEST(MemberNumbers, are_read_back_to_the_last_bit) {
