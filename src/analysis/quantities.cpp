@@ -103,6 +103,15 @@ double number_of(const Quantity& quantity, const FrameRecord& frame, std::size_t
       quantity.member);
 }
 
+bool is_number_of_frame(const Quantity& quantity) {
+  return std::visit(
+      []<typename Record, typename T>(T Record::*) {
+        return std::is_arithmetic_v<T> &&
+               (std::is_same_v<Record, FrameRecord> || std::is_same_v<Record, FrameThreshold>);
+      },
+      quantity.member);
+}
+
 double number_of(const Quantity& quantity, const Analysis& analysis, std::size_t k) {
   const Values values = values_of(quantity, analysis);
   const auto* numbers = std::get_if<std::vector<double>>(&values);

@@ -62,6 +62,9 @@ void set_values(const Quantity& quantity, const Values& values, Analysis& analys
 /// number.
 double number_of(const Quantity& quantity, const FrameRecord& frame, std::size_t f = 0);
 
+/// Whether there is one number of it in a frame, or one for each threshold of a frame.
+bool is_number_of_frame(const Quantity& quantity);
+
 /// Element k of a quantity in doubles, among all its values; NaN where there are fewer.
 double number_of(const Quantity& quantity, const Analysis& analysis, std::size_t k);
 

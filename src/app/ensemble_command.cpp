@@ -11,6 +11,7 @@
 #include "app/analysed_run.h"
 #include "app/command_line.h"
 #include "app/commands.h"
+#include "app/ensemble_averages.h"
 #include "app/ensemble_report.h"
 #include "app/open_run.h"
 #include "app/pool_line.h"
@@ -80,6 +81,24 @@ void show(StatusLine& line, const EnsemblePlan& plan, const EnsemblePace& pace) 
   line.show(fitted_line(fields, line.width()));
 }
 
+/// The averages while members come in: of how many, and when.
+struct AveragesOnTheWay {
+  std::size_t members = 0;
+  std::chrono::steady_clock::time_point made = std::chrono::steady_clock::now();
+};
+
+/// Makes them anew once a minute, where more members are done than before.
+void renew(AveragesOnTheWay& averages, const std::string& folder) {
+  const auto now = std::chrono::steady_clock::now();
+  if (now - averages.made < std::chrono::minutes(1)) return;
+  averages.made = now;
+  const EnsembleView view = view_of_ensemble(folder);
+  const std::size_t done = count_of(view.states, MemberStage::done);
+  if (done == averages.members) return;
+  averages.members = done;
+  write_averages(view);
+}
+
 std::vector<std::string> worker_words(const EnsembleArguments& arguments) {
   std::vector<std::string> words = {"ensemble", "work", path_word(arguments.folder), "--stale",
                                     fmt::format("{}", arguments.times.stale)};
@@ -103,8 +122,10 @@ std::vector<FailedJob> run_workers(const EnsembleArguments& arguments, const Ens
   }
   const EnsemblePace pace{estimate_of(plan, states, MemberStage::done)};
   StatusLine line(false, 60.0);
+  AveragesOnTheWay averages{count_of(states, MemberStage::done)};
   auto shown = pace.begin;  // a look at ten thousand members takes some hundredths of a second
   const auto show_now_and_then = [&](const PoolProgress&) {
+    renew(averages, arguments.folder);
     const bool on_time = std::chrono::steady_clock::now() - shown > std::chrono::seconds(2);
     if (!(line.on_terminal() ? on_time : line.is_due())) return;
     shown = std::chrono::steady_clock::now();
@@ -167,12 +188,12 @@ void run_ensemble(const EnsembleArguments& arguments) {
   const EnsembleManifest wanted{"", parse_seeds(arguments.seeds), arguments.until,
                                 plan_variants(arguments.scenario, arguments.settings, arguments.axes)};
   prepare_folder(arguments.folder);
-  const std::string table = (std::filesystem::path(arguments.folder) / "members.csv").string();
-  output_target(table, {true, {arguments.scenario}});
+  for (const char* name : {"members.csv", "averages.csv", "ensemble.h5"})
+    output_target((std::filesystem::path(arguments.folder) / name).string(), {true, {arguments.scenario}});
   extend_ensemble(arguments.folder, wanted);
   compute_members(arguments);
   const EnsembleView view = view_of_ensemble(arguments.folder);
-  write_text(table, members_csv(view));
+  write_averages(view);
   std::printf("%s", (arguments.json ? ensemble_json(view) + "\n" : ensemble_text(view)).c_str());
   refuse_failures(view);
 }
@@ -199,6 +220,8 @@ void compute_member(const EnsembleArguments& arguments) {
   }
   const AnalysedRun analysed =
       analysed_run(member->path, parse_analysis_settings({}), {.threads = 1, .quiet = true});
+  write_text(series_path(member->path),
+             series_csv(member_series(analysed.analysis, analysed.statics.mean_diameter)));
   write_text(numbers_path(member->path),
              numbers_csv(member_numbers(RunFile::open(member->path), analysed.analysis)));
 }
@@ -215,6 +238,12 @@ void work(const EnsembleArguments& arguments) {
   const WorkerEnd end = work_on_ensemble(options);
   std::printf("%zu done and %zu failed here; %zu are under way elsewhere%s\n", end.done, end.failed,
               end.elsewhere, end.enough ? "; the precision that was asked for is reached" : "");
+}
+
+void average(const EnsembleArguments& arguments) {
+  const EnsembleView view = view_of_ensemble(arguments.folder);
+  write_averages(view);
+  std::printf("%s", ensemble_text(view).c_str());
 }
 
 void retry(const EnsembleArguments& arguments) {
@@ -261,6 +290,9 @@ void add_subcommands(CLI::App& command, const std::shared_ptr<EnsembleArguments>
     const EnsembleView view = view_of_ensemble(arguments->folder);
     std::printf("%s", (arguments->json ? ensemble_json(view) + "\n" : ensemble_text(view)).c_str());
   });
+  add_folder_command(command, arguments, "average",
+                     "Write members.csv, averages.csv and ensemble.h5 of the members that are done")
+      ->callback([arguments] { average(*arguments); });
   add_folder_command(command, arguments, "retry", "Let members that failed wait for a worker again")
       ->callback([arguments] { retry(*arguments); });
   CLI::App* member =

@@ -1,15 +1,46 @@
 #include "core/statistics.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
 #include <vector>
 
+#include "core/random.h"
+
 namespace talus {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+constexpr int draws = 1000;
+
+std::vector<double> numbers_among(std::span<const double> values) {
+  std::vector<double> numbers;
+  std::ranges::copy_if(values, std::back_inserter(numbers), [](double value) { return !std::isnan(value); });
+  return numbers;
+}
+
+/// Of values in ascending order, at least one.
+double quantile(const std::vector<double>& sorted, double share) {
+  const double place = share * static_cast<double>(sorted.size() - 1);
+  const auto below = static_cast<std::size_t>(place);
+  if (below + 1 == sorted.size()) return sorted[below];
+  return sorted[below] + (place - std::floor(place)) * (sorted[below + 1] - sorted[below]);
+}
+
+/// The means of all draws, ascending.
+std::vector<double> means_of_draws(const std::vector<double>& numbers, const Resamples& resamples) {
+  std::vector<double> means;
+  for (auto pick = resamples.drawn.begin(); pick != resamples.drawn.end();) {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < numbers.size(); ++k) sum += numbers[*pick++];
+    means.push_back(sum / static_cast<double>(numbers.size()));
+  }
+  std::ranges::sort(means);
+  return means;
+}
 
 }  // namespace
 
@@ -32,6 +63,53 @@ Statistics statistics_of(std::span<const double> values) {
   result.deviation = std::sqrt(squares / (result.count - 1.0));
   result.error = std::sqrt(squares / (result.count - 1.0) / result.count);
   return result;
+}
+
+Resamples resamples_of(int values) {
+  Resamples resamples{values, {}};
+  Random random(static_cast<std::uint64_t>(values));
+  resamples.drawn.reserve(static_cast<std::size_t>(values) * draws);
+  for (int k = 0; k < values * draws; ++k)
+    resamples.drawn.push_back(random.below(static_cast<std::uint32_t>(values)));
+  return resamples;
+}
+
+Summary summary_of(std::span<const double> values, const Resamples& resamples) {
+  Summary summary{statistics_of(values), none, none, none, none, none};
+  std::vector<double> numbers = numbers_among(values);
+  if (numbers.empty()) return summary;
+  if (numbers.size() > 1) {
+    const double half = summary.statistics.interval();
+    summary.low = summary.statistics.mean - half;
+    summary.high = summary.statistics.mean + half;
+  }
+  if (numbers.size() > 1 && static_cast<std::size_t>(resamples.values) == numbers.size()) {
+    const std::vector<double> means = means_of_draws(numbers, resamples);
+    summary.low = quantile(means, 0.025);
+    summary.high = quantile(means, 0.975);
+  }
+  std::ranges::sort(numbers);
+  summary.lower_quartile = quantile(numbers, 0.25);
+  summary.median = quantile(numbers, 0.5);
+  summary.upper_quartile = quantile(numbers, 0.75);
+  return summary;
+}
+
+Correlation correlation_of(std::span<const double> left, std::span<const double> right) {
+  std::vector<double> a, b;
+  for (std::size_t k = 0; k < left.size(); ++k)
+    if (!std::isnan(left[k]) && !std::isnan(right[k])) {
+      a.push_back(left[k]);
+      b.push_back(right[k]);
+    }
+  Correlation found{none, static_cast<int>(a.size())};
+  if (found.count < 3) return found;
+  const Statistics of_a = statistics_of(a), of_b = statistics_of(b);
+  double products = 0.0;
+  for (std::size_t k = 0; k < a.size(); ++k) products += (a[k] - of_a.mean) * (b[k] - of_b.mean);
+  const double scale = of_a.deviation * of_b.deviation * (found.count - 1.0);
+  if (scale > 0.0) found.coefficient = products / scale;
+  return found;
 }
 
 Statistics paired_difference(std::span<const double> values, std::span<const double> baseline) {

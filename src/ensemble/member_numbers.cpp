@@ -40,8 +40,8 @@ void add_numbers(std::vector<NamedNumber>& numbers, const Quantity& quantity, co
   const auto* doubles = std::get_if<std::vector<double>>(&values);
   if (doubles == nullptr) return;
   for (std::size_t k = 0; k < doubles->size(); ++k)
-    numbers.push_back({k == 0 ? quantity.name : fmt::format("{}[{}]", quantity.name, k),
-                       scaled_unit(quantity), scaled(quantity, (*doubles)[k], mean_diameter)});
+    numbers.push_back({element_name(quantity.name, k), scaled_unit(quantity),
+                       scaled(quantity, (*doubles)[k], mean_diameter)});
 }
 
 double result(const Figures& figures, const std::string& name) {
@@ -50,20 +50,24 @@ double result(const Figures& figures, const std::string& name) {
   return std::numeric_limits<double>::quiet_NaN();
 }
 
-[[noreturn]] void refuse(const std::string& path) {
+}  // namespace
+
+void refuse_table(const std::string& path) {
   throw Error(ExitCode::bad_data,
               path + " is not what talus wrote; remove it, and the member is analysed again");
 }
 
-double parse_number(const std::string& text, const std::string& path) {
+double parse_cell(const std::string& text, const std::string& path) {
   if (text.empty()) return std::numeric_limits<double>::quiet_NaN();
   double value = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) refuse(path);
+  if (error != std::errc() || end != text.data() + text.size()) refuse_table(path);
   return value;
 }
 
-}  // namespace
+std::string element_name(const std::string& name, std::size_t k) {
+  return k == 0 ? name : fmt::format("{}[{}]", name, k);
+}
 
 MemberNumbers member_numbers(const RunFile& run, const Analysis& analysis) {
   const Checkpoint& end = run.checkpoint();
@@ -105,21 +109,21 @@ std::string numbers_csv(const MemberNumbers& numbers) {
 MemberNumbers parse_numbers(const std::string& text, const std::string& path) {
   std::istringstream lines = text_stream(text);
   std::string line;
-  if (!std::getline(lines, line) || line != header) refuse(path);
+  if (!std::getline(lines, line) || line != header) refuse_table(path);
   MemberNumbers found;
   while (std::getline(lines, line)) {
     const std::vector<std::string> cells = split(line, ',');
-    if (cells.size() != 3) refuse(path);
+    if (cells.size() != 3) refuse_table(path);
     if (cells[0] == "state_hash")
       found.state_hash = cells[2];
     else if (cells[0] == "version")
       found.version = cells[2];
     else if (cells[0] == "seconds")
-      found.seconds = parse_number(cells[2], path);
+      found.seconds = parse_cell(cells[2], path);
     else
-      found.numbers.push_back({cells[0], cells[1], parse_number(cells[2], path)});
+      found.numbers.push_back({cells[0], cells[1], parse_cell(cells[2], path)});
   }
-  if (found.state_hash.empty() || found.numbers.empty()) refuse(path);
+  if (found.state_hash.empty() || found.numbers.empty()) refuse_table(path);
   return found;
 }
 

@@ -42,4 +42,13 @@ MemberNumbers parse_numbers(const std::string& text, const std::string& path);
 /// NaN where there is no such number.
 double number_called(const MemberNumbers& numbers, const std::string& name);
 
+/// "theta_d/lc_jump[1]": element k of what has several; element 0 has the plain name.
+std::string element_name(const std::string& name, std::size_t k);
+
+/// A cell of a table beside a run; NaN where it is empty. Throws as refuse_table does.
+double parse_cell(const std::string& text, const std::string& path);
+
+/// Throws Error(bad_data): the table at `path` has been changed.
+[[noreturn]] void refuse_table(const std::string& path);
+
 }  // namespace talus

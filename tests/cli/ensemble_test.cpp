@@ -73,6 +73,45 @@ TEST(Ensemble, that_is_complete_is_only_read_and_grows_by_seeds) {
   EXPECT_EQ(std::filesystem::last_write_time(folder.path("e/seed-1.h5")), written);
 }
 
+TEST(Ensemble, has_averages_over_tilt_that_do_not_depend_on_when_members_came) {
+  const TemporaryFolder folder;
+  write_file(folder, "bed.toml", tiny_bed);
+  ASSERT_EQ(run_talus(ensemble_of("at-once", "1-3"), folder.path()).exit_code, 0);
+  for (const char* seeds : {"3", "1", "2"})
+    ASSERT_EQ(run_talus(ensemble_of("one-by-one", seeds), folder.path()).exit_code, 0);
+  EXPECT_EQ(text_of(folder.path("at-once/averages.csv")), text_of(folder.path("one-by-one/averages.csv")));
+  EXPECT_EQ(text_of(folder.path("at-once/ensemble.h5")), text_of(folder.path("one-by-one/ensemble.h5")));
+  EXPECT_NE(
+      text_of(folder.path("at-once/averages.csv")).find("over_tilt,1.5,contacts/coordination_number,1,3,"),
+      std::string::npos);
+  if (std::system("/usr/bin/python3 -c 'import h5py' 2>/dev/null") != 0)
+    GTEST_SKIP() << "python3-h5py is not installed";
+  const std::string read = "cd " + folder.path().string() +
+                           " && /usr/bin/python3 " TALUS_SOURCE_DIR
+                           "/tests/cli/ensemble_with_h5py.py at-once/ensemble.h5 > read.txt 2>&1";
+  EXPECT_EQ(std::system(read.c_str()), 0) << text_of(folder.path("read.txt"));
+  EXPECT_EQ(text_of(folder.path("read.txt")), "1 2 3 0.0 0.5 1.0 1.5\n");
+}
+
+TEST(Ensemble, is_averaged_again_from_the_tables_of_its_members_or_from_their_runs) {
+  const TemporaryFolder folder;
+  write_file(folder, "bed.toml", tiny_bed);
+  ASSERT_EQ(run_talus(ensemble_of("e", "1-2"), folder.path()).exit_code, 0);
+  const std::string before = text_of(folder.path("e/averages.csv"));
+  std::filesystem::remove(folder.path("e/seed-1.series.csv"));  // as of an ensemble before there were any
+  for (const char* name : {"e/averages.csv", "e/ensemble.h5", "e/members.csv", "e/seed-2.h5"})
+    std::filesystem::remove(folder.path(name));
+  const Outcome again = run_talus({"ensemble", "average", "e"}, folder.path());
+  EXPECT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_EQ(text_of(folder.path("e/averages.csv")), before);
+  EXPECT_EQ(count_of_lines(text_of(folder.path("e/members.csv"))), 3u);
+  EXPECT_TRUE(std::filesystem::exists(folder.path("e/ensemble.h5")));
+  write_file(folder, "e/seed-1.series.csv", "theta (deg),z (1)\n0,what\n");
+  const Outcome changed = run_talus({"ensemble", "average", "e"}, folder.path());
+  EXPECT_EQ(changed.exit_code, 65);
+  EXPECT_NE(changed.err.find("seed-1.series.csv"), std::string::npos) << changed.err;
+}
+
 class InterruptedEnsemble : public testing::TestWithParam<int> {};
 
 TEST_P(InterruptedEnsemble, goes_on_to_the_same_bits) {

@@ -4,9 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
+
+#include "core/random.h"
 
 namespace talus {
 namespace {
@@ -43,6 +46,63 @@ TEST(PairedDifference, does_not_see_what_seeds_have_in_common) {
   EXPECT_EQ(found.count, 3);
   EXPECT_DOUBLE_EQ(found.mean, 2.0);
   EXPECT_DOUBLE_EQ(found.error, 1.0 / std::sqrt(3.0));
+}
+
+TEST(Summary, has_quartiles_between_the_sorted_values) {
+  const Summary found = summary_of(std::vector{4.0, 1.0, none, 2.0, 8.0, 3.0}, {});
+  EXPECT_DOUBLE_EQ(found.lower_quartile, 2.0);
+  EXPECT_DOUBLE_EQ(found.median, 3.0);
+  EXPECT_DOUBLE_EQ(found.upper_quartile, 4.0);
+  EXPECT_DOUBLE_EQ(summary_of(std::vector{1.0, 2.0, 3.0, 6.0}, {}).upper_quartile, 3.75) << "interpolated";
+  EXPECT_DOUBLE_EQ(summary_of(std::vector{7.0}, {}).median, 7.0);
+  EXPECT_TRUE(std::isnan(summary_of(std::vector{7.0}, {}).low));
+  EXPECT_TRUE(std::isnan(summary_of(std::vector{none}, {}).median));
+}
+
+TEST(Summary, has_the_interval_of_students_t_without_resamples) {
+  const Summary found = summary_of(std::vector{1.0, 2.0, 3.0, 6.0}, {});
+  EXPECT_DOUBLE_EQ(found.low, 3.0 - found.statistics.interval());
+  EXPECT_DOUBLE_EQ(found.high, 3.0 + found.statistics.interval());
+}
+
+TEST(Summary, has_the_interval_of_a_bootstrap_that_covers_the_mean_as_often_as_it_says) {
+  constexpr int count = 30, samples = 400;
+  const Resamples resamples = resamples_of(count);
+  Random random(5);
+  int covered = 0;
+  double width = 0.0;
+  for (int k = 0; k < samples; ++k) {
+    std::vector<double> values;
+    for (int v = 0; v < count; ++v) values.push_back(random.uniform());
+    const Summary found = summary_of(values, resamples);
+    if (found.low <= 0.5 && 0.5 <= found.high) ++covered;
+    // The deviation within the sample, with n, is that of what is drawn from it.
+    const double expected = 2 * 1.96 * found.statistics.error * std::sqrt((count - 1.0) / count);
+    width += (found.high - found.low) / expected / samples;
+  }
+  EXPECT_NEAR(width, 1.0, 0.03);
+  // 95 %, a little less for 30 values, and 1.1 % of noise.
+  EXPECT_GT(covered, 0.91 * samples);
+  EXPECT_LT(covered, 0.985 * samples);
+}
+
+TEST(Summary, draws_with_replacement_and_always_the_same) {
+  const Resamples resamples = resamples_of(3);
+  EXPECT_EQ(resamples.drawn, resamples_of(3).drawn);
+  std::array<int, 3> counts{};
+  for (const std::uint32_t pick : resamples.drawn) ++counts.at(pick);
+  for (const int count : counts) EXPECT_NEAR(count, resamples.drawn.size() / 3.0, 150.0);
+}
+
+TEST(Correlation, is_that_of_hand_made_pairs) {
+  const std::vector<double> x = {1.0, 2.0, 3.0, none, 4.0}, twice = {2.0, 4.0, 6.0, 1.0, 8.0};
+  EXPECT_DOUBLE_EQ(correlation_of(x, twice).coefficient, 1.0);
+  EXPECT_EQ(correlation_of(x, twice).count, 4);
+  const std::vector<double> against = {4.0, 3.0, 2.0, 7.0, 1.0}, other = {1.0, 3.0, 2.0, 0.0, 4.0};
+  EXPECT_DOUBLE_EQ(correlation_of(x, against).coefficient, -1.0);
+  EXPECT_DOUBLE_EQ(correlation_of(x, other).coefficient, 0.8);
+  EXPECT_TRUE(std::isnan(correlation_of(x, std::vector{1.0, 1.0, 1.0, 1.0, 1.0}).coefficient));
+  EXPECT_TRUE(std::isnan(correlation_of(std::vector{1.0, 2.0}, std::vector{2.0, 1.0}).coefficient));
 }
 
 TEST(PairedDifference, counts_pairs_of_two_numbers_only) {

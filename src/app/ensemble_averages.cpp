@@ -1,0 +1,49 @@
+#include "app/ensemble_averages.h"
+
+#include <filesystem>
+
+#include "app/analysed_run.h"
+#include "ensemble/averages_file.h"
+#include "io/durable_file.h"
+#include "scenario/text.h"
+#include "session/analysis_parameters.h"
+
+namespace talus {
+namespace {
+
+NamedAverages averages_of_variant(const EnsembleView& view, std::size_t variant) {
+  std::vector<MemberResult> members;
+  for (std::size_t m = 0; m < view.plan.members.size(); ++m) {
+    const Member& member = view.plan.members[m];
+    if (member.variant == variant && view.states[m].stage == MemberStage::done)
+      members.push_back({member.seed, view.numbers[m], series_of_member(member)});
+  }
+  const Variant& found = view.plan.variants[variant];
+  return {found.name, read_text(found.scenario_file),
+          averages_of(members, found.scenario.output.frame_every)};
+}
+
+}  // namespace
+
+MemberSeries series_of_member(const Member& member) {
+  const std::string path = series_path(member.path);
+  if (std::filesystem::exists(path)) return parse_series(read_text(path), path);
+  const AnalysedRun analysed =
+      analysed_run(member.path, parse_analysis_settings({}), {.threads = 1, .quiet = true});
+  MemberSeries series = member_series(analysed.analysis, analysed.statics.mean_diameter);
+  write_text(path, series_csv(series));
+  return series;
+}
+
+void write_averages(const EnsembleView& view) {
+  if (count_of(view.states, MemberStage::done) == 0) return;
+  const std::filesystem::path folder = view.folder;
+  std::vector<NamedAverages> variants;
+  for (std::size_t v = 0; v < view.plan.variants.size(); ++v)
+    variants.push_back(averages_of_variant(view, v));
+  write_text((folder / "members.csv").string(), members_csv(view));
+  write_text((folder / "averages.csv").string(), averages_csv(variants));
+  write_averages((folder / "ensemble.h5").string(), variants, view.manifest.version);
+}
+
+}  // namespace talus

@@ -1,0 +1,160 @@
+#include "ensemble/averages.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+
+namespace talus {
+namespace {
+
+constexpr double same_tilt = 1e-6;  // deg, far below the spacing of frames
+
+/// The resamples of each number of values, made once.
+using ResamplesByCount = std::map<int, Resamples>;
+
+const Resamples& resamples_for(const std::vector<double>& values, ResamplesByCount& known) {
+  const auto count =
+      static_cast<int>(std::ranges::count_if(values, [](double value) { return !std::isnan(value); }));
+  auto found = known.find(count);
+  if (found == known.end())
+    found = known.emplace(count, count <= most_resampled ? resamples_of(count) : Resamples{}).first;
+  return found->second;
+}
+
+void summarise(AveragedQuantity& quantity, std::size_t points, ResamplesByCount& resamples) {
+  for (std::size_t point = 0; point < points; ++point) {
+    std::vector<double> values;
+    for (const std::vector<double>& of_member : quantity.values) values.push_back(of_member[point]);
+    quantity.summaries.push_back(summary_of(values, resamples_for(values, resamples)));
+  }
+}
+
+/// Members of different versions may have different quantities: all names, in the order of their first
+/// member.
+template <typename Item, typename ItemsOf>
+std::vector<AveragedQuantity> all_quantities(const std::vector<MemberResult>& members,
+                                             const ItemsOf& items_of) {
+  std::vector<AveragedQuantity> all;
+  for (const MemberResult& member : members)
+    for (const Item& item : items_of(member))
+      if (std::ranges::find(all, item.name, &AveragedQuantity::name) == all.end())
+        all.push_back({item.name, item.unit, {}, {}});
+  return all;
+}
+
+std::vector<AveragedQuantity> averaged_numbers(const std::vector<MemberResult>& members,
+                                               ResamplesByCount& resamples) {
+  auto all = all_quantities<NamedNumber>(
+      members,
+      [](const MemberResult& member) -> const std::vector<NamedNumber>& { return member.numbers.numbers; });
+  for (AveragedQuantity& quantity : all) {
+    for (const MemberResult& member : members)
+      quantity.values.push_back({number_called(member.numbers, quantity.name)});
+    summarise(quantity, 1, resamples);
+  }
+  return all;
+}
+
+/// Multiples of the spacing up to the last that some member reaches.
+std::vector<double> grid_up_to(double largest, double spacing) {
+  std::vector<double> angles;
+  for (int k = 0; k * spacing <= largest + same_tilt; ++k) angles.push_back(k * spacing);
+  return angles;
+}
+
+/// `tilt_at(member, angle)`: the tilt of a member (deg) that belongs to a point of the grid.
+AveragedCurves averaged_curves(const std::vector<MemberResult>& members, std::vector<double> angles,
+                               const std::function<double(const MemberResult&, double)>& tilt_at,
+                               ResamplesByCount& resamples) {
+  AveragedCurves curves{std::move(angles), {}};
+  curves.quantities = all_quantities<NamedSeries>(
+      members,
+      [](const MemberResult& member) -> const std::vector<NamedSeries>& { return member.series.series; });
+  for (AveragedQuantity& quantity : curves.quantities) {
+    for (const MemberResult& member : members) {
+      std::vector<double> values(curves.angles.size(), std::nan(""));
+      const auto series = std::ranges::find(member.series.series, quantity.name, &NamedSeries::name);
+      if (series != member.series.series.end())
+        for (std::size_t point = 0; point < values.size(); ++point)
+          values[point] =
+              interpolated(member.series.theta, series->values, tilt_at(member, curves.angles[point]));
+      quantity.values.push_back(std::move(values));
+    }
+    summarise(quantity, curves.angles.size(), resamples);
+  }
+  return curves;
+}
+
+double theta_c_of(const MemberResult& member) { return number_called(member.numbers, "theta_c"); }
+
+AveragedCurves averages_over_tilt(const std::vector<MemberResult>& members, double spacing,
+                                  ResamplesByCount& resamples) {
+  double largest = -spacing;
+  for (const MemberResult& member : members)
+    if (!member.series.theta.empty()) largest = std::max(largest, member.series.theta.back());
+  return averaged_curves(
+      members, grid_up_to(largest, spacing), [](const MemberResult&, double angle) { return angle; },
+      resamples);
+}
+
+AveragedCurves averages_before_failure(const std::vector<MemberResult>& members, double spacing,
+                                       ResamplesByCount& resamples) {
+  double largest = -1.0;
+  for (const MemberResult& member : members)
+    if (const double theta_c = theta_c_of(member); !std::isnan(theta_c)) largest = std::max(largest, theta_c);
+  if (largest < 0.0) return {};
+  return averaged_curves(
+      members, grid_up_to(largest, spacing),
+      [](const MemberResult& member, double angle) { return theta_c_of(member) - angle; }, resamples);
+}
+
+/// Whether it is an angle at which something happens, rather than the width of a range or an error.
+bool is_event(const std::string& name) {
+  if (name == "theta_c" || name == "first_slide" || name == "theta_r") return true;
+  return name.starts_with("theta_d/") && name.find("_error") == std::string::npos &&
+         name.find("_low") == std::string::npos && name.find("_high") == std::string::npos &&
+         name.find("_size") == std::string::npos;
+}
+
+AngleCorrelations correlations_of(const std::vector<AveragedQuantity>& numbers) {
+  std::vector<std::vector<double>> angles;
+  AngleCorrelations found;
+  for (const AveragedQuantity& quantity : numbers) {
+    if (!is_event(quantity.name)) continue;
+    found.names.push_back(quantity.name);
+    angles.emplace_back();
+    for (const std::vector<double>& of_member : quantity.values) angles.back().push_back(of_member.front());
+  }
+  for (const std::vector<double>& left : angles)
+    for (const std::vector<double>& right : angles) found.pairs.push_back(correlation_of(left, right));
+  return found;
+}
+
+}  // namespace
+
+double interpolated(const std::vector<double>& tilts, const std::vector<double>& values, double theta) {
+  const auto upper = std::ranges::lower_bound(tilts, theta - same_tilt);
+  if (upper == tilts.end() || std::isnan(theta)) return std::nan("");
+  const auto k = static_cast<std::size_t>(upper - tilts.begin());
+  if (*upper <= theta + same_tilt) return values[k];
+  if (k == 0) return std::nan("");
+  const double share = (theta - tilts[k - 1]) / (tilts[k] - tilts[k - 1]);
+  return values[k - 1] + share * (values[k] - values[k - 1]);
+}
+
+Averages averages_of(const std::vector<MemberResult>& members, double frame_every) {
+  ResamplesByCount resamples;
+  Averages averages;
+  for (const MemberResult& member : members) {
+    averages.seeds.push_back(member.seed);
+    averages.state_hashes.push_back(member.numbers.state_hash);
+  }
+  averages.numbers = averaged_numbers(members, resamples);
+  averages.correlations = correlations_of(averages.numbers);
+  averages.over_tilt = averages_over_tilt(members, frame_every, resamples);
+  averages.before_failure = averages_before_failure(members, frame_every, resamples);
+  return averages;
+}
+
+}  // namespace talus

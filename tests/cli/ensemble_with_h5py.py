@@ -1,0 +1,23 @@
+"""Prints what ensemble.h5 says of its first variant, and checks that its parts fit together."""
+
+import sys
+
+import h5py
+import numpy as np
+
+with h5py.File(sys.argv[1]) as file:
+    variant = file["variants/0"]
+    members = len(variant["seed"])
+    assert len(variant.attrs["state_hash"]) == members
+    assert b"[bed]" in np.bytes_(variant.attrs["scenario"])
+    grid = variant["over_tilt/theta"]
+    assert grid.attrs["unit"] in (b"deg", "deg")
+    z = variant["over_tilt/contacts/coordination_number"]
+    assert z["values"].shape == (members, len(grid))
+    columns = [name.decode() for name in z["summary"].attrs["columns"]]
+    summary = dict(zip(columns, z["summary"][:].T))
+    assert np.allclose(summary["mean"], np.nanmean(z["values"], axis=0), rtol=1e-14)
+    assert np.allclose(summary["median"], np.nanmedian(z["values"], axis=0), rtol=1e-14)
+    assert np.allclose(summary["deviation"], np.nanstd(z["values"], axis=0, ddof=1), rtol=1e-10)
+    assert np.all(summary["low"] <= summary["mean"]) and np.all(summary["mean"] <= summary["high"])
+    print(*variant["seed"][:], *grid[:])
