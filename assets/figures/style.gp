@@ -67,12 +67,17 @@ set style line 103 linecolor rgb "#999999" dashtype (6,4) linewidth 1.5
 bar_from(name) = scale * (column(name) - column(name . "_error"))
 bar_length(name) = scale * 2 * column(name . "_error")
 
+# Bands of the spread of runs: mean and standard deviation.
+band_low(name) = scale * (column(name) - column(name . "_deviation"))
+band_high(name) = scale * (column(name) + column(name . "_deviation"))
+
 # The curves of all groups, `scale` times column `ordinate` over the expression `abscissa`: plot @curves, ...
-# Lines, error bars (none where the error is NaN), symbols, and all of these in the key.
+# Bands behind, lines, error bars (neither where the error is NaN), symbols, and all of these in the key.
 ordinate = "none"
 scale = 1
 abscissa = 'column("theta")'
-curves = 'for [g = 1:groups] data(g) using (@abscissa):(scale * column(ordinate)) with lines linetype g notitle, ' . \
+curves = 'for [g = 1:groups] data(g) using (@abscissa):(band_low(ordinate)):(band_high(ordinate)) with filledcurves linetype g fillstyle transparent solid 0.15 noborder notitle, ' . \
+  'for [g = 1:groups] data(g) using (@abscissa):(scale * column(ordinate)) with lines linetype g notitle, ' . \
   'for [g = 1:groups] data(g) using (@abscissa):(bar_from(ordinate)):(0):(bar_length(ordinate)) every every(g) with vectors nohead linetype g dashtype solid linewidth 1 notitle, ' . \
   'for [g = 1:groups] data(g) using (@abscissa):(scale * column(ordinate)) every every(g) with points linetype g notitle, ' . \
   'for [g = 1:groups] NaN with linespoints linetype g title label(g)'

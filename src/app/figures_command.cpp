@@ -95,12 +95,12 @@ void make(const FiguresArguments& arguments) {
   const std::vector<FigureRecipe> recipes = chosen_recipes(arguments.only);
   const AnalysisParameters parameters = parse_analysis_settings(arguments.settings);
   require_gnuplot();
-  const std::vector<RunGroup> groups =
-      group_runs(open_figure_runs(arguments.runs, parameters, arguments.analysis));
+  const std::vector<std::string> runs = runs_named(arguments.runs);
+  const std::vector<RunGroup> groups = group_runs(open_figure_runs(runs, parameters, arguments.analysis));
   const std::vector<Figure> figures = make_figures(recipes, groups);
   const std::filesystem::path folder = arguments.folder;
   OutputRule rule{arguments.overwrite};
-  for (const std::string& run : arguments.runs)
+  for (const std::string& run : runs)
     for (const std::string& input : output_of_run(run, false).inputs) rule.inputs.push_back(input);
   for (const Figure& figure : figures)
     for (const std::string& file : figure_files(figure)) output_target((folder / file).string(), rule);
@@ -132,8 +132,8 @@ void add_figures_command(CLI::App& app) {
   command
       ->add_option(
           "runs", arguments->runs,
-          "Run files; those that differ in their seed only are averaged. Their analysis is read from "
-          "the file, or made and stored")
+          "Run files, or folders of ensembles; runs that differ in their seed only are averaged. Their "
+          "analysis is read from the file, or made and stored")
       ->required();
   command->add_option("-o,--output", arguments->folder, "Folder of the figures, made where missing")
       ->required();

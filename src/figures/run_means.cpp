@@ -55,14 +55,16 @@ std::vector<Column> tilt_columns(const CommonTilts& common) {
 std::vector<Column> mean_columns(const CommonTilts& common, std::span<const std::vector<double>> values,
                                  Column mean) {
   Column error{mean.name + "_error", mean.unit, "its standard error over the runs", {}};
+  Column deviation{mean.name + "_deviation", mean.unit, "the standard deviation of the runs", {}};
   for (const std::vector<Sample>& samples : common.samples) {
     std::vector<double> row;
     for (const auto& [run, frame] : samples) row.push_back(values[run][frame]);
     const Statistics result = statistics_of(row);
     mean.values.push_back(result.mean);
     error.values.push_back(result.error);
+    deviation.values.push_back(result.deviation);
   }
-  return {std::move(mean), std::move(error)};
+  return {std::move(mean), std::move(error), std::move(deviation)};
 }
 
 double theta_c_of(const FigureRun& run) { return run.analysis.theta_c; }

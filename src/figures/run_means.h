@@ -32,15 +32,16 @@ CommonTilts common_tilts(std::span<const std::vector<double>> tilts);
 /// Columns theta, in deg, and n, the number of runs behind a row.
 std::vector<Column> tilt_columns(const CommonTilts& common);
 
-/// The column `mean` with the means over runs of `values`, one for each frame of each run, and NAME_error
-/// with their standard errors. Values that are NaN do not count; one value has no error.
+/// The column `mean` with the means over runs of `values`, one for each frame of each run, NAME_error with
+/// their standard errors, and NAME_deviation with the standard deviations of the runs. Values that are NaN do
+/// not count; one value has neither.
 std::vector<Column> mean_columns(const CommonTilts& common, std::span<const std::vector<double>> values,
                                  Column mean);
 
 /// What captions say of such means.
 inline constexpr const char* means_caption =
     "Means over the runs of each group at the same tilt, while at least half of them have not failed; error "
-    "bars are standard errors over the runs, none for a single run.";
+    "bars are standard errors over the runs, and bands their standard deviation; a single run has neither.";
 
 /// theta_c of a run, rad; NaN where the slope has not failed.
 double theta_c_of(const FigureRun& run);

@@ -63,12 +63,27 @@ TEST_F(Figures, are_files_of_each_kind) {
   EXPECT_TRUE(content(out("fig04-shear-stress.pdf")).starts_with("%PDF-"));
   EXPECT_TRUE(content(out("fig04-shear-stress.png")).starts_with("\x89PNG\r\n"));
   expect_parts(content(out("fig04-shear-stress.svg")), {"<svg", "</svg>"});
-  EXPECT_TRUE(
-      content(out("fig04-shear-stress-pbc-l-10-d.csv")).starts_with("theta,n,ratio,ratio_error\n0,1,"));
+  EXPECT_TRUE(content(out("fig04-shear-stress-pbc-l-10-d.csv"))
+                  .starts_with("theta,n,ratio,ratio_error,ratio_deviation\n0,1,"));
   expect_parts(
       content(out("fig04-shear-stress.json")),
       {"\"command\": \"talus figures bed.h5 -o out --only 4,fig09-overloaded-fraction --set gamma_c=0.3\"",
        "\"gamma_c\": \"0.3\"", "\"seed\": 1"});
+}
+
+TEST_F(Figures, of_an_ensemble_are_of_its_members_that_are_done) {
+  ASSERT_EQ(run_talus({"ensemble", "bed.toml", "--seeds", "1-3", "-o", "e"}, folder_.path()).exit_code, 0);
+  fs::remove(folder_.path() / "e/seed-3.csv");  // as if it were still under way
+  const Outcome two = run_talus({"figures", "e", "-o", "out", "--only", "4"}, folder_.path());
+  ASSERT_EQ(two.exit_code, 0) << two.err;
+  const std::string table = content(out("fig04-shear-stress-pbc-l-10-d.csv"));
+  EXPECT_TRUE(table.starts_with("theta,n,ratio,ratio_error,ratio_deviation\n0,2,")) << table;
+  EXPECT_EQ(table.find("NaN"), std::string::npos) << "two runs have an error and a spread\n" << table;
+  for (const char* seed : {"1", "2"})
+    fs::remove(folder_.path() / "e" / ("seed-" + std::string(seed) + ".csv"));
+  const Outcome none = run_talus({"figures", "e", "-o", "none"}, folder_.path());
+  EXPECT_EQ(none.exit_code, 66);
+  expect_parts(none.err, {"e: no member of this ensemble is done yet"});
 }
 
 TEST_F(Figures, are_drawn_again_by_their_script) {

@@ -43,13 +43,17 @@ TEST(MeanColumns, AreMeansWithStandardErrors) {
   const double nan = std::nan("");
   const Rows values = {{1.0, 1.0, 2.0, 9.0, 4.0}, {2.0, 3.0, 4.0}, {3.0, 9.0, nan}};
   const std::vector<Column> columns = mean_columns(common_tilts(tilts), values, {"p_o", "1", "fraction", {}});
-  ASSERT_EQ(columns.size(), 2u);
+  ASSERT_EQ(columns.size(), 3u);
   EXPECT_EQ(columns[0].name, "p_o");
   EXPECT_EQ(columns[0].values, (std::vector<double>{2.0, 2.0, 5.0, 4.0})) << "NaN does not count";
   EXPECT_EQ(columns[1].name, "p_o_error");
   EXPECT_DOUBLE_EQ(columns[1].values[0], 1.0 / std::sqrt(3.0)) << "s = 1 of three";
   EXPECT_DOUBLE_EQ(columns[1].values[1], 1.0) << "s = sqrt(2) of two";
   EXPECT_TRUE(std::isnan(columns[1].values[3])) << "one value has no error";
+  EXPECT_EQ(columns[2].name, "p_o_deviation");
+  EXPECT_DOUBLE_EQ(columns[2].values[0], 1.0);
+  EXPECT_DOUBLE_EQ(columns[2].values[1], std::sqrt(2.0));
+  EXPECT_TRUE(std::isnan(columns[2].values[3])) << "nor a spread";
 }
 
 }  // namespace
