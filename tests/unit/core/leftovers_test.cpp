@@ -1,6 +1,8 @@
 #include "core/leftovers.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -10,6 +12,7 @@
 #include <set>
 #include <thread>
 
+#include "core/descriptor.h"
 #include "core/locked_file.h"
 #include "support/temporary_folder.h"
 
@@ -75,6 +78,19 @@ TEST(Leftovers, that_somebody_writes_are_none) {
   EXPECT_TRUE(is_named(folder.path("map.png.talus.part"), *file));
   EXPECT_TRUE(is_named(folder.path("fig04.talus.part"), *figure));
   EXPECT_TRUE(fs::exists(folder.path("fig04.talus.part/fig04.gp")));
+}
+
+TEST(Leftovers, are_left_to_who_clears_the_folder_already) {
+  const test::TemporaryFolder folder;
+  write(folder.path("map.png.talus.part"));
+  {
+    const Descriptor other(::open(folder.path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+    ASSERT_EQ(::flock(other.get(), LOCK_EX), 0);
+    clear_leftovers(folder.path().string());
+    EXPECT_TRUE(fs::exists(folder.path("map.png.talus.part")));
+  }
+  clear_leftovers(folder.path().string());
+  EXPECT_FALSE(fs::exists(folder.path("map.png.talus.part")));
 }
 
 /// Two clear away without end what two others make, leave and make again.
