@@ -1,22 +1,19 @@
 /// `talus ensemble`: many beds from one scenario, computed by any number of processes that share a folder.
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <fmt/core.h>
 #include <memory>
-#include <thread>
 
 #include "app/analysed_run.h"
 #include "app/command_line.h"
 #include "app/commands.h"
 #include "app/ensemble_averages.h"
 #include "app/ensemble_report.h"
+#include "app/ensemble_workers.h"
 #include "app/open_run.h"
 #include "app/pool_line.h"
-#include "app/progress_text.h"
-#include "app/status_line.h"
 #include "app/stop_signals.h"
 #include "app/wall_time.h"
 #include "core/errors.h"
@@ -27,7 +24,6 @@
 #include "io/durable_file.h"
 #include "io/run_file.h"
 #include "session/analysis_parameters.h"
-#include "session/estimate.h"
 
 namespace talus {
 namespace {
@@ -45,130 +41,6 @@ struct EnsembleArguments {
   int jobs = default_jobs();
   bool json = false;
 };
-
-/// What tells how long the rest will take: the members that came to an end since `begin`, by their estimates.
-struct EnsemblePace {
-  double estimate_before = 0.0;  ///< s, of the members that were done before
-  std::chrono::steady_clock::time_point begin = std::chrono::steady_clock::now();
-};
-
-double estimate_of(const EnsemblePlan& plan, const std::vector<MemberState>& states, MemberStage stage) {
-  std::vector<double> of_variant;
-  for (const Variant& variant : plan.variants) of_variant.push_back(estimate(variant.scenario).seconds);
-  double seconds = 0.0;
-  for (std::size_t m = 0; m < plan.members.size(); ++m)
-    if (states[m].stage == stage) seconds += of_variant[plan.members[m].variant];
-  return seconds;
-}
-
-/// "ensemble: 3 of 50 members done, 2 under way, 1 failed", how far that is, and how long it still takes.
-void show(StatusLine& line, const EnsemblePlan& plan, const EnsemblePace& pace) {
-  const std::vector<MemberState> states = look_at_members(plan);
-  const std::size_t done = count_of(states, MemberStage::done),
-                    failed = count_of(states, MemberStage::failed);
-  const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - pace.begin).count();
-  const double finished = estimate_of(plan, states, MemberStage::done) - pace.estimate_before;
-  const double left =
-      estimate_of(plan, states, MemberStage::waiting) + estimate_of(plan, states, MemberStage::claimed);
-  std::optional<double> remaining;
-  if (finished > 0.0) remaining = elapsed * left / finished;
-  std::vector<ProgressField> fields = progress_fields(
-      static_cast<double>(done) / static_cast<double>(states.size()), elapsed, remaining, line.on_terminal());
-  const std::string failures = failed > 0 ? fmt::format(", {} failed", failed) : "";
-  fields.insert(fields.begin(), {fmt::format("ensemble: {} of {} members done, {} under way{}", done,
-                                             states.size(), count_of(states, MemberStage::claimed), failures),
-                                 0});
-  line.show(fitted_line(fields, line.width()));
-}
-
-/// The averages while members come in: of how many, and when.
-struct AveragesOnTheWay {
-  std::size_t members = 0;
-  std::chrono::steady_clock::time_point made = std::chrono::steady_clock::now();
-};
-
-/// Makes them anew once a minute, where more members are done than before.
-void renew(AveragesOnTheWay& averages, const std::string& folder) {
-  const auto now = std::chrono::steady_clock::now();
-  if (now - averages.made < std::chrono::minutes(1)) return;
-  averages.made = now;
-  const EnsembleView view = view_of_ensemble(folder);
-  const std::size_t done = count_of(view.states, MemberStage::done);
-  if (done == averages.members) return;
-  averages.members = done;
-  write_averages(view);
-}
-
-std::vector<std::string> worker_words(const EnsembleArguments& arguments) {
-  std::vector<std::string> words = {"ensemble", "work", path_word(arguments.folder), "--stale",
-                                    fmt::format("{}", arguments.times.stale)};
-  if (!arguments.max_wall.empty()) words.insert(words.end(), {"--max-wall", arguments.max_wall});
-  return words;
-}
-
-/// Workers side by side, until nothing is left that they can begin. Returns those that ended with an error.
-std::vector<FailedJob> run_workers(const EnsembleArguments& arguments, const EnsemblePlan& plan) {
-  const std::vector<MemberState> states = look_at_members(plan);
-  const std::size_t missing =
-      states.size() - count_of(states, MemberStage::done) - count_of(states, MemberStage::failed);
-  if (missing == 0) return {};
-  std::vector<Job> workers;
-  for (std::size_t k = 1; k <= std::min<std::size_t>(missing, static_cast<std::size_t>(arguments.jobs));
-       ++k) {
-    const std::string name = fmt::format("worker-{}", k);
-    workers.push_back({name, worker_words(arguments),
-                       (std::filesystem::path(arguments.folder) / "workers" / (name + ".log")).string(),
-                       0.0});
-  }
-  const EnsemblePace pace{estimate_of(plan, states, MemberStage::done)};
-  StatusLine line(false, 60.0);
-  AveragesOnTheWay averages{count_of(states, MemberStage::done)};
-  auto shown = pace.begin;  // a look at ten thousand members takes some hundredths of a second
-  const auto show_now_and_then = [&](const PoolProgress&) {
-    renew(averages, arguments.folder);
-    const bool on_time = std::chrono::steady_clock::now() - shown > std::chrono::seconds(2);
-    if (!(line.on_terminal() ? on_time : line.is_due())) return;
-    shown = std::chrono::steady_clock::now();
-    show(line, plan, pace);
-  };
-  std::vector<FailedJob> failed =
-      run_jobs(workers, {"ensemble", arguments.jobs, workers.size(), show_now_and_then});
-  line.finish();
-  const bool stopped = std::ranges::any_of(failed, [](const FailedJob& worker) {
-    return worker.exit_code == static_cast<int>(ExitCode::stopped);
-  });
-  if (stopped) throw Error(ExitCode::stopped, "the ensemble was stopped; repeat the command to continue");
-  return failed;
-}
-
-/// Members that will not be begun any more: done, failed, or not needed for the precision that was asked for.
-std::size_t count_ended(const EnsembleView& view) {
-  const std::string& until = view.manifest.until;
-  if (!until.empty() && is_reached(parse_precision(until), view.plan, view.numbers))
-    return view.states.size();
-  return count_of(view.states, MemberStage::done) + count_of(view.states, MemberStage::failed);
-}
-
-/// Members that others compute are waited for, and taken over where their workers end before them; workers
-/// that were killed are replaced, as long as members come to an end. With a limit of time others are left
-/// alone.
-void compute_members(const EnsembleArguments& arguments) {
-  ClaimWatch watch{arguments.times, {}};
-  for (std::size_t ended = 0;;) {
-    const EnsemblePlan plan = plan_of(read_ensemble(arguments.folder), arguments.folder);
-    std::vector<FailedJob> killed;
-    if (has_work(plan, look_at_members(plan), watch)) killed = run_workers(arguments, plan);
-    const EnsembleView view = view_of_ensemble(arguments.folder);
-    const std::size_t ended_now = count_ended(view);
-    if (ended_now == view.states.size()) return;
-    const bool limited = !arguments.max_wall.empty();
-    if (!killed.empty() && (limited || ended_now == ended))
-      refuse(killed, "and no member came to an end meanwhile");
-    if (limited) return;
-    ended = ended_now;
-    std::this_thread::sleep_for(std::chrono::seconds(1));
-  }
-}
 
 /// The exit code of an ensemble in which members failed is that of the first.
 void refuse_failures(const EnsembleView& view) {
@@ -191,7 +63,7 @@ void run_ensemble(const EnsembleArguments& arguments) {
   for (const char* name : {"members.csv", "averages.csv", "ensemble.h5"})
     output_target((std::filesystem::path(arguments.folder) / name).string(), {true, {arguments.scenario}});
   extend_ensemble(arguments.folder, wanted);
-  compute_members(arguments);
+  compute_members({arguments.folder, arguments.times, arguments.max_wall, arguments.jobs});
   const EnsembleView view = view_of_ensemble(arguments.folder);
   write_averages(view);
   std::printf("%s", (arguments.json ? ensemble_json(view) + "\n" : ensemble_text(view)).c_str());

@@ -128,6 +128,13 @@ EnsembleView view_of_ensemble(const std::string& folder) {
   return view;
 }
 
+std::size_t count_ended(const EnsembleView& view) {
+  const std::string& until = view.manifest.until;
+  if (!until.empty() && is_reached(parse_precision(until), view.plan, view.numbers))
+    return view.states.size();
+  return count_of(view.states, MemberStage::done) + count_of(view.states, MemberStage::failed);
+}
+
 std::string count_text(const EnsembleView& view) {
   std::string text = fmt::format("{} of {} done, {} under way", count_of(view.states, MemberStage::done),
                                  view.states.size(), count_of(view.states, MemberStage::claimed));

@@ -1,6 +1,7 @@
 #pragma once
 /// What is said of an ensemble: how far it is, and what its members gave.
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,9 @@ struct EnsembleView {
 
 /// Throws as read_ensemble and numbers_of do.
 EnsembleView view_of_ensemble(const std::string& folder);
+
+/// Members that will not be begun any more: done, failed, or not needed for the precision that was asked for.
+std::size_t count_ended(const EnsembleView& view);
 
 /// "12 of 50 done, 2 under way, 1 failed"
 std::string count_text(const EnsembleView& view);

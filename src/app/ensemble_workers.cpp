@@ -1,0 +1,138 @@
+#include "app/ensemble_workers.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <filesystem>
+#include <fmt/core.h>
+#include <optional>
+#include <thread>
+#include <vector>
+
+#include "app/ensemble_averages.h"
+#include "app/ensemble_report.h"
+#include "app/progress_text.h"
+#include "app/status_line.h"
+#include "core/errors.h"
+#include "ensemble/ensemble_manifest.h"
+#include "ensemble/member_state.h"
+#include "ensemble/pool.h"
+#include "ensemble/worker.h"
+#include "session/estimate.h"
+
+namespace talus {
+namespace {
+
+/// What tells how long the rest will take: the members that came to an end since `begin`, by their estimates.
+struct EnsemblePace {
+  double estimate_before = 0.0;  ///< s, of the members that were done before
+  std::chrono::steady_clock::time_point begin = std::chrono::steady_clock::now();
+};
+
+double estimate_of(const EnsemblePlan& plan, const std::vector<MemberState>& states, MemberStage stage) {
+  std::vector<double> of_variant;
+  for (const Variant& variant : plan.variants) of_variant.push_back(estimate(variant.scenario).seconds);
+  double seconds = 0.0;
+  for (std::size_t m = 0; m < plan.members.size(); ++m)
+    if (states[m].stage == stage) seconds += of_variant[plan.members[m].variant];
+  return seconds;
+}
+
+/// "ensemble: 3 of 50 members done, 2 under way, 1 failed", how far that is, and how long it still takes.
+void show(StatusLine& line, const EnsemblePlan& plan, const EnsemblePace& pace) {
+  const std::vector<MemberState> states = look_at_members(plan);
+  const std::size_t done = count_of(states, MemberStage::done),
+                    failed = count_of(states, MemberStage::failed);
+  const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - pace.begin).count();
+  const double finished = estimate_of(plan, states, MemberStage::done) - pace.estimate_before;
+  const double left =
+      estimate_of(plan, states, MemberStage::waiting) + estimate_of(plan, states, MemberStage::claimed);
+  std::optional<double> remaining;
+  if (finished > 0.0) remaining = elapsed * left / finished;
+  std::vector<ProgressField> fields = progress_fields(
+      static_cast<double>(done) / static_cast<double>(states.size()), elapsed, remaining, line.on_terminal());
+  const std::string failures = failed > 0 ? fmt::format(", {} failed", failed) : "";
+  fields.insert(fields.begin(), {fmt::format("ensemble: {} of {} members done, {} under way{}", done,
+                                             states.size(), count_of(states, MemberStage::claimed), failures),
+                                 0});
+  line.show(fitted_line(fields, line.width()));
+}
+
+/// The averages while members come in: of how many, and when.
+struct AveragesOnTheWay {
+  std::size_t members = 0;
+  std::chrono::steady_clock::time_point made = std::chrono::steady_clock::now();
+};
+
+/// Makes them anew once a minute, where more members are done than before.
+void renew(AveragesOnTheWay& averages, const std::string& folder) {
+  const auto now = std::chrono::steady_clock::now();
+  if (now - averages.made < std::chrono::minutes(1)) return;
+  averages.made = now;
+  const EnsembleView view = view_of_ensemble(folder);
+  const std::size_t done = count_of(view.states, MemberStage::done);
+  if (done == averages.members) return;
+  averages.members = done;
+  write_averages(view);
+}
+
+std::vector<std::string> worker_words(const EnsembleWorkers& workers) {
+  std::vector<std::string> words = {"ensemble", "work", path_word(workers.folder), "--stale",
+                                    fmt::format("{}", workers.times.stale)};
+  if (!workers.max_wall.empty()) words.insert(words.end(), {"--max-wall", workers.max_wall});
+  return words;
+}
+
+/// Workers side by side, until nothing is left that they can begin. Returns those that ended with an error.
+std::vector<FailedJob> run_workers(const EnsembleWorkers& workers, const EnsemblePlan& plan) {
+  const std::vector<MemberState> states = look_at_members(plan);
+  const std::size_t missing =
+      states.size() - count_of(states, MemberStage::done) - count_of(states, MemberStage::failed);
+  if (missing == 0) return {};
+  std::vector<Job> jobs;
+  for (std::size_t k = 1; k <= std::min<std::size_t>(missing, static_cast<std::size_t>(workers.jobs)); ++k) {
+    const std::string name = fmt::format("worker-{}", k);
+    jobs.push_back({name, worker_words(workers),
+                    (std::filesystem::path(workers.folder) / "workers" / (name + ".log")).string(), 0.0});
+  }
+  const EnsemblePace pace{estimate_of(plan, states, MemberStage::done)};
+  StatusLine line(false, 60.0);
+  AveragesOnTheWay averages{count_of(states, MemberStage::done)};
+  auto shown = pace.begin;  // a look at ten thousand members takes some hundredths of a second
+  const auto show_now_and_then = [&](const PoolProgress&) {
+    renew(averages, workers.folder);
+    const bool on_time = std::chrono::steady_clock::now() - shown > std::chrono::seconds(2);
+    if (!(line.on_terminal() ? on_time : line.is_due())) return;
+    shown = std::chrono::steady_clock::now();
+    show(line, plan, pace);
+  };
+  std::vector<FailedJob> failed = run_jobs(jobs, {"ensemble", workers.jobs, jobs.size(), show_now_and_then});
+  line.finish();
+  const bool stopped = std::ranges::any_of(failed, [](const FailedJob& worker) {
+    return worker.exit_code == static_cast<int>(ExitCode::stopped);
+  });
+  if (stopped) throw Error(ExitCode::stopped, "the ensemble was stopped; repeat the command to continue");
+  return failed;
+}
+
+}  // namespace
+
+void compute_members(const EnsembleWorkers& workers) {
+  ClaimWatch watch{workers.times, {}};
+  for (std::size_t ended = 0;;) {
+    const EnsemblePlan plan = plan_of(read_ensemble(workers.folder), workers.folder);
+    std::vector<FailedJob> killed;
+    if (has_work(plan, look_at_members(plan), watch)) killed = run_workers(workers, plan);
+    const EnsembleView view = view_of_ensemble(workers.folder);
+    const std::size_t ended_now = count_ended(view);
+    if (ended_now == view.states.size()) return;
+    const bool limited = !workers.max_wall.empty();
+    if (!killed.empty() && (limited || ended_now == ended))
+      refuse(killed, "and no member came to an end meanwhile");
+    if (limited) return;
+    ended = ended_now;
+    std::this_thread::sleep_for(std::chrono::seconds(1));
+  }
+}
+
+}  // namespace talus
