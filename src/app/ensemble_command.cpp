@@ -11,6 +11,7 @@
 #include "app/commands.h"
 #include "app/ensemble_averages.h"
 #include "app/ensemble_report.h"
+#include "app/ensemble_submit.h"
 #include "app/ensemble_workers.h"
 #include "app/open_run.h"
 #include "app/pool_line.h"
@@ -63,7 +64,8 @@ void run_ensemble(const EnsembleArguments& arguments) {
   for (const char* name : {"members.csv", "averages.csv", "ensemble.h5"})
     output_target((std::filesystem::path(arguments.folder) / name).string(), {true, {arguments.scenario}});
   extend_ensemble(arguments.folder, wanted);
-  compute_members({arguments.folder, arguments.times, arguments.max_wall, arguments.jobs});
+  if (arguments.jobs > 0)
+    compute_members({arguments.folder, arguments.times, arguments.max_wall, arguments.jobs});
   const EnsembleView view = view_of_ensemble(arguments.folder);
   write_averages(view);
   std::printf("%s", (arguments.json ? ensemble_json(view) + "\n" : ensemble_text(view)).c_str());
@@ -160,7 +162,9 @@ void add_subcommands(CLI::App& command, const std::shared_ptr<EnsembleArguments>
   status->add_flag("--json", arguments->json, "Print it as JSON");
   status->callback([arguments] {
     const EnsembleView view = view_of_ensemble(arguments->folder);
-    std::printf("%s", (arguments->json ? ensemble_json(view) + "\n" : ensemble_text(view)).c_str());
+    const EnsembleJobs jobs = jobs_of_ensemble(arguments->folder);
+    std::printf("%s",
+                (arguments->json ? ensemble_json(view, jobs) + "\n" : ensemble_text(view, jobs)).c_str());
   });
   add_folder_command(command, arguments, "average",
                      "Write members.csv, averages.csv and ensemble.h5 of the members that are done")
@@ -198,12 +202,17 @@ void add_ensemble_command(CLI::App& app) {
   command->add_option(
       "--until", arguments->until,
       "Begin no more members once the standard error of a mean is this small, e.g. theta_c:0.2");
-  command->add_option("--jobs", arguments->jobs, "Workers side by side, each on one thread")
+  command
+      ->add_option(
+          "--jobs", arguments->jobs,
+          "Workers side by side, each on one thread; with 0 the ensemble is begun or extended and left to "
+          "others")
       ->capture_default_str()
-      ->check(CLI::Range(1, 256));
+      ->check(CLI::Range(0, 256));
   command->add_flag("--json", arguments->json, "Print the result as JSON");
   add_time_options(*command, arguments);
   add_subcommands(*command, arguments);
+  add_submit_commands(*command);
   command->require_subcommand(0, 1);
   command->callback([arguments, command] {
     if (command->get_subcommands().empty()) run_ensemble(*arguments);

@@ -143,14 +143,14 @@ std::string count_text(const EnsembleView& view) {
   return text;
 }
 
-std::string ensemble_text(const EnsembleView& view) {
+std::string ensemble_text(const EnsembleView& view, const EnsembleJobs& jobs) {
   const std::string until =
       view.manifest.until.empty() ? "" : fmt::format(", until {}", visible(view.manifest.until));
-  return fmt::format("{}: {}{}\n{}{}", visible(view.folder), count_text(view), until, members_text(view),
-                     means_text(view));
+  return fmt::format("{}: {}{}\n{}{}{}", visible(view.folder), count_text(view), until, jobs_text(jobs),
+                     members_text(view), means_text(view));
 }
 
-std::string ensemble_json(const EnsembleView& view) {
+std::string ensemble_json(const EnsembleView& view, const EnsembleJobs& jobs) {
   json::Members variants, members;
   for (std::size_t v = 0; v < view.plan.variants.size(); ++v)
     variants.emplace_back(view.plan.variants[v].name, variant_json(view, v));
@@ -164,6 +164,7 @@ std::string ensemble_json(const EnsembleView& view) {
                        {"claimed", json::number(count_of(view.states, MemberStage::claimed))},
                        {"failed", json::number(count_of(view.states, MemberStage::failed))},
                        {"waiting", json::number(count_of(view.states, MemberStage::waiting))},
+                       {"jobs", jobs_json(jobs, 1)},
                        {"variants", json::object(variants, 1)},
                        {"members", json::object(members, 1)}});
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "app/ensemble_jobs.h"
 #include "ensemble/ensemble_manifest.h"
 #include "ensemble/member_numbers.h"
 #include "ensemble/member_state.h"
@@ -29,9 +30,9 @@ std::size_t count_ended(const EnsembleView& view);
 /// "12 of 50 done, 2 under way, 1 failed"
 std::string count_text(const EnsembleView& view);
 
-/// That, who is at work, what failed, and the means of each variant with their errors.
-std::string ensemble_text(const EnsembleView& view);
-std::string ensemble_json(const EnsembleView& view);
+/// That, who is at work, the jobs in the queue, what failed, and the means of each variant with their errors.
+std::string ensemble_text(const EnsembleView& view, const EnsembleJobs& jobs = {});
+std::string ensemble_json(const EnsembleView& view, const EnsembleJobs& jobs = {});
 
 /// One row for each member that is done: variant, seed, hash, version, seconds, and all its numbers, with
 /// their units in the names of the columns.

@@ -26,6 +26,12 @@ std::vector<std::string> clean_environment() {
   return variables;
 }
 
+std::vector<std::string> whole_environment() {
+  std::vector<std::string> variables;
+  for (char** variable = environ; *variable != nullptr; ++variable) variables.emplace_back(*variable);
+  return variables;
+}
+
 std::vector<char*> pointers(std::vector<std::string>& texts) {
   std::vector<char*> result;
   result.reserve(texts.size() + 1);
@@ -61,9 +67,11 @@ void become(const Start& start) {
 }  // namespace
 
 pid_t start_program(const std::vector<std::string>& words, const ProgramStreams& streams,
-                    const std::string& folder) {
-  std::vector<std::string> arguments = words, environment = clean_environment();
-  const Start start = {pointers(arguments), pointers(environment), streams, folder.c_str(), ::getpid()};
+                    const std::string& folder, ProgramEnvironment environment) {
+  std::vector<std::string> arguments = words, variables = environment == ProgramEnvironment::whole
+                                                              ? whole_environment()
+                                                              : clean_environment();
+  const Start start = {pointers(arguments), pointers(variables), streams, folder.c_str(), ::getpid()};
   int ends[2] = {-1, -1};
   if (::pipe2(ends, O_CLOEXEC) != 0) return -1;
   const Descriptor from(ends[0]);

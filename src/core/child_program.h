@@ -14,12 +14,18 @@ struct ProgramStreams {
   int in = -1, out = -1, err = -1;
 };
 
+/// What a program sees of the environment.
+enum class ProgramEnvironment {
+  clean,  ///< where programs, libraries and temporary files are: what it writes depends on no locale or home
+  whole,  ///< all of it: the program acts for the user, with the settings of the user
+};
+
 /// Starts words[0], as PATH finds it, with the other words as its arguments, in a folder. It ends when this
-/// process ends, however that is (SIGKILL), and sees of the environment only where programs, libraries and
-/// temporary files are, so that what it writes does not depend on locale or home. Returns its process, or -1
-/// with the reason in errno where it cannot be started.
+/// process ends, however that is (SIGKILL). Returns its process, or -1 with the reason in errno where it
+/// cannot be started.
 pid_t start_program(const std::vector<std::string>& words, const ProgramStreams& streams,
-                    const std::string& folder = ".");
+                    const std::string& folder = ".",
+                    ProgramEnvironment environment = ProgramEnvironment::clean);
 
 /// Waits until it has ended and returns its status (waitpid). `meanwhile` is called ten times a second, or
 /// may be empty; where it throws, the program is ended.

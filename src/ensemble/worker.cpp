@@ -128,6 +128,9 @@ void compute(Worker& worker, Taken& taken) {
     ++worker.end.done;
     return;
   }
+  // Whoever kills all that a job has started kills this worker too, maybe a moment after its member: then it
+  // is not the member that has failed.
+  if (code > 128) std::this_thread::sleep_for(std::chrono::seconds(1));
   record_failure(member.path, {code, last_line_of(failed.front().log)});
   ++worker.end.failed;
 }

@@ -1,0 +1,101 @@
+#include "app/ensemble_jobs.h"
+
+#include <algorithm>
+#include <cctype>
+#include <fmt/core.h>
+
+#include "app/json.h"
+#include "app/program_output.h"
+#include "core/errors.h"
+#include "core/text.h"
+#include "core/visible_text.h"
+#include "ensemble/slurm_jobs.h"
+
+namespace talus {
+namespace {
+
+/// Asks squeue for the jobs of one cluster.
+void ask(const std::vector<SlurmJob>& jobs, EnsembleJobs& found) {
+  try {
+    const ProgramOutput output = output_of(squeue_words(jobs), ".", ProgramEnvironment::whole,
+                                           "squeue is not on PATH: this is no machine of a Slurm cluster");
+    // A job that has left its memory is an error to squeue where no other is asked for.
+    const bool gone = output.err.find("Invalid job id") != std::string::npos;
+    if (output.status != 0 && !gone) found.unknown = output.err.empty() ? "squeue failed" : output.err;
+    found.queue.merge(parse_queue(output.out));
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::unavailable) throw;
+    found.unknown = error.what();
+  }
+}
+
+std::string lower(std::string text) {
+  std::ranges::transform(text, text.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+std::string tasks_text(const QueuedTasks& tasks) {
+  std::vector<std::string> parts;
+  for (const auto& [state, count] : tasks.count) {
+    const std::string why = state == "PENDING" && !tasks.reasons.empty()
+                                ? fmt::format(" ({})", visible_word(joined(tasks.reasons, ", "), 120))
+                                : "";
+    parts.push_back(fmt::format("{} {}{}", count, lower(visible_word(state)), why));
+  }
+  return joined(parts, ", ");
+}
+
+std::string tasks_json(const QueuedTasks& tasks, int depth) {
+  json::Members states;
+  for (const auto& [state, count] : tasks.count) states.emplace_back(lower(state), json::number(count));
+  return json::object(states, depth);
+}
+
+}  // namespace
+
+EnsembleJobs jobs_of_ensemble(const std::string& folder) {
+  EnsembleJobs found{recorded_jobs(folder), {}, ""};
+  for (const auto& [cluster, jobs] : by_cluster(found.recorded)) ask(jobs, found);
+  return found;
+}
+
+std::size_t count_queued(const EnsembleJobs& jobs) {
+  std::size_t count = 0;
+  for (const auto& [id, tasks] : jobs.queue) count += total(tasks);
+  return count;
+}
+
+std::string jobs_text(const EnsembleJobs& jobs) {
+  std::string text;
+  for (const SlurmJob& job : jobs.recorded) {
+    const auto tasks = jobs.queue.find(job.id);
+    if (tasks != jobs.queue.end())
+      text += fmt::format("job {}: {}\n", job.id, tasks_text(tasks->second));
+    else if (jobs.unknown.empty())
+      text += fmt::format("job {}: not in the queue any more\n", job.id);
+    else
+      text += fmt::format("job {}: unknown, {}\n", job.id, visible(jobs.unknown));
+  }
+  return text;
+}
+
+std::string jobs_json(const EnsembleJobs& jobs, int depth) {
+  json::Members members;
+  for (const SlurmJob& job : jobs.recorded) {
+    const auto tasks = jobs.queue.find(job.id);
+    const bool known = tasks != jobs.queue.end();
+    const bool unknown = !known && !jobs.unknown.empty();
+    members.emplace_back(
+        job.id,
+        json::object(
+            {{"cluster", json::quoted(job.cluster)},
+             {"tasks", json::number(job.tasks)},
+             {"queued", unknown ? "null" : tasks_json(known ? tasks->second : QueuedTasks{}, depth + 2)},
+             {"reasons", json::array(known ? tasks->second.reasons : std::vector<std::string>{})}},
+            depth + 1));
+  }
+  return json::object(members, depth);
+}
+
+}  // namespace talus

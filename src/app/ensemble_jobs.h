@@ -1,0 +1,33 @@
+#pragma once
+/// The jobs of an ensemble in the queue of Slurm.
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "ensemble/slurm.h"
+
+namespace talus {
+
+struct EnsembleJobs {
+  std::vector<SlurmJob> recorded;            ///< in the folder, by their numbers
+  std::map<std::string, QueuedTasks> queue;  ///< of these, by their numbers
+  std::string unknown;                       ///< why squeue told nothing; empty where it did
+
+  bool is_queued(const SlurmJob& job) const { return queue.contains(job.id); }
+};
+
+/// The jobs that were submitted from a folder, as squeue knows them; it is asked only where there are any.
+/// Throws as recorded_jobs does, and Error(stopped) on a signal.
+EnsembleJobs jobs_of_ensemble(const std::string& folder);
+
+/// Tasks in the queue, of all jobs together.
+std::size_t count_queued(const EnsembleJobs& jobs);
+
+/// "job 12: 2 running, 6 pending (Resources)", a line for each job; empty where there is none.
+std::string jobs_text(const EnsembleJobs& jobs);
+
+/// The same as JSON, `depth` levels deep; what is queued is null where squeue told nothing.
+std::string jobs_json(const EnsembleJobs& jobs, int depth);
+
+}  // namespace talus

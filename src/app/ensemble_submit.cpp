@@ -1,0 +1,221 @@
+#include "app/ensemble_submit.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fmt/core.h>
+#include <memory>
+
+#include "app/ensemble_jobs.h"
+#include "app/ensemble_report.h"
+#include "app/program_output.h"
+#include "app/stop_signals.h"
+#include "app/wall_time.h"
+#include "core/errors.h"
+#include "core/output_file.h"
+#include "core/text.h"
+#include "core/visible_text.h"
+#include "ensemble/claim.h"
+#include "ensemble/pool.h"
+#include "ensemble/slurm.h"
+#include "ensemble/slurm_jobs.h"
+#include "io/durable_file.h"
+
+namespace talus {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct SubmitArguments {
+  std::string folder;
+  std::string engine = "slurm";
+  std::size_t tasks = 0;  ///< 0: as many as are of use
+  std::string time;       ///< HH:MM; empty: what the partition allows
+  double stale = ClaimTimes{}.stale;
+  std::vector<std::string> options;  ///< of sbatch
+};
+
+SlurmArray array_of(const SubmitArguments& arguments, std::size_t tasks) {
+  SlurmArray array;
+  array.program = fs::read_symlink("/proc/self/exe").string();
+  // Not resolved: where links lead may differ from machine to machine.
+  array.folder = fs::absolute(arguments.folder).lexically_normal().string();
+  if (array.folder.size() > 1 && array.folder.ends_with('/')) array.folder.pop_back();
+  array.tasks = tasks;
+  if (!arguments.time.empty()) array.time = parse_wall_time("--time", arguments.time);
+  array.stale = arguments.stale;
+  return array;
+}
+
+/// Why nothing is submitted where nothing is missing.
+std::string nothing_text(const EnsembleView& view) {
+  const bool failed = count_of(view.states, MemberStage::failed) > 0;
+  return fmt::format("{}: {}; nothing is missing{}\n", visible(view.folder), count_text(view),
+                     failed ? fmt::format("; talus ensemble retry {} lets what failed wait again",
+                                          shell_quoted(path_word(view.folder)))
+                            : "");
+}
+
+/// `workers` commands, for a program that runs lines side by side.
+void print_commands(const SubmitArguments& arguments, std::size_t missing) {
+  if (!arguments.options.empty())
+    throw Error(ExitCode::usage, "options of sbatch mean nothing to --engine print; leave them out");
+  const std::size_t tasks = arguments.tasks > 0 ? arguments.tasks : std::min(missing, usual_tasks);
+  const std::string command = worker_command(array_of(arguments, tasks));
+  for (std::size_t task = 0; task < tasks; ++task) std::printf("%s\n", command.c_str());
+}
+
+/// The whole of it happens or nothing: a signal is heard when the job has been recorded.
+SlurmJob submit_array(const SubmitArguments& arguments, std::size_t tasks) {
+  const SlurmArray array = array_of(arguments, tasks);
+  prepare_folder(slurm_folder(arguments.folder));
+  prepare_folder((fs::path(arguments.folder) / "workers").string());
+  write_text((fs::path(slurm_folder(arguments.folder)) / "job.sh").string(), job_script(array));
+  const CommitOnSignals commit;
+  const ProgramOutput output =
+      output_of(sbatch_words(array, arguments.options), arguments.folder, ProgramEnvironment::whole,
+                "sbatch is not on PATH: call this where jobs of the cluster are submitted; without Slurm, "
+                "--engine print "
+                "writes the commands of workers, and talus ensemble work is one",
+                true);
+  std::optional<SlurmJob> job = output.status == 0 ? parse_submitted(output.out) : std::nullopt;
+  if (!job) {
+    stop_if_asked();
+    const std::string said = output.err.empty() ? output.out : output.err;
+    throw Error(ExitCode::unavailable,
+                fmt::format("sbatch submitted nothing{}", said.empty() ? "" : "; it says:\n" + said));
+  }
+  job->tasks = tasks;
+  record_job(arguments.folder, *job);
+  if (!output.err.empty()) std::fprintf(stderr, "%s\n", visible(output.err).c_str());
+  return *job;
+}
+
+void submit(const SubmitArguments& arguments) {
+  const EnsembleView view = view_of_ensemble(arguments.folder);
+  const std::size_t missing = view.states.size() - count_ended(view);
+  if (missing == 0) {
+    std::fprintf(arguments.engine == "print" ? stderr : stdout, "%s", nothing_text(view).c_str());
+    return;
+  }
+  if (arguments.engine == "print") return print_commands(arguments, missing);
+  const EnsembleJobs jobs = jobs_of_ensemble(arguments.folder);
+  const std::size_t queued = count_queued(jobs);
+  const std::string folder = shell_quoted(path_word(arguments.folder));
+  if (arguments.tasks == 0 && queued >= missing) {
+    std::printf("%s: %zu members are missing, and %zu tasks are in the queue for them; --tasks adds more\n%s",
+                visible(arguments.folder).c_str(), missing, queued, jobs_text(jobs).c_str());
+    return;
+  }
+  const std::size_t tasks = arguments.tasks > 0 ? arguments.tasks : std::min(missing - queued, usual_tasks);
+  const SlurmJob job = submit_array(arguments, tasks);
+  if (jobs.unknown.empty())
+    for (const SlurmJob& before : jobs.recorded)
+      if (!jobs.is_queued(before) && before.id != job.id) forget_job(arguments.folder, before);
+  std::printf(
+      "job %s: %zu tasks for %zu missing members; talus ensemble status %s shows them, talus ensemble "
+      "cancel %s ends them\n",
+      job.id.c_str(), tasks, missing, visible(folder).c_str(), visible(folder).c_str());
+}
+
+void cancel(const std::string& folder) {
+  const std::vector<SlurmJob> recorded = recorded_jobs(folder);
+  if (recorded.empty()) {
+    std::printf("%s: no job of this ensemble is known\n", visible(folder).c_str());
+    return;
+  }
+  for (const auto& [cluster, jobs] : by_cluster(recorded)) {
+    const ProgramOutput output =
+        output_of(scancel_words(jobs), ".", ProgramEnvironment::whole,
+                  "scancel is not on PATH: call this where jobs of the cluster are submitted");
+    // One that has ended and been forgotten by Slurm needs no end.
+    if (output.status != 0 && output.err.find("Invalid job id") == std::string::npos)
+      throw Error(ExitCode::unavailable, fmt::format("scancel failed; it says:\n{}", output.err));
+    for (const SlurmJob& job : jobs) {
+      forget_job(folder, job);
+      std::printf("job %s is cancelled\n", job.id.c_str());
+    }
+  }
+  std::printf("what is computed stays; talus ensemble submit %s goes on\n",
+              visible(shell_quoted(path_word(folder))).c_str());
+}
+
+/// A number that Slurm gives to each task in its environment.
+std::string slurm_number(const char* variable) {
+  const char* const value = std::getenv(variable);
+  if (value == nullptr || !is_slurm_number(value))
+    throw Error(ExitCode::usage,
+                fmt::format("{} is no number: expected to be called by a task of a job array", variable));
+  return value;
+}
+
+/// Called by a task whose worker was stopped or killed: lets Slurm start it again while anything is missing,
+/// unless starts have been in vain.
+void requeue(const std::string& folder) {
+  const std::string job = slurm_number("SLURM_ARRAY_JOB_ID"), task = slurm_number("SLURM_ARRAY_TASK_ID");
+  const EnsembleView view = view_of_ensemble(folder);
+  if (count_ended(view) == view.states.size()) {
+    std::printf("nothing is missing\n");
+    return;
+  }
+  const TaskMemory memory = after_start(read_memory(folder, job, task), mark_of(view.plan));
+  write_memory(folder, job, task, memory);
+  if (memory.idle_starts >= most_idle_starts)
+    throw Error(
+        ExitCode::stopped,
+        fmt::format("the task is not queued again: after {} starts in a row no member had come further; "
+                    "give more --time or memory, and submit again",
+                    most_idle_starts));
+  std::printf("queued again\n");
+  std::fflush(stdout);  // Slurm ends this process too
+  const ProgramOutput output = output_of(requeue_words(job, task), ".", ProgramEnvironment::whole,
+                                         "scontrol is not on PATH, so the task cannot be queued again");
+  if (output.status != 0)
+    throw Error(ExitCode::unavailable,
+                fmt::format("the task cannot be queued again; scontrol says:\n{}", output.err));
+}
+
+void add_submit(CLI::App& ensemble) {
+  auto arguments = std::make_shared<SubmitArguments>();
+  CLI::App* command =
+      ensemble.add_subcommand("submit", "Let a cluster compute what is missing, by a job array of workers");
+  command->add_option("folder", arguments->folder, "Folder of the ensemble")->required();
+  command
+      ->add_option("--engine", arguments->engine,
+                   "slurm, or print: writes the command of a worker on each line, for GNU parallel")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"slurm", "print"}));
+  command
+      ->add_option("--tasks", arguments->tasks,
+                   "Workers; without it as many as members are missing and not queued for, 100 at most")
+      ->check(CLI::Range(std::size_t{1}, most_tasks));
+  command->add_option(
+      "--time", arguments->time,
+      "Time of a task, HH:MM or HH:MM:SS; its worker stops before it is over, and the task is "
+      "queued again");
+  command
+      ->add_option("--stale", arguments->stale,
+                   "Time without a heartbeat after which a worker of another machine is taken for dead, s")
+      ->capture_default_str()
+      ->check(CLI::Range(1.0, 86400.0));
+  command->add_option("options", arguments->options,
+                      "Options of sbatch, after --: -- --partition=long --mem=2G");
+  command->callback([arguments] { submit(*arguments); });
+}
+
+}  // namespace
+
+void add_submit_commands(CLI::App& ensemble) {
+  add_submit(ensemble);
+  auto folder = std::make_shared<std::string>();
+  CLI::App* command = ensemble.add_subcommand("cancel", "Cancel the jobs that were submitted");
+  command->add_option("folder", *folder, "Folder of the ensemble")->required();
+  command->callback([folder] { cancel(*folder); });
+  command = ensemble.add_subcommand("requeue", "Queue a task of a job array again");
+  command->add_option("folder", *folder, "Folder of the ensemble")->required();
+  command->group("");  // what the script of a task calls
+  command->callback([folder] { requeue(*folder); });
+}
+
+}  // namespace talus
