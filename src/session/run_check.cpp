@@ -143,6 +143,12 @@ bool check_values(const BedFrame& bed, const std::string& name, Findings& found)
   return finite;
 }
 
+/// D; how far two grains may overlap: what the guards of the run allow, and where these only warn, any of it.
+double overlap_allowed(const Scenario& scenario) {
+  if (scenario.guards.action == GuardAction::warn) return std::numeric_limits<double>::infinity();
+  return std::max(overlap_limit, scenario.guards.overlap);
+}
+
 /// Overlap of a contact of two grains, m; 0 for one with a plane.
 double overlap(const BedFrame& bed, std::size_t c) {
   const FrameContacts& contacts = bed.frame.contacts;
@@ -153,7 +159,8 @@ double overlap(const BedFrame& bed, std::size_t c) {
   return bed.statics.radius[a] + bed.statics.radius[b] - std::hypot(x, bed.frame.y[b] - bed.frame.y[a]);
 }
 
-void check_contacts(const BedFrame& bed, const Frictions& mu, const std::string& name, Findings& found) {
+void check_contacts(const BedFrame& bed, const Frictions& mu, double overlap_allowed, const std::string& name,
+                    Findings& found) {
   const FrameContacts& contacts = bed.frame.contacts;
   const double unit = bed.statics.mass.empty() ? 1.0 : bed.statics.mass.front() * bed.statics.gravity;
   double deepest = 0.0, mobilised = 0.0;
@@ -170,7 +177,7 @@ void check_contacts(const BedFrame& bed, const Frictions& mu, const std::string&
   check.largest_overlap = std::max(check.largest_overlap, deepest / bed.statics.mean_diameter);
   check.largest_mobilisation = std::max(check.largest_mobilisation, mobilised);
   if (pulling > 0) found.add(name, fmt::format("{} contacts pull; normal forces are >= 0", pulling));
-  if (deepest > overlap_limit * bed.statics.mean_diameter)
+  if (deepest > overlap_allowed * bed.statics.mean_diameter)
     found.add(name,
               fmt::format("two grains overlap by {} D", short_text(deepest / bed.statics.mean_diameter)));
   if (mobilised > mobilisation_limit)
@@ -324,7 +331,7 @@ RunCheck check_run(const RunFile& run, const std::function<void(std::size_t)>& p
       before = frame.step;
       const BedFrame bed{frame, statics};
       if (check_values(bed, name, found)) {
-        check_contacts(bed, frictions_of(run, scenario, k, frame), name, found);
+        check_contacts(bed, frictions_of(run, scenario, k, frame), overlap_allowed(scenario), name, found);
         const Loads loads = loads_of(bed);
         check_moments(frame, loads, name, found);
         if (at_rest(rows, frame.step)) check_balance(bed, loads, name, found);

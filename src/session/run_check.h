@@ -25,7 +25,7 @@ struct RunCheck {
 inline constexpr std::size_t most_faults = 20;
 
 /// What is still right, for a frame as it is stored (single precision).
-inline constexpr double overlap_limit = 0.5;         ///< D
+inline constexpr double overlap_limit = 0.5;         ///< D; more where the guards of the run let it go on
 inline constexpr double mobilisation_limit = 1.001;  ///< the solver's tolerance, and single precision
 inline constexpr double imbalance_limit = 0.02;  ///< m g: twice what rest allows a velocity to change in h
 inline constexpr double moment_error_limit = 1e-5;

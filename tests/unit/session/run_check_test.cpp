@@ -22,24 +22,25 @@ Scenario small_bed() {
   return scenario;
 }
 
+Session run_of(const Scenario& scenario) {
+  Session run(scenario);
+  while (run.phase() != Phase::done) run.advance();
+  return run;
+}
+
 /// What a run of the small bed records, made once.
 const Session& finished_run() {
-  static const Session session = [] {
-    Session run(small_bed());
-    while (run.phase() != Phase::done) run.advance();
-    return run;
-  }();
+  static const Session session = run_of(small_bed());
   return session;
 }
 
 /// The check of a run file into which something was written that is not so.
-RunCheck check_with(const std::function<void(Segment&)>& change) {
+RunCheck check_with(const std::function<void(Segment&)>& change, const Session& session = finished_run()) {
   const test::TemporaryFolder folder;
-  Segment segment = finished_run().segment();
+  Segment segment = session.segment();
   change(segment);
-  RunStore store =
-      RunStore::create(folder.path("run.h5"), run_header(finished_run(), {"", {}, "", 1}), false);
-  store.commit(segment, finished_run().checkpoint(0.0));
+  RunStore store = RunStore::create(folder.path("run.h5"), run_header(session, {"", {}, "", 1}), false);
+  store.commit(segment, session.checkpoint(0.0));
   store.pack();
   std::size_t frames = 0;
   const RunCheck check =
@@ -112,6 +113,30 @@ TEST_P(RunCheckFinds, what_cannot_be) {
 
 INSTANTIATE_TEST_SUITE_P(all, RunCheckFinds, testing::ValuesIn(damages),
                          [](const auto& damage) { return damage.param.name; });
+
+/// Moves a grain of the first contact of two grains almost onto the other.
+void overlap_two_grains(Segment& segment) {
+  Frame& frame = segment.frames[1];
+  const FrameContacts& contacts = frame.contacts;
+  std::size_t c = 0;
+  while (contacts.b[c] >= frame.grain_count() || contacts.shift[c] != 0) ++c;
+  const auto a = static_cast<std::size_t>(contacts.a[c]), b = static_cast<std::size_t>(contacts.b[c]);
+  frame.x[b] = frame.x[a];
+  frame.y[b] = frame.y[a];
+}
+
+TEST(RunCheck, tells_of_overlaps_unless_the_guards_of_the_run_let_it_go_on) {
+  const auto is_told = [](const Session& session) {
+    return faults_of(check_with(overlap_two_grains, session)).find("two grains overlap") != std::string::npos;
+  };
+  EXPECT_TRUE(is_told(finished_run()));
+  Scenario scenario = small_bed();
+  scenario.guards.overlap = 10.0;
+  EXPECT_FALSE(is_told(run_of(scenario)));
+  scenario.guards = {};
+  scenario.guards.action = GuardAction::warn;
+  EXPECT_FALSE(is_told(run_of(scenario))) << "the overlap is recorded, and it is no damage";
+}
 
 TEST(RunCheck, does_not_tell_more_than_can_be_read) {
   const RunCheck check = check_with([](Segment& s) {
