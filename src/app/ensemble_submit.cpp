@@ -114,9 +114,10 @@ void submit(const SubmitArguments& arguments) {
     for (const SlurmJob& before : jobs.recorded)
       if (!jobs.is_queued(before) && before.id != job.id) forget_job(arguments.folder, before);
   std::printf(
-      "job %s: %zu tasks for %zu missing members; talus ensemble status %s shows them, talus ensemble "
+      "job %s: %zu task%s for %zu missing members; talus ensemble status %s shows them, talus ensemble "
       "cancel %s ends them\n",
-      job.id.c_str(), tasks, missing, visible(folder).c_str(), visible(folder).c_str());
+      job.id.c_str(), tasks, tasks == 1 ? "" : "s", missing, visible(folder).c_str(),
+      visible(folder).c_str());
 }
 
 void cancel(const std::string& folder) {

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fmt/core.h>
 #include <sstream>
+#include <tuple>
 
 #include "core/errors.h"
 #include "core/output_file.h"
@@ -106,9 +107,13 @@ EnsembleMark mark_of(const EnsemblePlan& plan) {
   return mark;
 }
 
+bool is_further(const EnsembleMark& now, const EnsembleMark& before) {
+  return std::tie(now.done, now.computed, now.steps) > std::tie(before.done, before.computed, before.steps);
+}
+
 TaskMemory after_start(const TaskMemory& before, const EnsembleMark& now) {
   // Members that were added or are tried again may set the mark back: that start has not helped either.
-  return {now, now > before.mark ? 0 : before.idle_starts + 1};
+  return {now, is_further(now, before.mark) ? 0 : before.idle_starts + 1};
 }
 
 TaskMemory read_memory(const std::string& folder, const std::string& job, const std::string& task) {

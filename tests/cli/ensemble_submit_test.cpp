@@ -1,0 +1,207 @@
+/// Job arrays as a user submits them, with commands in place of Slurm's that write down how they were called.
+/// tests/slurm has the same with a real Slurm.
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+
+#include "process.h"
+
+namespace talus::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+const char* const tiny_bed =
+    "[bed]\nlength = 10\ndepth = 4\n[tilt]\nend_angle = 1.5\n[output]\nframe_every = 0.5\n";
+
+std::string text_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+/// An ensemble of four beds, none of them begun, and a folder of commands.
+class EnsembleSubmit : public testing::Test {
+ protected:
+  void SetUp() override {
+    write_file(folder_, "bed.toml", tiny_bed);
+    fs::create_directory(folder_.path() / "bin");
+    const Outcome begun =
+        talus({"ensemble", "bed.toml", "--seeds", "1-4", "--jobs", "0", "-o", "./" + name_});
+    ASSERT_EQ(begun.exit_code, 0) << begun.err;
+    ASSERT_TRUE(has(begun.out, "0 of 4 done, 0 under way")) << begun.out;
+    command("squeue", "");
+    command("scancel", "");
+    command("sbatch", "echo 12");
+  }
+
+  /// A command that adds its words to the file "called", one a line, and goes on with `text`.
+  void command(const std::string& name, const std::string& text) {
+    const std::string called = folder_.path("called");
+    write_file(folder_, "bin/" + name,
+               "#!/bin/bash\nprintf '%s\\n' " + name + " \"$@\" >>'" + called + "'\n" + text + "\n");
+    fs::permissions(folder_.path() / "bin" / name, fs::perms::owner_all);
+  }
+
+  Outcome talus(const std::vector<std::string>& arguments, const std::vector<std::string>& variables = {}) {
+    std::vector<std::string> environment = {"PATH=" + folder_.path("bin") + ":/usr/bin:/bin"};
+    environment.insert(environment.end(), variables.begin(), variables.end());
+    return run_talus(arguments, folder_.path(), environment);
+  }
+  Outcome ensemble(const std::string& what, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> words = {"ensemble", what, "./" + name_};
+    words.insert(words.end(), more.begin(), more.end());
+    return talus(words);
+  }
+  std::string called() { return text_of(folder_.path("called")); }
+  std::string file(const std::string& name) { return folder_.path(name_ + "/" + name); }
+
+  TemporaryFolder folder_;
+  std::string name_ = "-it's \"$(touch oops)\"";
+};
+
+TEST_F(EnsembleSubmit, gives_sbatch_an_array_of_what_is_missing) {
+  const Outcome done = ensemble("submit", {"--time", "04:00", "--", "--partition=long", "-A", "it's me"});
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_TRUE(has(done.out, "job 12: 4 tasks for 4 missing members")) << done.out;
+  EXPECT_TRUE(has(called(), "sbatch\n--parsable\n--array=1-4\n")) << called();
+  EXPECT_TRUE(has(called(), "--time=04:00:00\n--partition=long\n-A\nit's me\nslurm/job.sh\n")) << called();
+  EXPECT_EQ(text_of(file("slurm/job-12.csv")), "job,cluster,tasks\n12,,4\n");
+  EXPECT_TRUE(has(text_of(file("slurm/job.sh")), "ensemble work . --stale 120 --max-wall 03:58:00 &"));
+}
+
+TEST_F(EnsembleSubmit, has_a_script_that_computes_members_by_itself) {
+  ASSERT_EQ(ensemble("submit").exit_code, 0);
+  const std::string run =
+      "cd / && SLURM_ARRAY_JOB_ID=12 SLURM_ARRAY_TASK_ID=3 bash '" + folder_.path("job.sh") + "'";
+  fs::copy_file(file("slurm/job.sh"), folder_.path() / "job.sh");
+  EXPECT_EQ(std::system(run.c_str()), 0);
+  EXPECT_TRUE(has(ensemble("status").out, "4 of 4 done")) << text_of(file("workers/slurm-12_3.log"));
+  EXPECT_TRUE(has(text_of(file("workers/slurm-12_3.log")), "seed-4 done\n"));
+  EXPECT_FALSE(fs::exists(folder_.path() / "oops")) << "the name of the folder was run";
+  const Outcome more = ensemble("submit");
+  EXPECT_EQ(more.exit_code, 0);
+  EXPECT_TRUE(has(more.out, "4 of 4 done, 0 under way; nothing is missing\n")) << more.out;
+}
+
+TEST_F(EnsembleSubmit, adds_tasks_only_for_members_that_none_is_queued_for) {
+  ASSERT_EQ(ensemble("submit", {"--tasks", "3"}).exit_code, 0);
+  command("squeue", "printf '12|PENDING|Resources\\n12|PENDING|Resources\\n12|RUNNING|None\\n'");
+  command("sbatch", "echo 13");
+  EXPECT_TRUE(has(ensemble("submit").out, "job 13: 1 task for 4")) << called();
+  command("squeue", "printf '13|PENDING|Priority\\n12|RUNNING|None\\n12|RUNNING|None\\n12|RUNNING|None\\n'");
+  const Outcome enough = ensemble("submit");
+  EXPECT_EQ(enough.exit_code, 0);
+  EXPECT_TRUE(has(enough.out, "4 members are missing, and 4 tasks are in the queue")) << enough.out;
+  command("squeue", "echo 'slurm_load_jobs error: Invalid job id specified' >&2; exit 1");
+  command("sbatch", "echo 14");
+  EXPECT_TRUE(has(ensemble("submit").out, "job 14: 4 tasks"));
+  EXPECT_FALSE(fs::exists(file("slurm/job-12.csv"))) << "it is over";
+  EXPECT_TRUE(fs::exists(file("slurm/job-14.csv")));
+}
+
+TEST_F(EnsembleSubmit, shows_what_sbatch_says_and_obeys_nothing_of_it) {
+  command("sbatch", "printf 'sbatch: error: no such \\033[31mpartition\\n' >&2; exit 1");
+  const Outcome refused = ensemble("submit");
+  EXPECT_EQ(refused.exit_code, 69);
+  EXPECT_TRUE(
+      has(refused.err, "sbatch submitted nothing; it says:\nsbatch: error: no such \\x1b[31mpartition"))
+      << refused.err;
+  EXPECT_FALSE(has(refused.err, "\033"));
+  command("sbatch", "echo 'Submitted batch job'");
+  EXPECT_EQ(ensemble("submit").exit_code, 69) << "no number";
+  fs::remove(folder_.path() / "bin/sbatch");
+  const Outcome missing =
+      run_talus({"ensemble", "submit", "./" + name_}, folder_.path(), {"PATH=" + folder_.path("bin")});
+  EXPECT_EQ(missing.exit_code, 69);
+  EXPECT_TRUE(has(missing.err, "sbatch is not on PATH")) << missing.err;
+  EXPECT_TRUE(has(missing.err, "--engine print")) << missing.err;
+}
+
+TEST_F(EnsembleSubmit, tells_status_of_its_tasks) {
+  ASSERT_EQ(ensemble("submit").exit_code, 0);
+  command("squeue",
+          "printf '12|RUNNING|None\\n12|PENDING|\\033[31mResources\\n12|PENDING|\\033[31mResources\\n'");
+  const Outcome text = ensemble("status");
+  EXPECT_TRUE(has(text.out, "\njob 12: 2 pending (\\x1b[31mResources), 1 running\n")) << text.out;
+  const std::string json = ensemble("status", {"--json"}).out;
+  EXPECT_EQ(json_value(json, "pending"), "2") << json;
+  EXPECT_EQ(json_value(json, "running"), "1") << json;
+  command("squeue", "echo 'slurm_load_jobs error: Unable to contact slurm controller' >&2; exit 1");
+  const Outcome unknown = ensemble("status");
+  EXPECT_EQ(unknown.exit_code, 0);
+  EXPECT_TRUE(has(unknown.out, "job 12: unknown, slurm_load_jobs error: Unable to contact")) << unknown.out;
+  EXPECT_EQ(json_value(ensemble("status", {"--json"}).out, "queued"), "null");
+}
+
+TEST_F(EnsembleSubmit, can_be_cancelled) {
+  EXPECT_TRUE(has(ensemble("cancel").out, "no job of this ensemble is known"));
+  ASSERT_EQ(ensemble("submit").exit_code, 0);
+  command("scancel", "echo 'scancel: error: no permission' >&2; exit 1");
+  const Outcome refused = ensemble("cancel");
+  EXPECT_EQ(refused.exit_code, 69);
+  EXPECT_TRUE(has(refused.err, "no permission")) << refused.err;
+  EXPECT_TRUE(fs::exists(file("slurm/job-12.csv"))) << "it may still be there";
+  command("scancel", "");
+  EXPECT_TRUE(has(ensemble("cancel").out, "job 12 is cancelled\n"));
+  EXPECT_TRUE(called().ends_with("scancel\n12\n")) << called();
+  EXPECT_FALSE(fs::exists(file("slurm/job-12.csv")));
+}
+
+TEST_F(EnsembleSubmit, queues_a_task_again_while_members_come_further) {
+  ASSERT_EQ(ensemble("submit").exit_code, 0);
+  command("scontrol", "");
+  const std::vector<std::string> words = {"ensemble", "requeue", "./" + name_};
+  const std::vector<std::string> task = {"SLURM_ARRAY_JOB_ID=12", "SLURM_ARRAY_TASK_ID=3"};
+  EXPECT_EQ(talus(words).exit_code, 64) << "no task";
+  EXPECT_EQ(talus(words, task).exit_code, 0);
+  EXPECT_TRUE(called().ends_with("scontrol\nrequeue\n12_3\n")) << called();
+  EXPECT_EQ(talus(words, task).exit_code, 0);
+  const std::string before = called();
+  const Outcome enough = talus(words, task);
+  EXPECT_EQ(enough.exit_code, 75);
+  EXPECT_TRUE(has(enough.err, "after 3 starts in a row no member had come further")) << enough.err;
+  EXPECT_EQ(called(), before) << "it asks for no other start";
+  std::ofstream(file("seed-1.csv")) << "done";
+  std::ofstream(file("seed-2.failed")) << "exit code 65\n\n";
+  fs::remove(file("seed-1.csv"));
+  EXPECT_EQ(talus(words, task).exit_code, 0) << "a member has come to its end";
+  command("scontrol", "echo 'Job is disabled' >&2; exit 1");
+  std::ofstream(file("seed-3.failed")) << "exit code 65\n\n";
+  EXPECT_EQ(talus(words, task).exit_code, 69);
+  for (const char* member : {"seed-1.failed", "seed-4.failed"})
+    std::ofstream(file(member)) << "exit code 65\n\n";
+  EXPECT_TRUE(has(talus(words, task).out, "nothing is missing"));
+}
+
+TEST_F(EnsembleSubmit, prints_a_worker_on_each_line) {
+  const Outcome printed = ensemble("submit", {"--engine", "print", "--time", "01:00"});
+  EXPECT_EQ(printed.exit_code, 0) << printed.err;
+  EXPECT_EQ(std::ranges::count(printed.out, '\n'), 4) << printed.out;
+  EXPECT_TRUE(has(printed.out, " ensemble work '" + folder_.path("-it'\\''s \"$(touch oops)\"") +
+                                   "' --stale 120 --max-wall 00:58:00\n"))
+      << printed.out;
+  EXPECT_EQ(called(), "");
+  EXPECT_EQ(ensemble("submit", {"--engine", "print", "--", "--mem=1G"}).exit_code, 64);
+  write_file(folder_, "lines", printed.out);
+  EXPECT_EQ(std::system(("cd / && bash '" + folder_.path("lines") + "' > /dev/null").c_str()), 0);
+  EXPECT_TRUE(has(ensemble("status").out, "4 of 4 done"));
+  EXPECT_EQ(ensemble("submit", {"--engine", "print"}).out, "") << "no command, so nothing that would be run";
+}
+
+TEST_F(EnsembleSubmit, of_a_bad_form_is_refused) {
+  EXPECT_EQ(ensemble("submit", {"--tasks", "0"}).exit_code, 64);
+  EXPECT_EQ(ensemble("submit", {"--engine", "pbs"}).exit_code, 64);
+  EXPECT_EQ(ensemble("submit", {"--time", "4"}).exit_code, 64);
+  EXPECT_EQ(talus({"ensemble", "submit", "none"}).exit_code, 66);
+  EXPECT_EQ(called(), "");
+}
+
+}  // namespace
+}  // namespace talus::test
