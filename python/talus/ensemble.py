@@ -1,0 +1,196 @@
+"""An ensemble: many runs of one scenario in a folder, and the numbers that each has given."""
+
+import csv
+import tomllib
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from talus.errors import Error
+from talus.optional import need
+from talus.run import Run
+from talus.run import open as open_run
+from talus.units import Units
+
+FIRST_LINE = "talus ensemble 1"
+NUMBERS_HEADER = ["quantity", "unit", "value"]
+
+
+class Mean(NamedTuple):
+    """A mean over members, as Talus computes it; values that are NaN do not count."""
+
+    count: int
+    mean: float  #: NaN for count 0
+    deviation: float  #: standard deviation, with n - 1; NaN for count < 2
+    error: float  #: standard error of the mean, deviation / sqrt(n); NaN for count < 2
+
+
+def mean_of(values: Sequence[float] | np.ndarray) -> Mean:
+    """The mean of values, and how well it is known."""
+    numbers = np.asarray(values, dtype=float)
+    numbers = numbers[~np.isnan(numbers)]
+    count = len(numbers)
+    deviation = float(numbers.std(ddof=1)) if count > 1 else np.nan
+    return Mean(count, float(numbers.mean()) if count else np.nan, deviation, deviation / max(count, 1) ** 0.5)
+
+
+@dataclass(frozen=True)
+class Member:
+    """One run of an ensemble."""
+
+    variant: str  #: "contact.friction=0.3"; empty where nothing varies
+    seed: int
+    path: Path  #: of its run file
+    stage: str  #: "done", "failed", "claimed" (under way, or left by a worker) or "waiting"
+    state_hash: str = ""  #: of its last state, once it is done; so are the following
+    version: str = ""  #: of the Talus that computed it
+    seconds: float = np.nan  #: of its steps
+    numbers: dict[str, float] = field(default_factory=dict)  #: of its seed-*.csv by name; NaN: no value
+    units: dict[str, str] = field(default_factory=dict)  #: of the numbers: "deg", "D", "1", ...
+
+    def open(self, units: Units = "SI") -> Run:
+        """The run, as talus.open gives it."""
+        return open_run(self.path, units)
+
+
+def read_member(variant: str, seed: int, path: Path) -> Member:
+    """What the files beside the run of a member tell of it. Throws Error where its numbers are not what talus wrote."""
+    table = path.with_suffix(".csv")
+    if not table.is_file():
+        failed = path.with_suffix(".failed").is_file()
+        claimed = any(path.parent.glob(path.stem + ".claim-*"))
+        return Member(variant, seed, path, "failed" if failed else "claimed" if claimed else "waiting")
+    with table.open(newline="", encoding="utf-8") as file:
+        rows = list(csv.reader(file))
+    try:
+        if rows[0] != NUMBERS_HEADER:
+            raise ValueError
+        texts = {name: value for name, _, value in rows[1:4]}
+        numbers = {name: float(value) if value else np.nan for name, _, value in rows[4:]}
+        return Member(variant, seed, path, "done", texts["state_hash"], texts["version"], float(texts["seconds"]),
+                      numbers, {name: unit for name, unit, _ in rows[4:]})
+    except (IndexError, KeyError, ValueError):
+        raise Error(f"{table}: is not what talus wrote; remove it, and `talus ensemble` analyses the member again") from None
+
+
+class Ensemble:
+    """The members of an ensemble at the time when it was opened.
+
+        ensemble = talus.open_ensemble("runs/friction")
+        ensemble.variants, ensemble.mean("theta_c", "contact.friction=0.3")
+        for member in ensemble.done():
+            with member.open() as run: ...
+
+    Numbers are those of `members.csv`, by the names and in the units of its columns: angles in deg, lengths in D."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        self.version = ""  #: of the Talus that began it
+        self.until = ""  #: the precision that was asked for; empty: none
+        self.seeds: list[int] = []
+        self.variants: list[str] = []  #: names, as "contact.friction=0.3"; [""] where nothing varies
+        self._read_manifest()
+        #: All of them, by seed, and of each seed by variant.
+        self.members = [read_member(variant, seed, folder / variant / f"seed-{seed}.h5")
+                        for seed in self.seeds for variant in self.variants]
+
+    def _read_manifest(self) -> None:
+        path = self.folder / "ensemble.manifest"
+        if not path.is_file():
+            raise Error(f"{self.folder}: no ensemble here; begin one with: talus ensemble SCENARIO --seeds 1-50 -o "
+                        f"{self.folder}")
+        lines = path.read_text(encoding="utf-8", errors="replace").splitlines()
+        try:
+            if lines[0] != FIRST_LINE or not lines[-1].startswith("hash "):
+                raise ValueError
+            for line in lines[1:]:
+                kind, _, rest = line.partition(" ")
+                if kind == "version":
+                    self.version = rest
+                if kind == "until":
+                    self.until = rest
+                if kind == "seeds":
+                    self.seeds = parse_seeds(rest)
+                if kind == "variant":
+                    self.variants.append(rest.partition(" ")[2])
+            if not self.seeds or not self.variants:
+                raise ValueError
+        except (IndexError, ValueError):
+            raise Error(f"{path}: is not what talus wrote; the runs beside it are not affected: talus.open opens "
+                        "each") from None
+
+    def __repr__(self) -> str:
+        return f"<ensemble {self.folder}: {len(self.done())} of {len(self.members)} members done>"
+
+    def scenario(self, variant: str | None = None) -> dict[str, Any]:
+        """The scenario of a variant with every key, in its own units; the seed is that of the first member."""
+        variant = self._variant(variant)
+        path = self.folder / "scenarios" / f"{variant or 'scenario'}.toml"
+        try:
+            return tomllib.loads(path.read_text(encoding="utf-8"))
+        except (OSError, ValueError) as error:
+            raise Error(f"{path}: cannot be read: {error}") from error
+
+    def done(self, variant: str | None = None) -> list[Member]:
+        """The members whose run and analysis are complete; of all variants, or of one."""
+        chosen = self.variants if variant is None else [self._variant(variant)]
+        return [member for member in self.members if member.stage == "done" and member.variant in chosen]
+
+    def numbers(self, name: str, variant: str | None = None) -> np.ndarray:
+        """A number of each member of a variant that is done, by seed; NaN where a member has no value. The variant may
+        be left out where there is one only. Throws Error where no member has a number of this name."""
+        members = self.done(self._variant(variant))
+        known = dict.fromkeys(name for member in members for name in member.numbers)
+        if members and name not in known:
+            raise Error(f"{self.folder}: members have no number {name}; they have {', '.join(known)}")
+        return np.array([member.numbers.get(name, np.nan) for member in members])
+
+    def mean(self, name: str, variant: str | None = None) -> Mean:
+        """The mean of a number over the members of a variant that are done and have it."""
+        return mean_of(self.numbers(name, variant))
+
+    def unit(self, name: str) -> str:
+        """The unit of a number: "deg", "D", "1". Throws Error where no member has it."""
+        for member in self.done():
+            if name in member.units:
+                return member.units[name]
+        raise Error(f"{self.folder}: members have no number {name}")
+
+    def measure(self, function: Callable[[Run], Any], variant: str | None = None, units: Units = "SI") -> np.ndarray:
+        """What a function of your own gives for the run of each member of a variant that is done, by seed; values or
+        arrays of one shape."""
+        values = []
+        for member in self.done(self._variant(variant)):
+            with member.open(units) as run:
+                values.append(function(run))
+        return np.array(values)
+
+    def to_pandas(self) -> Any:
+        """A DataFrame as `members.csv`: one row for each member that is done, with variant, seed, state_hash, version,
+        seconds, and its numbers. Throws ImportError without pandas."""
+        rows = [{"variant": m.variant, "seed": m.seed, "state_hash": m.state_hash, "version": m.version,
+                 "seconds": m.seconds, **m.numbers} for m in self.done()]
+        return need("pandas", "to_pandas()").DataFrame(rows)
+
+    def _variant(self, variant: str | None) -> str:
+        if variant is None and len(self.variants) == 1:
+            return self.variants[0]
+        if variant not in self.variants:
+            named = "name a variant" if variant is None else f"has no variant {variant!r}"
+            raise Error(f"{self.folder}: {named}; it has {', '.join(self.variants) or 'none'}")
+        return variant
+
+
+def parse_seeds(text: str) -> list[int]:
+    """ "1-3,8": 1, 2, 3, 8. Throws ValueError where the text has another form."""
+    ranges = [part.partition("-") for part in text.split(",")]
+    return [seed for first, _, last in ranges for seed in range(int(first), int(last or first) + 1)]
+
+
+def open_ensemble(folder: str | Path) -> Ensemble:
+    """Opens the folder of an ensemble, whatever of it is done. Throws Error where there is none, or its manifest or the
+    numbers of a member are not what talus wrote."""
+    return Ensemble(Path(folder))

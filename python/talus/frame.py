@@ -1,0 +1,126 @@
+"""One frame of a run: its grains and its contacts."""
+
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from talus.contacts import Contacts
+from talus.optional import need
+
+if TYPE_CHECKING:
+    from talus.run import Run
+
+
+class Frame:
+    """The grains of a run at one tilt, as arrays of N rows, free grains first and grains of the floor after them, in the
+    frame of the bed: x along it, downslope when the tilt is positive, y away from the floor. What is asked for is read
+    then, and kept. Lengths and angles are in the units of the run; all else is SI, per metre of thickness."""
+
+    def __init__(self, run: "Run", index: int) -> None:
+        self.run = run
+        self.index = index  #: counted from 0
+        self.step = int(run.step[index])  #: steps since the beginning of the run
+        self.time = float(run.time[index])  #: s
+        self.tilt = float(run.tilt[index])  #: angle of the bed to the horizontal
+
+    def __repr__(self) -> str:
+        return f"<frame {self.index} of {self.run.path}: tilt {self.tilt:.4g} {self.run.unit('frames/tilt')}>"
+
+    def _read(self, name: str) -> np.ndarray:
+        return self.run.read_frame(f"particles/grains/{name}/value", self.index)
+
+    @cached_property
+    def position(self) -> np.ndarray:
+        """(N, 2) centres (x, y); x in [0, L) of a periodic bed."""
+        return self._read("position")
+
+    @cached_property
+    def image(self) -> np.ndarray:
+        """(N, 2) how often a grain left through the right periodic edge minus the left, and 0."""
+        return self._read("image")
+
+    @property
+    def unwrapped(self) -> np.ndarray:
+        """(N, 2) centres as if the bed had no edge: differences of two frames are displacements."""
+        return self.position + self.image * np.array([self.run.length, self.run.depth])
+
+    @cached_property
+    def angle(self) -> np.ndarray:
+        """(N,) angle turned since the beginning, counter-clockwise positive."""
+        return self._read("angle")
+
+    @cached_property
+    def velocity(self) -> np.ndarray:
+        """(N, 2) velocities (v_x, v_y), m/s."""
+        return self._read("velocity")
+
+    @cached_property
+    def angular_velocity(self) -> np.ndarray:
+        """(N,) rotation velocities, rad/s, counter-clockwise positive."""
+        return self._read("angular_velocity")
+
+    @cached_property
+    def internal_moment(self) -> np.ndarray:
+        """(N, 2, 2) internal moments M_ij, J/m, lever first, force second; compression positive. The stress of grains
+        is the sum of their M over an area. x and y are those of the bed, y up: the paper's shear has the other sign."""
+        return self._read("internal_moment")
+
+    @cached_property
+    def gamma(self) -> np.ndarray:
+        """(N,) stress ratio q/p of each grain alone (l_min = 0); NaN where it carries nothing. That of an analysis is
+        of neighbourhoods: talus.stress_ratio of sums of internal moments."""
+        return self._read("gamma")
+
+    @property
+    def radius(self) -> np.ndarray:
+        """(N,) radii."""
+        return self.run.radius
+
+    @property
+    def free(self) -> np.ndarray:
+        """(N,) whether a grain is free, not glued to the floor."""
+        return self.run.free
+
+    @cached_property
+    def contacts(self) -> Contacts:
+        """The contacts that carry force."""
+        read = {name: self.run.read_frame(f"contacts/{name}", self.index)
+                for name in ("pair", "shift", "normal", "point", "force", "status")}
+        a, b = read["pair"].T
+        between_grains = b < len(self.position)
+        end = read["point"].copy()
+        end[between_grains] = self.position[b[between_grains]]
+        end[between_grains, 0] += read["shift"][between_grains] * self.run.length
+        return Contacts(**read, start=self.position[a], end=end, between_grains=between_grains,
+                        period=self.run.length if self.run.periodic else 0.0)
+
+    def to_pandas(self) -> Any:
+        """A DataFrame with one row for each grain, its index the id: free, x, y, radius, mass, angle, v_x, v_y,
+        angular_velocity, gamma, and the internal moment as M_xx, M_xy, M_yx, M_yy. Throws ImportError without
+        pandas."""
+        moment = {f"M_{i}{j}": self.internal_moment[:, m, n] for m, i in enumerate("xy") for n, j in enumerate("xy")}
+        columns = {"free": self.free, "x": self.position[:, 0], "y": self.position[:, 1], "radius": self.radius,
+                   "mass": self.run.mass, "angle": self.angle, "v_x": self.velocity[:, 0], "v_y": self.velocity[:, 1],
+                   "angular_velocity": self.angular_velocity, "gamma": self.gamma, **moment}
+        pandas = need("pandas", "to_pandas()")
+        return pandas.DataFrame(columns, index=pandas.Index(self.run.id, name="id"))
+
+    def to_networkx(self) -> Any:
+        """The contact network as a networkx.MultiGraph (two grains of a short periodic bed can touch twice). Nodes are
+        ids, with `kind` ("free", "floor", "plane"), and `x`, `y`, `radius`, `gamma` of grains; edges are contacts, with
+        their row in `contacts` as `contact`, and `f_n`, `f_t` (N/m), `sliding` and `shift`. Throws ImportError without
+        networkx."""
+        graph = need("networkx", "to_networkx()").MultiGraph(tilt=self.tilt)
+        for i in range(len(self.position)):
+            x, y = self.position[i].tolist()
+            graph.add_node(i, kind="free" if self.free[i] else "floor", x=x, y=y, radius=float(self.radius[i]),
+                           gamma=float(self.gamma[i]))
+        contacts = self.contacts
+        for c, (a, b) in enumerate(contacts.pair.tolist()):
+            if not contacts.between_grains[c]:
+                graph.add_node(b, kind="plane")
+            f_n, f_t = contacts.force[c].tolist()
+            graph.add_edge(a, b, contact=c, f_n=f_n, f_t=f_t, sliding=bool(contacts.status[c] == 2),
+                           shift=int(contacts.shift[c]))
+        return graph

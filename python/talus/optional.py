@@ -1,0 +1,14 @@
+"""Packages that only some functions need."""
+
+import importlib
+from types import ModuleType
+
+
+def need(name: str, purpose: str) -> ModuleType:
+    """The package `name`. Throws ImportError, with what to install, where it is missing."""
+    try:
+        return importlib.import_module(name)
+    except ImportError as missing:
+        raise ImportError(
+            f"{purpose} needs {name}, which is not installed: apt install python3-{name}, or pip install {name}"
+        ) from missing

@@ -1,0 +1,85 @@
+"""Data sets of a run under the names of their table."""
+
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING, Any
+
+from talus.errors import Error
+from talus.optional import need
+
+if TYPE_CHECKING:
+    from talus.run import Run
+
+
+#: What an analysis has once, whatever the number of its frames.
+OF_THE_RUN = ("threshold", "theta_d/", "correlation/distance", "lc/end_ratio")
+
+
+class Table(Mapping[str, Any]):
+    """The data sets of a group of the run file by their names in its table: `run.observables["tilt"]`,
+    `run.analysis["overloaded/fraction"]`. Values are arrays, in the units of the run, or plain numbers and texts; they
+    are read when they are asked for. NaN means "no value"."""
+
+    def __init__(self, run: "Run", group: str) -> None:
+        self._run = run
+        self._group = group
+        self._names = run.storage.names(group)
+
+    def __getitem__(self, name: str) -> Any:
+        if name not in self._names:
+            raise KeyError(f"{name}: no such data set in /{self._group} of {self._run.path}; "
+                           f"it has {', '.join(self._names)}")
+        return self._run[f"{self._group}/{name}"]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._names)
+
+    def __len__(self) -> int:
+        return len(self._names)
+
+    def __repr__(self) -> str:
+        return f"<{len(self)} data sets of /{self._group}: {', '.join(self._names)}>"
+
+    def unit(self, name: str) -> str:
+        """The unit in which the values of `name` are given here; "1": a number."""
+        self._known(name)
+        return self._run.unit(f"{self._group}/{name}")
+
+    def meaning(self, name: str) -> str:
+        """What `name` is, a sentence; empty while the run is being computed."""
+        self._known(name)
+        return self._run.meaning(f"{self._group}/{name}")
+
+    def to_pandas(self) -> Any:
+        """A DataFrame with one row for each row of a series; of /analysis one for each frame of the tilt. Its columns
+        are the data sets of one number a row and, called `name`, `name[1]`, ..., those of up to four, as there are of
+        each threshold; that of /analysis begins with `tilt`. Throws ImportError without pandas, Error where there are
+        no rows yet."""
+        pandas = need("pandas", "to_pandas()")
+        columns: dict[str, Any] = {}
+        rows = None
+        if self._group == "analysis":
+            rows = self._run.frames_of_tilt
+            columns["tilt"] = self._run.tilt[:rows]
+        for name in self._names:
+            values = self[name]
+            shape = getattr(values, "shape", ())
+            if rows is None and len(shape) == 1:
+                rows = shape[0]
+            if self._group == "analysis" and name.startswith(OF_THE_RUN) or name.endswith(("edge", "clusters/direction")):
+                continue
+            if len(shape) == 1 and shape[0] == rows:
+                columns[name] = values
+            elif len(shape) == 2 and shape[0] == rows and shape[1] <= 4:
+                columns.update({numbered(name, i): values[:, i] for i in range(shape[1])})
+        if not columns:
+            raise Error(f"/{self._group} of {self._run.path} holds no rows yet")
+        return pandas.DataFrame(columns)
+
+    def _known(self, name: str) -> None:
+        if name not in self._names:
+            self[name]
+
+
+def numbered(name: str, i: int) -> str:
+    """Number i of several, as Talus writes it: "lc/mean", "lc/mean[1]"."""
+    return name if i == 0 else f"{name}[{i}]"
