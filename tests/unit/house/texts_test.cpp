@@ -10,8 +10,8 @@
 namespace talus::house {
 namespace {
 
-const std::vector<std::string> everything = {".",     ".ci",    "src",   "render", "shaders",
-                                             "tests", "assets", "bench", "docs",   "cmake"};
+const std::vector<std::string> everything = {".",      ".ci",   "src",  "render", "shaders", "tests",
+                                             "assets", "bench", "docs", "cmake",  "python"};
 
 /// Whether `line` holds an absolute path below the top folder `name`; "work/" inside a longer path is none.
 bool has_path_below(std::string_view line, std::string_view name) {

@@ -1,0 +1,104 @@
+"""What the tests share: the program, and runs that are made once for all of them."""
+
+import json
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(ROOT / "python"), str(ROOT / "docs/images/cookbook")]
+pytest.importorskip("h5py", reason="h5py is not installed: python3-h5py")
+
+import talus  # noqa: E402
+
+PROGRAM = os.environ.get("TALUS_PROGRAM", str(ROOT / "build/release/talus"))
+
+#: A bed of 90 grains that fails within a second of computing.
+BED = """
+[bed]
+length = 15
+depth = 6
+[tilt]
+rate = 4
+step = 0.004
+[output]
+frame_every = 0.5
+"""
+
+
+def run_talus(*words, folder=None):
+    """What `talus` prints; a failure of it is one of the test."""
+    done = subprocess.run([PROGRAM, *map(str, words)], cwd=folder, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+def json_of(*words):
+    return json.loads(run_talus(*words, "--json"))
+
+
+@pytest.fixture(scope="session")
+def folder(tmp_path_factory):
+    """A folder with bed.toml."""
+    folder = tmp_path_factory.mktemp("runs")
+    (folder / "bed.toml").write_text(BED)
+    return folder
+
+
+@pytest.fixture(scope="session")
+def analysed(folder):
+    """The path of a complete run of a periodic bed, with its analysis."""
+    path = folder / "analysed.h5"
+    run_talus("run", folder / "bed.toml", "-o", path)
+    run_talus("analyze", path)
+    return path
+
+
+@pytest.fixture
+def run(analysed):
+    with talus.open(analysed) as run:
+        yield run
+
+
+@pytest.fixture(scope="session")
+def walls(folder):
+    """The path of a run between walls on a smooth floor, which goes on after its failure; without an analysis."""
+    path = folder / "walls.h5"
+    run_talus("run", folder / "bed.toml", "--set", "bed.boundary=walls", "--set", "bed.floor=smooth",
+              "--set", "tilt.after_failure=hold", "-o", path)
+    return path
+
+
+@pytest.fixture(scope="session")
+def stopped(folder):
+    """The path of a run that was stopped halfway: its folder has several segments."""
+    path = folder / "stopped.h5"
+    process = subprocess.Popen([PROGRAM, "run", folder / "bed.toml", "-o", path], stderr=subprocess.DEVNULL)
+    manifest = folder / "stopped.h5.run/manifest"
+    while process.poll() is None and (not manifest.exists() or manifest.read_text().count("segment") < 8):
+        time.sleep(0.005)
+    process.send_signal(signal.SIGINT)
+    assert process.wait() == 75, "the run was complete before it could be stopped"
+    return path
+
+
+@pytest.fixture
+def copied(analysed, tmp_path):
+    """A copy of the analysed run, to be damaged."""
+    return Path(shutil.copy(analysed, tmp_path / "copied.h5"))
+
+
+@pytest.fixture(scope="session")
+def book(tmp_path_factory):
+    """The folder in which the commands of docs/cookbook.md were called."""
+    import make
+
+    folder = tmp_path_factory.mktemp("cookbook")
+    make.make_runs(folder, PROGRAM)
+    return folder

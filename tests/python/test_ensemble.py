@@ -1,0 +1,132 @@
+"""Ensembles: members, their numbers and means, against members.csv and what `talus ensemble` prints."""
+
+import csv
+import math
+import shutil
+
+import numpy as np
+import pytest
+from conftest import json_of, run_talus
+
+import talus
+
+VARIANTS = ["contact.friction=0.2", "contact.friction=0.5"]
+
+
+@pytest.fixture
+def folder_of(book):
+    return book / "runs/cookbook-friction"
+
+
+@pytest.fixture
+def ensemble(folder_of):
+    return talus.open_ensemble(folder_of)
+
+
+def test_members_and_means_are_those_of_talus_ensemble_status(ensemble, folder_of):
+    status = json_of("ensemble", "status", folder_of)
+    assert ensemble.variants == list(status["variants"]) == VARIANTS and ensemble.version == status["version"]
+    names = [str(member.path.relative_to(folder_of).with_suffix("")) for member in ensemble.members]
+    assert names == list(status["members"])
+    for member, name in zip(ensemble.members, names):
+        told = status["members"][name]
+        assert (member.stage, member.state_hash, member.seconds) == ("done", told["state_hash"], told["seconds"])
+    for variant, means in status["variants"].items():
+        for name, told in means.items():
+            mean = ensemble.mean(name, variant)
+            told = {key: np.nan if value is None else value for key, value in told.items()}
+            expected = (told["n"], told["mean"], told["deviation"], told["error"])
+            assert mean == pytest.approx(expected, rel=1e-12, nan_ok=True), name
+            assert not mean.count or ensemble.unit(name) == told["unit"]
+
+
+def test_numbers_are_those_of_members_csv(ensemble, folder_of):
+    with (folder_of / "members.csv").open(newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert [(m.variant, str(m.seed)) for m in ensemble.done()] == [(row["variant"], row["seed"]) for row in rows]
+    for column in list(rows[0])[5:]:
+        name, unit = column[:-1].split(" (")
+        for variant in VARIANTS:
+            expected = [float(row[column] or "nan") for row in rows if row["variant"] == variant]
+            np.testing.assert_array_equal(ensemble.numbers(name, variant), expected, err_msg=column)
+        assert ensemble.unit(name) == unit
+
+
+def test_table_is_members_csv(ensemble, folder_of):
+    pandas = pytest.importorskip("pandas", reason="pandas is not installed: python3-pandas")
+    expected = pandas.read_csv(folder_of / "members.csv")
+    found = ensemble.to_pandas()
+    assert list(found.columns) == [column.split(" (")[0] for column in expected.columns]
+    found.columns = expected.columns
+    pandas.testing.assert_frame_equal(found, expected, check_dtype=False, rtol=1e-15)
+
+
+def test_own_measures_are_taken_of_each_run(ensemble):
+    measured = ensemble.measure(lambda run: run.theta_c, VARIANTS[0], units="D")
+    np.testing.assert_allclose(measured, ensemble.numbers("theta_c", VARIANTS[0]), rtol=1e-14)
+    assert ensemble.measure(lambda run: run.analysis["threshold"], VARIANTS[1]).shape == (4, 2)
+    with ensemble.members[0].open() as run:
+        assert run.seed == 1 and run.friction == 0.2
+
+
+def test_scenarios_are_those_of_the_variants(ensemble):
+    assert [ensemble.scenario(variant)["contact"]["friction"] for variant in VARIANTS] == [0.2, 0.5]
+
+
+def test_means_leave_out_what_is_no_number():
+    assert talus.mean_of([1.0, math.nan, 3.0]) == pytest.approx((2, 2.0, 2**0.5, 1.0))
+    assert talus.mean_of([5.0]) == pytest.approx((1, 5.0, math.nan, math.nan), nan_ok=True)
+    assert talus.mean_of([]) == pytest.approx((0, math.nan, math.nan, math.nan), nan_ok=True)
+
+
+def test_stages_of_members_that_are_not_done(folder_of, tmp_path):
+    copy = tmp_path / "copy"
+    shutil.copytree(folder_of, copy, ignore=shutil.ignore_patterns("*.h5"))
+    variant = copy / VARIANTS[0]
+    for seed in (1, 2, 3):
+        (variant / f"seed-{seed}.csv").unlink()
+    (variant / "seed-1.failed").write_text("exit code 65\nit failed\n")
+    (variant / "seed-2.claim-0").touch()
+    status = json_of("ensemble", "status", copy)
+    ensemble = talus.open_ensemble(copy)
+    stages = [member.stage for member in ensemble.members]
+    assert stages == [told["stage"] for told in status["members"].values()]
+    assert stages[::2] == ["failed", "claimed", "waiting", "done"] and stages[1::2] == ["done"] * 4
+    assert ensemble.mean("theta_c", VARIANTS[0]).count == 1 and len(ensemble.done()) == 5
+
+
+def test_ensemble_of_one_variant_needs_no_name(folder, tmp_path):
+    run_talus("ensemble", folder / "bed.toml", "--seeds", "3,7-8", "--until", "theta_c:50",
+              "--set", "tilt.end_angle=1", "-o", tmp_path / "one")
+    ensemble = talus.open_ensemble(tmp_path / "one")
+    assert (ensemble.seeds, ensemble.variants, ensemble.until) == ([3, 7, 8], [""], "theta_c:50")
+    assert ensemble.scenario()["tilt"]["end_angle"] == 1 and len(ensemble.numbers("gamma_c")) == 3
+
+
+def test_errors_name_what_there_is(ensemble, folder_of, tmp_path):
+    with pytest.raises(talus.Error, match=f"name a variant; it has {VARIANTS[0]}, {VARIANTS[1]}"):
+        ensemble.mean("theta_c")
+    with pytest.raises(talus.Error, match="has no variant 'contact.friction=0.4'"):
+        ensemble.mean("theta_c", "contact.friction=0.4")
+    with pytest.raises(talus.Error, match="no number theta_k; they have theta_c, first_slide"):
+        ensemble.mean("theta_k", VARIANTS[0])
+    with pytest.raises(talus.Error, match="no ensemble here; begin one with"):
+        talus.open_ensemble(tmp_path)
+    with pytest.raises(talus.Error, match="talus.open_ensemble opens it"):
+        talus.open(folder_of)
+
+
+@pytest.mark.parametrize("text", ["", "talus ensemble 2\n", "talus ensemble 1\nseeds 1-x\nhash 0\n",
+                                  "talus ensemble 1\nseeds 1-3\nvariant 0 \n"])
+def test_damaged_manifests(tmp_path, text):
+    (tmp_path / "ensemble.manifest").write_text(text)
+    with pytest.raises(talus.Error, match="ensemble.manifest: is not what talus wrote"):
+        talus.open_ensemble(tmp_path)
+
+
+def test_damaged_numbers(folder_of, tmp_path):
+    copy = tmp_path / "copy"
+    shutil.copytree(folder_of, copy, ignore=shutil.ignore_patterns("*.h5"))
+    (copy / VARIANTS[1] / "seed-2.csv").write_text("quantity,unit,value\nstate_hash,,0\n")
+    with pytest.raises(talus.Error, match="seed-2.csv: is not what talus wrote"):
+        talus.open_ensemble(copy)

@@ -1,0 +1,126 @@
+"""A run as a whole: what it says of itself, its units, its series and its analysis, against what `talus` prints."""
+
+import math
+import re
+
+import numpy as np
+import pytest
+from conftest import ROOT, json_of
+
+import talus
+
+
+def test_facts_are_those_of_talus_info(run, analysed):
+    info = json_of("info", analysed)
+    assert run.complete and info["complete"]
+    assert (run.seed, run.free.sum(), (~run.free).sum()) == (info["seed"], info["grains"], info["floor_grains"])
+    assert len(run.frames) == info["frames"] == len(run.tilt)
+    assert math.degrees(run.theta_c) == pytest.approx(info["theta_c"], rel=1e-14)
+    assert run.results == info["results"]
+    assert {name: run.provenance[name] for name in info["provenance"]} == info["provenance"]
+    assert run["provenance/timing/tilt"] == info["timing"]["tilt"]
+    assert run["checkpoint/state_hash"] == info["state_hash"]
+
+
+def test_scenario_is_the_one_that_was_computed(run):
+    assert run.scenario["bed"]["length"] * run.D == pytest.approx(run.length)
+    assert run.scenario["bed"]["depth"] * run.D == pytest.approx(run.depth)
+    assert run.scenario["tilt"]["rate"] == 4 and run.scenario["contact"]["friction"] == run.friction == 0.5
+    assert "rate = 4" in run["parameters/scenario_given"]
+    assert run.periodic and run.gravity == 9.81
+
+
+def test_analysis_is_that_of_talus_analyze(run, analysed):
+    [printed] = json_of("analyze", analysed)
+    names = [name for name in printed if name in run.analysis]
+    assert len(names) > 60
+    for name in names:
+        if name in ("key", "version"):
+            continue
+        expected = np.array(printed[name], dtype=float)  # null: NaN
+        np.testing.assert_allclose(run.analysis[name], expected, rtol=1e-14, err_msg=name)
+    assert run.analysis["clusters/label"].shape == (run.frames_of_tilt, 2, len(run.id))
+    assert run.analysis["parameters/l_min"] == "3" and run.analysis["key"] == printed["key"]
+
+
+def test_units_are_those_of_the_file_or_of_tables(analysed, run):
+    with talus.open(analysed, units="D") as scaled:
+        assert scaled.theta_c == math.degrees(run.theta_c) and scaled.D == run.D == 0.01
+        assert (scaled.length, scaled.depth) == pytest.approx((15, 6))
+        assert scaled.radius[scaled.free].mean() == pytest.approx(0.5, rel=0.02)
+        np.testing.assert_allclose(scaled.frames[7].position * run.D, run.frames[7].position, rtol=1e-14)
+        np.testing.assert_allclose(scaled.frames[7].contacts.branch * run.D, run.frames[7].contacts.branch, atol=1e-16)
+        np.testing.assert_array_equal(scaled.frames[7].contacts.force, run.frames[7].contacts.force)
+        np.testing.assert_array_equal(scaled.observables["tilt"], np.degrees(run.observables["tilt"]))
+        np.testing.assert_array_equal(scaled.analysis["lc/mean"], run.analysis["lc/mean"] / run.D)
+        assert scaled.analysis.unit("lc/mean") == "D" and run.analysis.unit("lc/mean") == "m"
+        assert scaled.unit("frames/tilt") == "deg" and run.unit("/frames/tilt") == "rad"
+        assert scaled.unit("contacts/force") == run.unit("contacts/force") == "N/m"
+
+
+def test_meanings_are_those_of_the_file(run):
+    assert run.meaning("particles/grains/gamma/value") == "stress ratio q/p of a grain; NaN where it carries nothing"
+    assert run.analysis.meaning("overloaded/fraction").startswith("p_o: overloaded grains over")
+    assert run.observables.meaning("volume_strain").startswith("(V - V0)/V0")
+
+
+def test_floats_are_doubles_and_scalars_are_plain(run):
+    assert run.frames[0].position.dtype == np.float64 and type(run.theta_c) is float and type(run.seed) is int
+
+
+def test_frames_are_chosen_as_by_talus_render(run, analysed):
+    assert run.frame_at(10).tilt == pytest.approx(math.radians(10))
+    assert run.frame_at(10.2).tilt == pytest.approx(math.radians(10))
+    at_repose = run.frame_at("repose")
+    assert at_repose.tilt <= run.theta_c < run.frames[at_repose.index + 1].tilt
+    with pytest.raises(talus.Error, match=r"no frame at 60 deg; its \d+ frames go from 0.00 to"):
+        run.frame_at(60)
+    with talus.open(analysed, units="D") as scaled:
+        assert scaled.frame_at(10).index == run.frame_at(10).index
+        assert scaled.frame_at("repose").index == at_repose.index
+
+
+def test_frames_after_failure_are_told_apart(walls):
+    info = json_of("info", walls)
+    with talus.open(walls) as run:
+        assert 0 < info["frames_after_failure"] == len(run.frames) - run.frames_of_tilt
+        assert run.tilt[run.frames_of_tilt - 1] == run.tilt.max()
+        assert math.degrees(run.results["theta_r"]) == pytest.approx(info["theta_r"])
+        assert not run.periodic and set(run.steps["phase"]) == {0, 1, 3}
+
+
+def test_frames_are_a_sequence(run):
+    assert [frame.index for frame in run.frames[2:5]] == [2, 3, 4]
+    assert run.frames[-1].index == len(run.frames) - 1 == [frame.index for frame in run.frames][-1]
+    with pytest.raises(IndexError, match="has 50 frames"):
+        run.frames[50]
+
+
+def test_a_closed_run_is_opened_again(analysed):
+    with talus.open(analysed) as run:
+        pass
+    assert run.frames[1].gamma.shape == run.id.shape
+
+
+def test_series_as_a_table(run):
+    pytest.importorskip("pandas", reason="pandas is not installed: python3-pandas")
+    table = run.observables.to_pandas()
+    assert set(table.columns) == set(run.observables) and len(table) == len(run.observables["tilt"])
+    np.testing.assert_array_equal(table["volume_strain"], run.observables["volume_strain"])
+
+
+def test_analysis_as_a_table_has_what_the_page_gives_by_frame(run):
+    pytest.importorskip("pandas", reason="pandas is not installed: python3-pandas")
+    table = run.analysis.to_pandas()
+    page = (ROOT / "docs/analysis.md").read_text()
+    shapes = dict(re.findall(r"^\| `/analysis/(\S+)` \| \S+ \| ([^|]*) \|", page, re.MULTILINE))
+    expected = {"tilt"} | {name for name, shape in shapes.items() if shape in ("T", "T F", "T 2", "T 3", "T F 2")}
+    expected -= {name for name, shape in shapes.items() if shape == "T F 2"}
+    assert len(expected) == 40 and {name.split("[")[0] for name in table.columns} == expected
+    np.testing.assert_array_equal(table["overloaded/fraction[1]"], run.analysis["overloaded/fraction"][:, 1])
+    assert len(table) == run.frames_of_tilt
+
+
+def test_version_is_that_of_the_program():
+    project = (ROOT / "CMakeLists.txt").read_text()
+    assert f"project(talus VERSION {talus.__version__} " in project
