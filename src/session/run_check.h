@@ -27,7 +27,9 @@ inline constexpr std::size_t most_faults = 20;
 /// What is still right, for a frame as it is stored (single precision).
 inline constexpr double overlap_limit = 0.5;         ///< D; more where the guards of the run let it go on
 inline constexpr double mobilisation_limit = 1.001;  ///< the solver's tolerance, and single precision
-inline constexpr double imbalance_limit = 0.02;  ///< m g: twice what rest allows a velocity to change in h
+/// m g: twice what rest allows a velocity to change in h, by the usual deposition.rest_velocity; a larger one
+/// allows more.
+inline constexpr double imbalance_limit = 0.02;
 inline constexpr double moment_error_limit = 1e-5;
 
 /// Reads all of a run. Of one that was repaired (RunFile::lost) the series may lack rows and values.

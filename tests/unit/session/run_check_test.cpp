@@ -138,6 +138,26 @@ TEST(RunCheck, tells_of_overlaps_unless_the_guards_of_the_run_let_it_go_on) {
   EXPECT_FALSE(is_told(run_of(scenario))) << "the overlap is recorded, and it is no damage";
 }
 
+TEST(RunCheck, allows_a_bed_at_rest_what_its_rest_velocity_allows) {
+  const auto is_told = [](double rest_velocity, double factor) {
+    Scenario scenario = small_bed();
+    scenario.deposition.rest_velocity = rest_velocity;
+    // All forces of the flat bed: the weight is out of balance by 1 - factor.
+    const auto scale_forces = [factor](Segment& s) {
+      Frame& frame = s.frames[0];
+      for (std::size_t c = 0; c < frame.contacts.fn.size(); ++c) {
+        frame.contacts.fn[c] *= factor;
+        frame.contacts.ft[c] *= factor;
+      }
+    };
+    return faults_of(check_with(scale_forces, run_of(scenario))).find("forces and weight differ") !=
+           std::string::npos;
+  };
+  EXPECT_TRUE(is_told(0.005, 0.9));
+  EXPECT_FALSE(is_told(0.05, 0.9)) << "0.1 m g, of 4 times 0.05";
+  EXPECT_TRUE(is_told(0.05, 0.7));
+}
+
 TEST(RunCheck, does_not_tell_more_than_can_be_read) {
   const RunCheck check = check_with([](Segment& s) {
     for (StepRow& row : s.steps) at(row, StepField::residual) = std::numeric_limits<double>::infinity();
