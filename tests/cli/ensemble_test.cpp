@@ -194,6 +194,40 @@ TEST(Ensemble, replaces_a_worker_that_was_killed) {
   EXPECT_EQ(count_of_lines(text_of(folder.path("e/members.csv"))), 7u);
 }
 
+/// The first number in a file, once there is one; 0 after half a minute. Words before it are passed over.
+int number_in(const std::string& path, int words_before = 0) {
+  for (int wait = 0; wait < 3000; ++wait) {
+    std::ifstream file(path);
+    std::string word;
+    for (int k = 0; k < words_before; ++k) file >> word;
+    if (int number = 0; file >> number) return number;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return 0;
+}
+
+TEST(Ensemble, takes_a_member_for_failed_that_is_killed_but_not_with_its_worker) {
+  const TemporaryFolder folder;
+  write_file(folder, "bed.toml", "[bed]\nlength = 50\ndepth = 20\n");
+  ASSERT_EQ(
+      run_talus({"ensemble", "bed.toml", "--seeds", "1", "--jobs", "0", "-o", "e"}, folder.path()).exit_code,
+      0);
+  for (const bool with_worker : {true, false}) {
+    const pid_t work = start_talus({"ensemble", "work", "e"}, folder.path());
+    const int worker = number_in(folder.path("e/seed-1.claim-0"), 1);  // "process 123 on host a"
+    ASSERT_EQ(worker, work);
+    const std::string process = std::to_string(worker);
+    const int member = number_in("/proc/" + process + "/task/" + process + "/children");
+    ASSERT_GT(member, 0);
+    kill(member, SIGKILL);
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    if (with_worker) kill(worker, SIGKILL);
+    wait_for(work);
+    EXPECT_EQ(std::filesystem::exists(folder.path("e/seed-1.failed")), !with_worker);
+    std::filesystem::remove(folder.path("e/seed-1.claim-0"));
+  }
+}
+
 TEST(Ensemble, takes_over_what_a_worker_of_another_machine_has_left) {
   const TemporaryFolder folder;
   write_file(folder, "bed.toml", tiny_bed);
