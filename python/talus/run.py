@@ -77,7 +77,8 @@ class Run:
         self.close()
 
     def __repr__(self) -> str:
-        return f"<run {self.path}: {len(self.id)} grains, {len(self.tilt)} frames{'' if self.complete else ', not complete'}>"
+        rest = "" if self.complete else ", not complete"
+        return f"<run {self.path}: {len(self.id)} grains, {len(self.tilt)} frames{rest}>"
 
     def close(self) -> None:
         """Closes the file. What is asked for later opens it again."""

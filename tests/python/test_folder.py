@@ -87,6 +87,21 @@ def test_run_that_replaces_another_is_read_before_it_is_packed(analysed, stopped
     assert not talus.open(path).complete
 
 
+def test_run_that_is_packed_while_it_is_opened_is_found(stopped, analysed, tmp_path, monkeypatch):
+    path = tmp_path / "packing.h5"
+    shutil.copytree(f"{stopped}.run", f"{path}.run")
+    read = talus.run.Storage
+
+    def pack_and_read(place, manifest):
+        if place.is_dir():
+            shutil.copy(analysed, path)
+            shutil.rmtree(place)
+        return read(place, manifest)
+
+    monkeypatch.setattr(talus.run, "Storage", pack_and_read)
+    assert talus.open(path).complete
+
+
 def test_run_that_is_packed_meanwhile_says_so(stopped, tmp_path):
     copy = tmp_path / "packed.h5"
     shutil.copytree(f"{stopped}.run", f"{copy}.run")
@@ -109,6 +124,10 @@ def test_run_that_is_open_here_can_be_analysed_and_read_on(copied):
 def test_file_that_its_writer_still_locks_is_waited_for(copied):
     with copied.open() as writer:
         fcntl.flock(writer, fcntl.LOCK_EX)
-        threading.Timer(0.3, fcntl.flock, [writer, fcntl.LOCK_UN]).start()
-        with talus.open(copied) as run:
-            assert len(run.frames) == 50
+        release = threading.Timer(0.3, fcntl.flock, [writer, fcntl.LOCK_UN])
+        release.start()
+        try:
+            with talus.open(copied) as run:
+                assert len(run.frames) == 50
+        finally:
+            release.join()

@@ -75,6 +75,8 @@ def test_frames_are_chosen_as_by_talus_render(run, analysed):
     assert at_repose.tilt <= run.theta_c < run.frames[at_repose.index + 1].tilt
     with pytest.raises(talus.Error, match=r"no frame at 60 deg; its \d+ frames go from 0.00 to"):
         run.frame_at(60)
+    with pytest.raises(talus.Error, match="no frame at"):
+        run.frame_at(math.degrees(run.tilt[-1]) + 0.3)  # frames are 0.5 deg apart
     with talus.open(analysed, units="D") as scaled:
         assert scaled.frame_at(10).index == run.frame_at(10).index
         assert scaled.frame_at("repose").index == at_repose.index

@@ -72,7 +72,8 @@ def main(names):
     make_runs(folder, ROOT / "build/release/talus")
     for name in names or recipes():
         # 128 colours are as good as all here, and a third of the bytes.
-        Image.open(make_picture(name, folder)).convert("RGB").quantize(128, dither=0).save(PICTURES / f"{name}.png", optimize=True)
+        picture = Image.open(make_picture(name, folder)).convert("RGB").quantize(128, dither=0)
+        picture.save(PICTURES / f"{name}.png", optimize=True)
         print(f"docs/images/cookbook/{name}.png")
 
 
