@@ -82,7 +82,7 @@ const Damage damages[] = {
      "frame 0: internal_moment is not that of the contacts"},
     {"another_moment", [](Segment& s) { s.frames[2].internal_moment[4].xy += 0.5; },
      "frame 2: internal_moment"},
-    {"another_tilt", [](Segment& s) { s.frames[0].tilt = 0.1; }, "forces and weight differ by"},
+    {"another_tilt", [](Segment& s) { s.frames[0].tilt = 0.5; }, "forces and weight differ by"},
     {"two_grains_in_one_place",
      [](Segment& s) {
        s.frames[1].x[2] = s.frames[1].x[9];
