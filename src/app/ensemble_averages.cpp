@@ -3,13 +3,28 @@
 #include <filesystem>
 
 #include "app/analysed_run.h"
+#include "core/descriptor.h"
+#include "core/locked_file.h"
 #include "ensemble/averages_file.h"
+#include "ensemble/member_series.h"
 #include "io/durable_file.h"
 #include "scenario/text.h"
 #include "session/analysis_parameters.h"
 
 namespace talus {
 namespace {
+
+/// The series of a member that is done: read from the table beside its run, or made from the run and its
+/// analysis where there is none, and kept.
+MemberSeries series_of_member(const Member& member) {
+  const std::string path = series_path(member.path);
+  if (std::filesystem::exists(path)) return parse_series(read_text(path), path);
+  const AnalysedRun analysed =
+      analysed_run(member.path, parse_analysis_settings({}), {.threads = 1, .quiet = true});
+  MemberSeries series = member_series(analysed.analysis, analysed.statics.mean_diameter);
+  write_text(path, series_csv(series));
+  return series;
+}
 
 NamedAverages averages_of_variant(const EnsembleView& view, std::size_t variant) {
   std::vector<MemberResult> members;
@@ -23,27 +38,26 @@ NamedAverages averages_of_variant(const EnsembleView& view, std::size_t variant)
           averages_of(members, found.scenario.output.frame_every)};
 }
 
-}  // namespace
-
-MemberSeries series_of_member(const Member& member) {
-  const std::string path = series_path(member.path);
-  if (std::filesystem::exists(path)) return parse_series(read_text(path), path);
-  const AnalysedRun analysed =
-      analysed_run(member.path, parse_analysis_settings({}), {.threads = 1, .quiet = true});
-  MemberSeries series = member_series(analysed.analysis, analysed.statics.mean_diameter);
-  write_text(path, series_csv(series));
-  return series;
-}
-
-void write_averages(const EnsembleView& view) {
-  if (count_of(view.states, MemberStage::done) == 0) return;
-  const std::filesystem::path folder = view.folder;
+void write_files(const std::filesystem::path& folder, const EnsembleView& view) {
   std::vector<NamedAverages> variants;
   for (std::size_t v = 0; v < view.plan.variants.size(); ++v)
     variants.push_back(averages_of_variant(view, v));
   write_text((folder / "members.csv").string(), members_csv(view));
   write_text((folder / "averages.csv").string(), averages_csv(variants));
   write_averages((folder / "ensemble.h5").string(), variants, view.manifest.version);
+}
+
+}  // namespace
+
+EnsembleView write_averages(const std::string& folder) {
+  const std::filesystem::path place = folder;
+  const std::string lock_path = (place / "averages.lock").string();
+  read_ensemble(folder);  // before a file is made in what may be no ensemble
+  const Descriptor lock = create_locked_when_free(lock_path);
+  EnsembleView view = view_of_ensemble(folder);
+  if (count_of(view.states, MemberStage::done) > 0) write_files(place, view);
+  remove_file(lock_path);
+  return view;
 }
 
 }  // namespace talus

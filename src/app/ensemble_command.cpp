@@ -20,6 +20,7 @@
 #include "core/errors.h"
 #include "core/output_file.h"
 #include "core/text.h"
+#include "ensemble/member_series.h"
 #include "ensemble/until.h"
 #include "ensemble/worker.h"
 #include "io/durable_file.h"
@@ -66,8 +67,7 @@ void run_ensemble(const EnsembleArguments& arguments) {
   extend_ensemble(arguments.folder, wanted);
   if (arguments.jobs > 0)
     compute_members({arguments.folder, arguments.times, arguments.max_wall, arguments.jobs});
-  const EnsembleView view = view_of_ensemble(arguments.folder);
-  write_averages(view);
+  const EnsembleView view = write_averages(arguments.folder);
   std::printf("%s", (arguments.json ? ensemble_json(view) + "\n" : ensemble_text(view)).c_str());
   refuse_failures(view);
 }
@@ -115,9 +115,7 @@ void work(const EnsembleArguments& arguments) {
 }
 
 void average(const EnsembleArguments& arguments) {
-  const EnsembleView view = view_of_ensemble(arguments.folder);
-  write_averages(view);
-  std::printf("%s", ensemble_text(view).c_str());
+  std::printf("%s", ensemble_text(write_averages(arguments.folder)).c_str());
 }
 
 void retry(const EnsembleArguments& arguments) {

@@ -69,11 +69,11 @@ void renew(AveragesOnTheWay& averages, const std::string& folder) {
   const auto now = std::chrono::steady_clock::now();
   if (now - averages.made < std::chrono::minutes(1)) return;
   averages.made = now;
-  const EnsembleView view = view_of_ensemble(folder);
-  const std::size_t done = count_of(view.states, MemberStage::done);
+  const std::size_t done =
+      count_of(look_at_members(plan_of(read_ensemble(folder), folder)), MemberStage::done);
   if (done == averages.members) return;
   averages.members = done;
-  write_averages(view);
+  write_averages(folder);
 }
 
 std::vector<std::string> worker_words(const EnsembleWorkers& workers) {

@@ -6,8 +6,11 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <filesystem>
 #include <fmt/core.h>
+#include <thread>
+#include <utility>
 
 #include "core/errors.h"
 
@@ -87,6 +90,13 @@ std::optional<Descriptor> create_locked(const std::string& path) {
     if (::unlink(path.c_str()) != 0) throw creation_error("replace", path, errno);
   }
   give_up(path);
+}
+
+Descriptor create_locked_when_free(const std::string& path) {
+  for (;;) {
+    if (std::optional<Descriptor> file = create_locked(path)) return std::move(*file);
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
 }
 
 std::optional<Descriptor> create_locked_folder(const std::string& path) {

@@ -16,6 +16,9 @@ namespace talus {
 /// folder or a device has the name, which stays.
 std::optional<Descriptor> create_locked(const std::string& path);
 
+/// The same, once no other process holds it.
+Descriptor create_locked_when_free(const std::string& path);
+
 /// The same of an empty folder, which is open for reading. One that was left is removed with all that is in
 /// it.
 std::optional<Descriptor> create_locked_folder(const std::string& path);

@@ -1,14 +1,12 @@
 #include "ensemble/ensemble_manifest.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cstddef>
 #include <filesystem>
 #include <fmt/core.h>
 #include <optional>
 #include <span>
 #include <sstream>
-#include <thread>
 
 #include "core/errors.h"
 #include "core/hash.h"
@@ -57,14 +55,6 @@ std::string text_of(const EnsembleManifest& manifest) {
   for (const Variant& variant : manifest.variants)
     text += fmt::format("variant {} {}\n", hash_of(read_text(variant.scenario_file)), variant.name);
   return fmt::format("{}hash {}\n", text, hash_of(text));
-}
-
-/// Only one process at a time extends an ensemble; the others wait.
-Descriptor wait_for_lock(const std::string& path) {
-  for (;;) {
-    if (std::optional<Descriptor> lock = create_locked(path)) return std::move(*lock);
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
-  }
 }
 
 [[noreturn]] void refuse_damaged(const std::string& path) {
@@ -206,7 +196,8 @@ std::vector<Variant> plan_variants(const std::string& scenario_file, const std::
 EnsembleManifest extend_ensemble(const std::string& folder, const EnsembleManifest& wanted) {
   const std::string lock_path = manifest_path(folder) + ".lock";
   prepare_folder(folder);
-  const Descriptor lock = wait_for_lock(lock_path);
+  // Only one process at a time extends an ensemble; the others wait.
+  const Descriptor lock = create_locked_when_free(lock_path);
   EnsembleManifest all{version_text(), wanted.seeds, wanted.until, {}};
   std::string before;
   if (is_ensemble(folder)) {

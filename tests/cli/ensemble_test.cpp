@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <csignal>
 #include <fstream>
-#include <sstream>
 #include <thread>
 
 #include "process.h"
@@ -16,13 +15,6 @@ namespace {
 /// A bed of 32 grains that is deposited and tilted to its end in a fraction of a second.
 const char* const tiny_bed =
     "[bed]\nlength = 10\ndepth = 4\n[tilt]\nend_angle = 1.5\n[output]\nframe_every = 0.5\n";
-
-std::string text_of(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::stringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
 
 std::vector<std::string> ensemble_of(const std::string& folder, const std::string& seeds = "1-4") {
   return {"ensemble", "bed.toml", "--seeds", seeds, "-o", folder};
@@ -110,6 +102,22 @@ TEST(Ensemble, is_averaged_again_from_the_tables_of_its_members_or_from_their_ru
   const Outcome changed = run_talus({"ensemble", "average", "e"}, folder.path());
   EXPECT_EQ(changed.exit_code, 65);
   EXPECT_NE(changed.err.find("seed-1.series.csv"), std::string::npos) << changed.err;
+}
+
+TEST(Ensemble, is_averaged_by_one_process_at_a_time_and_none_is_refused) {
+  const TemporaryFolder folder;
+  write_file(folder, "bed.toml", tiny_bed);
+  ASSERT_EQ(run_talus(ensemble_of("e", "1-3"), folder.path()).exit_code, 0);
+  const std::string before = text_of(folder.path("e/averages.csv"));
+  for (int round = 0; round < 5; ++round) {
+    std::vector<pid_t> processes;
+    for (int k = 0; k < 6; ++k) processes.push_back(start_talus({"ensemble", "average", "e"}, folder.path()));
+    for (const pid_t process : processes) EXPECT_EQ(wait_for(process), 0) << errors_in(folder.path());
+  }
+  EXPECT_EQ(text_of(folder.path("e/averages.csv")), before);
+  EXPECT_FALSE(std::filesystem::exists(folder.path("e/averages.lock")));
+  EXPECT_EQ(run_talus({"ensemble", "average", "none"}, folder.path()).exit_code, 66);
+  EXPECT_FALSE(std::filesystem::exists(folder.path("none")));
 }
 
 class InterruptedEnsemble : public testing::TestWithParam<int> {};

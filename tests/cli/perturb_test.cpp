@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <csignal>
-#include <fstream>
-#include <sstream>
 #include <thread>
 
 #include "process.h"
@@ -21,13 +19,6 @@ std::vector<std::string> perturb(const std::string& folder, const std::vector<st
                                     "8",       "--every",  "5",  "--patch", "4x1"};
   words.insert(words.end(), more.begin(), more.end());
   return words;
-}
-
-std::string text_of(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::stringstream text;
-  text << file.rdbuf();
-  return text.str();
 }
 
 std::string hash_of(const std::string& run, const TemporaryFolder& folder) {

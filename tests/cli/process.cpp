@@ -15,13 +15,6 @@
 namespace talus::test {
 namespace {
 
-std::string content(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  std::stringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
 pid_t start(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
             const std::vector<std::string>& environment, const std::string& out, const std::string& err) {
   const pid_t child = fork();
@@ -43,14 +36,21 @@ pid_t start(const std::vector<std::string>& arguments, const std::filesystem::pa
 
 }  // namespace
 
+std::string text_of(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
 Outcome run_talus(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
                   const std::vector<std::string>& environment) {
   const std::string out = (folder / ".stdout").string();
   const std::string err = (folder / ".stderr").string();
   Outcome outcome;
   outcome.exit_code = wait_for(start(arguments, folder, environment, out, err));
-  outcome.out = content(out);
-  outcome.err = content(err);
+  outcome.out = text_of(out);
+  outcome.err = text_of(err);
   return outcome;
 }
 
@@ -58,7 +58,7 @@ pid_t start_talus(const std::vector<std::string>& arguments, const std::filesyst
   return start(arguments, folder, {}, "/dev/null", (folder / ".stderr").string());
 }
 
-std::string errors_in(const std::filesystem::path& folder) { return content((folder / ".stderr").string()); }
+std::string errors_in(const std::filesystem::path& folder) { return text_of((folder / ".stderr").string()); }
 
 int wait_for(pid_t process) {
   int status = 0;
@@ -75,7 +75,7 @@ bool has_ended(pid_t process) {
 bool wait_until_it_catches(pid_t process, int signal) {
   const std::string status = "/proc/" + std::to_string(process) + "/status", mark = "SigCgt:";
   for (int wait = 0; wait < 6000 && !has_ended(process); ++wait) {
-    const std::string text = content(status);
+    const std::string text = text_of(status);
     const std::size_t at = text.find(mark);
     const std::uint64_t caught =
         at == std::string::npos ? 0 : std::strtoull(text.c_str() + at + mark.size(), nullptr, 16);

@@ -35,6 +35,9 @@ bool wait_until_it_catches(pid_t process, int signal);
 /// comes to its end in few attempts, however slow the machine.
 void pause_before(int attempt, double milliseconds);
 
+/// All of a file; empty where there is none.
+std::string text_of(const std::filesystem::path& path);
+
 /// Writes a file in the folder and returns its name.
 std::string write_file(const TemporaryFolder& folder, const std::string& name, const std::string& text);
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <csignal>
 #include <fstream>
-#include <sstream>
 #include <thread>
 
 #include "process.h"
@@ -26,13 +25,6 @@ std::vector<std::string> study_of(const std::string& folder) {
 }
 const char* const runs[] = {"baseline/seed-1", "baseline/seed-2", "tilt.rate=2,tilt.step=0.002/seed-1",
                             "solver.tolerance=1e-05/seed-2"};
-
-std::string text_of(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::stringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
 
 std::string hash_of(const std::string& run, const TemporaryFolder& folder) {
   return json_value(run_talus({"info", run, "--json"}, folder.path()).out, "state_hash");

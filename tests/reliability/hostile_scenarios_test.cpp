@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <iterator>
 
 #include "cli/process.h"
@@ -13,11 +12,6 @@ namespace {
 namespace fs = std::filesystem;
 
 const fs::path bad = fs::path(TALUS_SOURCE_DIR) / "tests/scenarios/bad";
-
-std::string text_of(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 std::size_t file_count(const TemporaryFolder& folder) {
   return static_cast<std::size_t>(

@@ -7,10 +7,8 @@
 #include <chrono>
 #include <csignal>
 #include <filesystem>
-#include <fstream>
 #include <future>
 #include <set>
-#include <sstream>
 #include <thread>
 
 #include "io/run_file.h"
@@ -26,12 +24,6 @@ void pause(int milliseconds) { std::this_thread::sleep_for(std::chrono::millisec
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-std::string text_of(const std::string& path) {
-  std::stringstream text;
-  text << std::ifstream(path).rdbuf();
-  return text.str();
 }
 
 /// Waits until `holds()`; false after half a minute.
