@@ -21,6 +21,15 @@ constexpr double hopeful = 1.1;
 constexpr double cautious = 0.85;
 // With a guess, what is left is smooth: the momentum begins near its largest.
 constexpr double first_theta_warm = 0.07;
+// It begins anew at the first renewal after so many sweeps, as it would otherwise stay away for good once
+// changes stay above the least one of all.
+constexpr int sweeps_of_momentum = 256;
+
+Momentum warm_momentum() {
+  Momentum momentum;
+  momentum.theta = first_theta_warm;
+  return momentum;
+}
 
 SweepSums add_parts(const std::vector<SweepSums>& parts) {
   SweepSums sum;
@@ -156,8 +165,8 @@ AcceleratedOutcome solve_part(TeamMember& member, double tolerance, int max_iter
   ExactResidual at = member.begin();
   outcome.residual = at.residual;
   if (at.residual.eta <= tolerance || max_iterations <= 0) return outcome;
-  Momentum momentum;
-  if (!at.cold) momentum.theta = first_theta_warm;
+  Momentum momentum = at.cold ? Momentum{} : warm_momentum();
+  int next_momentum = sweeps_of_momentum;
   double aim = hopeful * tolerance;
   int interval = at.cold ? first_renewal_cold : sweeps_to_renewal;
   if (!member.begin_sweeps()) return outcome;
@@ -183,7 +192,9 @@ AcceleratedOutcome solve_part(TeamMember& member, double tolerance, int max_iter
       momentum = {};
     } else {
       member.go_on();
+      if (outcome.iterations >= next_momentum) momentum = warm_momentum();
     }
+    if (outcome.iterations >= next_momentum) next_momentum = outcome.iterations + sweeps_of_momentum;
   }
 }
 
