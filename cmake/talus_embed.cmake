@@ -6,5 +6,6 @@ function(talus_embed list name file)
   add_custom_command(OUTPUT ${output}
     COMMAND ${CMAKE_COMMAND} -DNAME=${name} -DINPUT=${file} -DOUTPUT=${output} -P ${TALUS_EMBED_SCRIPT}
     DEPENDS ${file} ${TALUS_EMBED_SCRIPT} VERBATIM)
+  set_source_files_properties(${output} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON) # each has its own bytes
   set(${list} ${${list}} ${output} PARENT_SCOPE)
 endfunction()

@@ -8,7 +8,7 @@ endfunction()
 
 # talus_test(NAME LABEL sources... [SHARED_BED] [TIMEOUT s] [LINK libraries...]): one GoogleTest program, its cases known
 # to ctest; the target LABEL_tests builds those of a label. Cases that share a bed, which takes long to make, run in one
-# process and are one test of ctest.
+# process and are one test of ctest; with AddressSanitizer, whose processes start slowly, all cases of a program are.
 function(talus_test name label)
   cmake_parse_arguments(TEST "SHARED_BED" "TIMEOUT" "LINK" ${ARGN})
   if(NOT TEST_TIMEOUT)
@@ -17,6 +17,7 @@ function(talus_test name label)
   add_executable(${name} ${TEST_UNPARSED_ARGUMENTS})
   target_link_libraries(${name} PRIVATE ${TEST_LINK} talus_test_options GTest::gtest_main)
   target_precompile_headers(${name} REUSE_FROM talus_test_headers)
+  set_target_properties(${name} PROPERTIES UNITY_BUILD OFF) # tests may use names that others use
   # Sources of the program that a test compiles too: clang-tidy reads them, and knows no precompiled headers of gcc.
   foreach(source ${TEST_UNPARSED_ARGUMENTS})
     if(source MATCHES "/src/")
@@ -27,7 +28,10 @@ function(talus_test name label)
     add_custom_target(${label}_tests)
   endif()
   add_dependencies(${label}_tests ${name})
-  if(TEST_SHARED_BED)
+  if(TALUS_SANITIZE)
+    math(EXPR TEST_TIMEOUT "5 * ${TEST_TIMEOUT}")
+  endif()
+  if(TEST_SHARED_BED OR TALUS_SANITIZE)
     add_test(NAME ${name} COMMAND ${name})
     set_tests_properties(${name} PROPERTIES LABELS ${label} TIMEOUT ${TEST_TIMEOUT})
   else()

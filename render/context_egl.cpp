@@ -14,7 +14,7 @@
 namespace talus {
 namespace {
 
-constexpr const char* library_name = "libEGL.so.1";
+constexpr const char* egl_library = "libEGL.so.1";
 constexpr const char* packages = "apt-get install libegl1 libegl-mesa0 libgl1-mesa-dri";
 
 /// The entry points of libEGL, opened at run time.
@@ -33,31 +33,31 @@ struct Egl {
 }
 
 template <typename Pointer>
-void find(void* library, const char* name, Pointer& pointer) {
+void find_egl(void* library, const char* name, Pointer& pointer) {
   pointer = reinterpret_cast<Pointer>(dlsym(library, name));
-  if (!pointer) refuse(fmt::format("{} lacks {}; reinstall libegl1", library_name, name));
+  if (!pointer) refuse(fmt::format("{} lacks {}; reinstall libegl1", egl_library, name));
 }
 
-Egl open_library() {
-  setenv("MESA_SHADER_CACHE_DISABLE", "true", 0);               // as for OSMesa
-  setenv("LIBGL_ALWAYS_SOFTWARE", "true", 0);                   // the same pictures on a machine with a GPU
-  void* library = dlopen(library_name, RTLD_NOW | RTLD_LOCAL);  // never closed: Mesa keeps thread-local state
-  if (!library) refuse(fmt::format("cannot load {} ({}); {}", library_name, dlerror(), packages));
+Egl open_egl() {
+  setenv("MESA_SHADER_CACHE_DISABLE", "true", 0);              // as for OSMesa
+  setenv("LIBGL_ALWAYS_SOFTWARE", "true", 0);                  // the same pictures on a machine with a GPU
+  void* library = dlopen(egl_library, RTLD_NOW | RTLD_LOCAL);  // never closed: Mesa keeps thread-local state
+  if (!library) refuse(fmt::format("cannot load {} ({}); {}", egl_library, dlerror(), packages));
   Egl egl;
-  find(library, "eglGetPlatformDisplay", egl.get_display);
-  find(library, "eglInitialize", egl.initialize);
-  find(library, "eglBindAPI", egl.bind_api);
-  find(library, "eglCreateContext", egl.create);
-  find(library, "eglMakeCurrent", egl.make_current);
-  find(library, "eglGetProcAddress", egl.get_proc);
-  find(library, "eglDestroyContext", egl.destroy);
+  find_egl(library, "eglGetPlatformDisplay", egl.get_display);
+  find_egl(library, "eglInitialize", egl.initialize);
+  find_egl(library, "eglBindAPI", egl.bind_api);
+  find_egl(library, "eglCreateContext", egl.create);
+  find_egl(library, "eglMakeCurrent", egl.make_current);
+  find_egl(library, "eglGetProcAddress", egl.get_proc);
+  find_egl(library, "eglDestroyContext", egl.destroy);
   return egl;
 }
 
 /// The display belongs to the process: it is not terminated, since other contexts may use it.
 class EglContextOwner final : public Context {
  public:
-  EglContextOwner() : egl_(open_library()) {
+  EglContextOwner() : egl_(open_egl()) {
     display_ = egl_.get_display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
     if (display_ == EGL_NO_DISPLAY || !egl_.initialize(display_, nullptr, nullptr))
       refuse(std::string("EGL has no display without a surface; ") + packages);

@@ -14,7 +14,7 @@
 namespace talus {
 namespace {
 
-constexpr const char* library_name = "libOSMesa.so.8";
+constexpr const char* osmesa_library = "libOSMesa.so.8";
 
 /// The entry points of libOSMesa, opened at run time.
 struct OSMesa {
@@ -25,38 +25,40 @@ struct OSMesa {
 };
 
 template <typename Pointer>
-void find(void* library, const char* name, Pointer& pointer) {
+void find_osmesa(void* library, const char* name, Pointer& pointer) {
   pointer = reinterpret_cast<Pointer>(dlsym(library, name));
   if (!pointer)
-    throw Error(ExitCode::unavailable, fmt::format("{} lacks {}; reinstall libosmesa6", library_name, name));
+    throw Error(ExitCode::unavailable,
+                fmt::format("{} lacks {}; reinstall libosmesa6", osmesa_library, name));
 }
 
 OSMesa entry_points(void* library) {
   OSMesa mesa;
-  find(library, "OSMesaCreateContextAttribs", mesa.create);
-  find(library, "OSMesaMakeCurrent", mesa.make_current);
-  find(library, "OSMesaGetProcAddress", mesa.get_proc);
-  find(library, "OSMesaDestroyContext", mesa.destroy);
+  find_osmesa(library, "OSMesaCreateContextAttribs", mesa.create);
+  find_osmesa(library, "OSMesaMakeCurrent", mesa.make_current);
+  find_osmesa(library, "OSMesaGetProcAddress", mesa.get_proc);
+  find_osmesa(library, "OSMesaDestroyContext", mesa.destroy);
   return mesa;
 }
 
-OSMesa open_library() {
+OSMesa open_osmesa() {
   // The few small shaders compile in no time; a cache would only leave files in the user's home.
   setenv("MESA_SHADER_CACHE_DISABLE", "true", 0);
   errno = 0;
-  void* library = dlopen(library_name, RTLD_NOW | RTLD_LOCAL);  // never closed: Mesa keeps thread-local state
+  void* library =
+      dlopen(osmesa_library, RTLD_NOW | RTLD_LOCAL);  // never closed: Mesa keeps thread-local state
   if (library) return entry_points(library);
   const std::string reason = dlerror();
   const auto says = [&reason](const char* words) { return reason.find(words) != std::string::npos; };
   if (errno == ENOMEM || says("annot allocate") || says("failed to map")) throw std::bad_alloc();
   throw Error(ExitCode::unavailable,
-              fmt::format("no OSMesa context: cannot load {} ({}); apt-get install libosmesa6", library_name,
-                          reason));
+              fmt::format("no OSMesa context: cannot load {} ({}); apt-get install libosmesa6",
+                          osmesa_library, reason));
 }
 
 class OSMesaContextOwner final : public Context {
  public:
-  OSMesaContextOwner() : mesa_(open_library()) {
+  OSMesaContextOwner() : mesa_(open_osmesa()) {
     // No depth, stencil or accumulation buffer: maps are flat.
     const std::array<int, 15> attributes = {OSMESA_FORMAT,
                                             OSMESA_RGBA,

@@ -10,6 +10,7 @@
 
 #include "core/errors.h"
 #include "core/output_file.h"
+#include "render/png_errors.h"
 
 namespace talus {
 namespace {
@@ -26,9 +27,6 @@ void append(png_structp png, png_bytep data, std::size_t size) {
 }
 
 void no_flush(png_structp) {}
-
-[[noreturn]] void give_up(png_structp png, png_const_charp) { png_longjmp(png, 1); }
-void say_nothing(png_structp, png_const_charp) {}
 
 int colour_type(int channels) {
   return channels == 1 ? PNG_COLOR_TYPE_GRAY : channels == 3 ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_RGB_ALPHA;

@@ -6,12 +6,10 @@
 #include <memory>
 
 #include "render/png.h"
+#include "render/png_errors.h"
 
 namespace talus {
 namespace {
-
-[[noreturn]] void give_up(png_structp png, png_const_charp) { png_longjmp(png, 1); }
-void say_nothing(png_structp, png_const_charp) {}
 
 /// Reads all of a picture, row by row. Returns false if libpng finds it damaged; nothing that its jump skips
 /// has a destructor.

@@ -2,15 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "analysis/disjoint_sets.h"
 
 namespace talus {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// Sorts clusters by size; those of equal size keep their order, which is that of their smallest ids.
 void sort_by_size(Clusters& clusters) {
@@ -34,7 +31,7 @@ double second_moment_from(const Clusters& clusters, std::size_t first) {
     sum += size;
     squares += size * size;
   }
-  return sum > 0.0 ? squares / sum : nan;
+  return sum > 0.0 ? squares / sum : not_known;
 }
 
 /// Squared radius of gyration of each cluster, m^2.
@@ -92,7 +89,7 @@ double largest_share(const Clusters& clusters) {
   return static_cast<double>(largest_size(clusters)) / clusters.members;
 }
 double mean_size(const Clusters& clusters) {
-  return clusters.members > 0 ? static_cast<double>(clusters.members) / clusters.count() : nan;
+  return clusters.members > 0 ? static_cast<double>(clusters.members) / clusters.count() : not_known;
 }
 double second_moment(const Clusters& clusters) { return second_moment_from(clusters, 0); }
 double second_moment_of_others(const Clusters& clusters) { return second_moment_from(clusters, 1); }
@@ -106,7 +103,7 @@ double correlation_length(const Clusters& clusters, const std::vector<double>& y
     moments += weight * spread[k];
     weights += weight;
   }
-  return weights > 0.0 ? std::sqrt(2.0 * moments / weights) : nan;
+  return weights > 0.0 ? std::sqrt(2.0 * moments / weights) : not_known;
 }
 
 }  // namespace talus

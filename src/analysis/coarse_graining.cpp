@@ -12,8 +12,6 @@
 namespace talus {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
 /// Whether the ratio Q/P of stress_state is at most the threshold. Without its root and its arc tangent:
 /// nothing else is computed as often.
 bool is_within(const Tensor2& sum, double threshold) {
@@ -28,7 +26,7 @@ void summarise(CoarseGraining& result) {
   const Statistics lengths = statistics_of(result.length);
   result.mean = lengths.mean;
   result.standard_error = lengths.error;
-  result.largest = nan;
+  result.largest = not_known;
   for (const double length : result.length) result.largest = std::fmax(result.largest, length);
 }
 
@@ -65,7 +63,7 @@ double length_cut(const RunStatics& statics, double l_min, std::optional<double>
 
 CoarseGraining coarse_graining(const BedFrame& bed, const CoarseGrainingRule& rule) {
   CoarseGraining result;
-  result.length.assign(static_cast<std::size_t>(bed.statics.free_count), nan);
+  result.length.assign(static_cast<std::size_t>(bed.statics.free_count), not_known);
   Neighbourhoods neighbourhoods(bed);
   for (Index i = 0; i < bed.statics.free_count; ++i) {
     if (!is_overloaded(bed.frame.gamma[i], rule.threshold)) continue;
@@ -79,7 +77,7 @@ CoarseGraining coarse_graining(const BedFrame& bed, const CoarseGrainingRule& ru
 }
 
 std::vector<double> coarse_stress_ratio(const BedFrame& bed, double l) {
-  std::vector<double> result(static_cast<std::size_t>(bed.statics.free_count), nan);
+  std::vector<double> result(static_cast<std::size_t>(bed.statics.free_count), not_known);
   Neighbourhoods neighbourhoods(bed);
   for (Index i = 0; i < bed.statics.free_count; ++i) {
     Tensor2 all;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "analysis/clusters.h"
@@ -14,12 +13,10 @@
 namespace talus {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
 double mean_normal_force(const FrameContacts& contacts) {
   double sum = 0.0;
   for (double fn : contacts.fn) sum += fn;
-  return contacts.count() > 0 ? sum / contacts.count() : nan;
+  return contacts.count() > 0 ? sum / contacts.count() : not_known;
 }
 
 /// Calls visit(id) for the free grains at a contact.
@@ -122,8 +119,9 @@ void take_networks(const BedFrame& bed, FrameRecord& record) {
   }
   Tensor2 all = strong;
   add_to(all, weak);
-  record.strong_share =
-      bed.frame.contacts.count() > 0 ? static_cast<double>(strong_count) / bed.frame.contacts.count() : nan;
+  record.strong_share = bed.frame.contacts.count() > 0
+                            ? static_cast<double>(strong_count) / bed.frame.contacts.count()
+                            : not_known;
   record.strong_share_of_mean_stress = matrix(strong).trace() / matrix(all).trace();
   record.strong_share_of_deviator = deviator_product(strong, all) / deviator_product(all, all);
   record.strong_stress_ratio = stress_state(strong).ratio;
@@ -146,7 +144,7 @@ void take_critical_contacts(const BedFrame& bed, FrameRecord& record) {
   std::vector<Index> size(clusters.size.size(), 0);
   for (Index c = 0; c < contacts.count(); ++c)
     if (contacts.status[c] == ContactStatus::sliding) ++size[clusters.label[contacts.a[c]]];
-  record.critical_share = contacts.count() > 0 ? static_cast<double>(critical) / contacts.count() : nan;
+  record.critical_share = contacts.count() > 0 ? static_cast<double>(critical) / contacts.count() : not_known;
   record.critical_largest = size.empty() ? 0 : *std::max_element(size.begin(), size.end());
   record.critical_correlation_length = correlation_length(clusters, bed.frame.y);
 }

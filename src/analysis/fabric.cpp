@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <limits>
 
 #include "core/trigonometry.h"
 
 namespace talus {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr int half_turn = 180;  // deg
 
 /// An angle from -period to period, in [0, period).
@@ -61,13 +59,13 @@ FabricComponent fabric_component(const Frame& frame, int m) {
     cosines += turned.real();
     sines += turned.imag();
   }
-  if (frame.contacts.count() == 0) return {nan, nan};
+  if (frame.contacts.count() == 0) return {not_known, not_known};
   return {2.0 * std::hypot(cosines, sines) / frame.contacts.count(),
           wrapped(degrees(std::atan2(sines, cosines)) / m, 360.0 / m)};
 }
 
 std::array<double, 3> direction_peaks(const Frame& frame) {
-  if (frame.contacts.count() == 0) return {nan, nan, nan};
+  if (frame.contacts.count() == 0) return {not_known, not_known, not_known};
   const std::vector<double> smooth = smoothed_directions(frame.contacts);
   std::array<double, 3> peaks = {0.0, 60.0, 120.0};
   for (double& peak : peaks) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "analysis/free_grains.h"
 #include "core/tensor.h"
@@ -41,7 +40,7 @@ double frame_volume(const BedFrame& bed) {
 double bulk_solid_fraction(const BedFrame& bed, double volume) {
   const double low = bulk_margin * bed.statics.mean_diameter;
   const double high = volume / bed.statics.length - low;
-  if (!(high > low)) return std::numeric_limits<double>::quiet_NaN();
+  if (!(high > low)) return not_known;
   double area = 0.0;
   for (Index i = 0; i < bed.statics.free_count; ++i)
     area += area_below(high - bed.frame.y[i], bed.statics.radius[i]) -

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <utility>
 
@@ -13,7 +12,6 @@
 namespace talus {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double layer_over_d = 2.0;
 
 /// The points that have a value, which becomes the deviation from the mean.
@@ -57,7 +55,7 @@ std::vector<double> over_layer_mean(const std::vector<double>& y, const std::vec
   std::vector<double> result;
   for (std::size_t i = 0; i < y.size(); ++i) {
     const auto& [sum, count] = layers[layer_of(y[i])];
-    result.push_back(sum > 0.0 ? value[i] * count / sum : nan);
+    result.push_back(sum > 0.0 ? value[i] * count / sum : not_known);
   }
   return result;
 }
@@ -91,7 +89,7 @@ PairCorrelation pair_correlation(const std::vector<double>& x, const std::vector
   for (std::size_t bin = 0; bin < count; ++bin) {
     const bool any = pairs[bin] > 0.0 && points.variance > 0.0;
     result.r.push_back((static_cast<double>(bin) + 0.5) * width);
-    result.value.push_back(any ? sums[bin] / (pairs[bin] * points.variance) : nan);
+    result.value.push_back(any ? sums[bin] / (pairs[bin] * points.variance) : not_known);
     result.pairs.push_back(pairs[bin]);
   }
   return result;

@@ -3,7 +3,6 @@
 /// only has its name and its type. SI units; NaN where a quantity is not known, or does not exist.
 
 #include <array>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -11,7 +10,6 @@
 
 namespace talus {
 
-inline constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 inline constexpr std::array<double, 2> two_not_known = {not_known, not_known};
 
 /// The overloaded grains of one frame, at one threshold. Arrays over grains are in the order of their ids.

@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 namespace talus {
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t lasting = 3;  // frames for which a cluster has to span
 
 /// How many of the first tilts are not above theta_c; all where it is NaN.
@@ -37,7 +35,7 @@ std::vector<double> symmetric_means(std::span<const double> tilts, std::span<con
 
 LengthJump length_jump(std::span<const double> tilts, std::span<const double> lengths, double theta_c,
                        double cut) {
-  LengthJump jump{none, none, none};
+  LengthJump jump{not_known, not_known, not_known};
   double largest = 0.0;
   for (std::size_t k = 1; k < count_up_to(tilts, theta_c) && !(lengths[k - 1] >= cut); ++k) {
     const double increase = lengths[k] - lengths[k - 1];
@@ -53,14 +51,14 @@ PercolationOnset percolation_onset(std::span<const double> tilts, std::span<cons
   const std::size_t count = count_up_to(tilts, theta_c);
   for (std::size_t k = 0; k < count && k + lasting <= spans.size(); ++k)
     if (std::ranges::count(spans.subspan(k, lasting), 0) == 0)
-      return {tilts[k], k > 0 ? tilts[k] - tilts[k - 1] : none};
-  return {none, none};
+      return {tilts[k], k > 0 ? tilts[k] - tilts[k - 1] : not_known};
+  return {not_known, not_known};
 }
 
 DilationOnset dilation_onset(std::span<const double> tilts, std::span<const double> strains, double theta_c,
                              double window) {
   const std::size_t count = count_up_to(tilts, theta_c);
-  if (count == 0) return {none, none, none};
+  if (count == 0) return {not_known, not_known, not_known};
   const auto means = symmetric_means(tilts.first(count), strains.first(count), 0.5 * window);
   double squares = 0.0;
   for (std::size_t i = 0; i < count; ++i) squares += (strains[i] - means[i]) * (strains[i] - means[i]);
@@ -69,7 +67,7 @@ DilationOnset dilation_onset(std::span<const double> tilts, std::span<const doub
   auto low = lowest, high = lowest;
   while (low != means.begin() && *std::prev(low) <= limit) --low;
   while (std::next(high) != means.end() && *std::next(high) <= limit) ++high;
-  if (std::next(high) == means.end()) return {none, none, none};
+  if (std::next(high) == means.end()) return {not_known, not_known, not_known};
   const auto tilt_of = [&](auto place) { return tilts[static_cast<std::size_t>(place - means.begin())]; };
   return {tilt_of(lowest), tilt_of(low), tilt_of(high)};
 }
@@ -81,7 +79,7 @@ double first_slide(std::span<const double> tilts, std::span<const double> displa
     while (end + 1 < tilts.size() && tilts[end + 1] - tilts[k] <= window) ++end;
     if (displacements[end] - displacements[k] >= distance) return tilts[k];
   }
-  return none;
+  return not_known;
 }
 
 }  // namespace talus

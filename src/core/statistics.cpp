@@ -4,15 +4,13 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <vector>
 
 #include "core/random.h"
+#include "core/types.h"
 
 namespace talus {
 namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 constexpr int draws = 1000;
 
@@ -44,10 +42,10 @@ std::vector<double> means_of_draws(const std::vector<double>& numbers, const Res
 
 }  // namespace
 
-double Statistics::interval() const { return count < 2 ? none : student_t(count - 1) * error; }
+double Statistics::interval() const { return count < 2 ? not_known : student_t(count - 1) * error; }
 
 Statistics statistics_of(std::span<const double> values) {
-  Statistics result{0, none, none, none};
+  Statistics result{0, not_known, not_known, not_known};
   double sum = 0.0;
   for (const double value : values)
     if (!std::isnan(value)) {
@@ -75,7 +73,7 @@ Resamples resamples_of(int values) {
 }
 
 Summary summary_of(std::span<const double> values, const Resamples& resamples) {
-  Summary summary{statistics_of(values), none, none, none, none, none};
+  Summary summary{statistics_of(values), not_known, not_known, not_known, not_known, not_known};
   std::vector<double> numbers = numbers_among(values);
   if (numbers.empty()) return summary;
   if (numbers.size() > 1) {
@@ -102,7 +100,7 @@ Correlation correlation_of(std::span<const double> left, std::span<const double>
       a.push_back(left[k]);
       b.push_back(right[k]);
     }
-  Correlation found{none, static_cast<int>(a.size())};
+  Correlation found{not_known, static_cast<int>(a.size())};
   if (found.count < 3) return found;
   const Statistics of_a = statistics_of(a), of_b = statistics_of(b);
   double products = 0.0;

@@ -2,11 +2,15 @@
 /// Small types shared by every room.
 
 #include <cstdint>
+#include <limits>
 
 namespace talus {
 
 /// A grain, a body or a contact in an array. Ids are stable: they never change during a run.
 using Index = std::int32_t;
+
+/// Where there is no value: NaN.
+inline constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
 /// A vector in the plane, in the frame of the bed: x along the bed (downslope when the tilt is positive),
 /// y across it, away from the floor.

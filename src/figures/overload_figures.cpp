@@ -64,7 +64,7 @@ Column paper_column(const std::string& name, const std::string& unit, const std:
   return column;
 }
 
-Column paper_tilts() {
+Column tilts_of_the_paper() {
   return {"theta", "deg", "tilt", {0.0, paper_value(theta_d_by_jump).value, paper_value(theta_c).value}};
 }
 
@@ -85,10 +85,10 @@ std::optional<Figure> overloaded_fraction_figure(std::span<const RunGroup> group
   figure.caption.append(paper_text).append(" ").append(means_caption);
   add_periodic_groups(figure, groups, {{"p_o", &FrameThreshold::overloaded_fraction}});
   if (figure.tables.empty()) return std::nullopt;
-  figure.tables.push_back(
-      {"paper",
-       {paper_tilts(), paper_column("p_o", "1", "overloaded fraction",
-                                    {overloaded_at_0, overloaded_at_theta_d, overloaded_at_theta_c})}});
+  figure.tables.push_back({"paper",
+                           {tilts_of_the_paper(),
+                            paper_column("p_o", "1", "overloaded fraction",
+                                         {overloaded_at_0, overloaded_at_theta_d, overloaded_at_theta_c})}});
   return figure;
 }
 
@@ -113,7 +113,7 @@ std::optional<Figure> length_figure(std::span<const RunGroup> groups) {
   set_variable(figure, "cut", cut);
   figure.tables.push_back(
       {"paper",
-       {paper_tilts(),
+       {tilts_of_the_paper(),
         paper_column("mean", "D", "mean l_c", {lc_mean_at_0, lc_mean_at_theta_d, lc_mean_at_theta_c}),
         paper_column("max", "D", "largest l_c", {lc_max_at_0, lc_max_before_jump, lc_max_after_jump})}});
   return figure;

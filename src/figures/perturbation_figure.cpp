@@ -18,7 +18,7 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-double theta_c(const FigureRun& run) { return degrees(run.analysis.theta_c); }
+double failure_angle(const FigureRun& run) { return degrees(run.analysis.theta_c); }
 
 /// The trial of a strength; no value where there is none.
 const Trial* trial_of(const PerturbedState& state, double strength) {
@@ -33,8 +33,8 @@ void append_state(Table& table, const FigureRun& run, const PerturbedState& stat
   const Trial* with = searched ? trial_of(state, threshold.with) : nullptr;
   const double row[] = {static_cast<double>(run.scenario.seed),
                         state.tilt,
-                        theta_c(run),
-                        theta_c(run) - state.tilt,
+                        failure_angle(run),
+                        failure_angle(run) - state.tilt,
                         threshold.held ? 1.0 : 0.0,
                         threshold.without,
                         std::isinf(threshold.with) ? none : threshold.with,
@@ -53,7 +53,7 @@ void append_state(Table& table, const FigureRun& run, const PerturbedState& stat
 double mean_distance(const RunGroup& group, const QuantityMember& estimator) {
   std::vector<double> distances;
   for (const FigureRun& run : group.runs)
-    distances.push_back(theta_c(run) - degrees(number_of(quantity_of(estimator), run.analysis, 0)));
+    distances.push_back(failure_angle(run) - degrees(number_of(quantity_of(estimator), run.analysis, 0)));
   return statistics_of(distances).mean;
 }
 

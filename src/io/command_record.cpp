@@ -6,15 +6,13 @@
 namespace talus {
 namespace {
 
-const std::string here = "/commands/";
-
 template <typename Commands, typename Fields>
-void for_each_field(Commands& commands, Fields fields) {
-  fields.column(here + "step", commands, &Command::step);
-  fields.column(here + "kind", commands, &Command::kind);
-  fields.column(here + "grain", commands, &Command::grain);
-  fields.column(here + "x", commands, &Command::x);
-  fields.column(here + "y", commands, &Command::y);
+void for_each_column(Commands& commands, Fields fields) {
+  fields.column("/commands/step", commands, &Command::step);
+  fields.column("/commands/kind", commands, &Command::kind);
+  fields.column("/commands/grain", commands, &Command::grain);
+  fields.column("/commands/x", commands, &Command::x);
+  fields.column("/commands/y", commands, &Command::y);
 }
 
 bool is_known(CommandKind kind) {
@@ -25,18 +23,18 @@ bool is_known(CommandKind kind) {
 }  // namespace
 
 void write_commands(hdf5::Writer& writer, const std::vector<Command>& commands) {
-  if (!commands.empty()) for_each_field(commands, FieldWriter(writer));
+  if (!commands.empty()) for_each_column(commands, FieldWriter(writer));
 }
 
 std::vector<Command> read_commands(hdf5::Reader& reader) {
   std::vector<Command> commands;
   if (!reader.has("/commands")) return commands;
-  for_each_field(commands, FieldReader(reader));
+  for_each_column(commands, FieldReader(reader));
   if (!std::ranges::is_sorted(commands, {}, &Command::step) ||
       (!commands.empty() && commands.front().step < 0))
-    reader.refuse(here + "step", "does not ascend from 0");
+    reader.refuse("/commands/step", "does not ascend from 0");
   if (!std::ranges::all_of(commands, is_known, &Command::kind))
-    reader.refuse(here + "kind", "holds a value other than 0 ... 3");
+    reader.refuse("/commands/kind", "holds a value other than 0 ... 3");
   return commands;
 }
 

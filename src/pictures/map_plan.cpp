@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/core.h>
-#include <limits>
 #include <set>
 
 #include "core/errors.h"
@@ -27,7 +26,7 @@ std::optional<Crop> parse_crop(const std::vector<double>& values) {
 /// What all maps have in common.
 MapSettings common_settings(const MapOptions& options) {
   MapSettings settings;
-  settings.theta_c = options.theta_c ? radians(*options.theta_c) : std::numeric_limits<double>::quiet_NaN();
+  settings.theta_c = options.theta_c ? radians(*options.theta_c) : not_known;
   settings.threshold_factor = options.threshold.value_or(settings.threshold_factor);
   settings.l_min = options.l_min.value_or(settings.l_min);
   settings.length = options.length.value_or(settings.length);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "analysis/frame_analysis.h"
@@ -16,8 +15,6 @@
 
 namespace talus {
 namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 /// Exponentially distributed with mean 1, by comparisons of uniform numbers alone (von Neumann 1951): the
 /// same bits everywhere, which a logarithm of the library would not promise.
@@ -177,8 +174,8 @@ ForceSpread spread_of(std::size_t quantity, const std::vector<ForceSet>& sets) {
     if (sets[s].admissible() && !std::isnan(sets[s].values[quantity]))
       values.push_back(sets[s].values[quantity]);
   const Statistics found = statistics_of(values);
-  ForceSpread spread{found.count, found.mean, found.error * std::sqrt(static_cast<double>(found.count)), none,
-                     none};
+  ForceSpread spread{found.count, found.mean, found.error * std::sqrt(static_cast<double>(found.count)),
+                     not_known, not_known};
   if (values.empty()) return spread;
   const auto [least, largest] = std::ranges::minmax(values);
   spread.least = least;
@@ -282,7 +279,7 @@ FrameForces admissible_forces(const FrozenBed& bed, const BedFrame& stored,
 
 FrameForces admissible_forces(const RunFile& run, std::size_t k, const AnalysisParameters& parameters,
                               const ForceSearch& search) {
-  const double theta_c = find_value(run.checkpoint().results, "theta_c").value_or(none);
+  const double theta_c = find_value(run.checkpoint().results, "theta_c").value_or(not_known);
   return admissible_forces(frozen_frame(run, k), {run.frame(k), run.header().statics}, parameters, theta_c,
                            search);
 }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/core.h>
-#include <limits>
 #include <type_traits>
 #include <variant>
 #include <vector>
@@ -15,7 +14,6 @@
 namespace talus {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double most_steps = 0x1p53;  // all numbers of steps up to this are doubles
 
 /// Where in a checkpoint a value stands. Those of `timing` are no state, and need not be there.
@@ -60,7 +58,7 @@ std::vector<ScheduleField> fields(Schedule& s, bool follows) {
       {reals, "surface_height", &s.surface_height},
       {reals, "surface_displacement", &s.surface_displacement},
       {reals, "residual_since_row", &s.residual_since_row},
-      {results, "theta_c", angle_of_repose(s).value_or(nan), as_result},
+      {results, "theta_c", angle_of_repose(s).value_or(not_known), as_result},
       {results, "residual_max", std::max(s.record.residual_max_rest, s.record.residual_max_moving),
        as_result},
       {results, "residual_max_rest", &s.record.residual_max_rest},
@@ -99,7 +97,7 @@ double number_of(const Value& value) {
         if constexpr (std::is_same_v<decltype(of), double>)
           return of;
         else if constexpr (std::is_same_v<decltype(of), std::optional<double>*>)
-          return of->value_or(nan);
+          return of->value_or(not_known);
         else
           return static_cast<double>(*of);
       },

@@ -1,7 +1,6 @@
 #include "stress/stress_state.h"
 
 #include <cmath>
-#include <limits>
 
 #include "core/tensor.h"
 
@@ -11,10 +10,9 @@ StressState stress_state(const Tensor2& tensor) {
   const auto m = matrix(tensor);
   const Vector2 deviator{m(0, 0) - m(1, 1), m(0, 1) + m(1, 0)};  // Q (cos 2 axis, sin 2 axis)
   StressState state;
-  state.mean = m.trace();            // (T21)
-  state.deviator = deviator.norm();  // (T21)
-  state.ratio =
-      state.mean > 0.0 ? state.deviator / state.mean : std::numeric_limits<double>::quiet_NaN();  // (T22)
+  state.mean = m.trace();                                                    // (T21)
+  state.deviator = deviator.norm();                                          // (T21)
+  state.ratio = state.mean > 0.0 ? state.deviator / state.mean : not_known;  // (T22)
   // For display only: never enters the dynamics.
   state.axis = 0.5 * std::atan2(deviator.y(), deviator.x());
   return state;

@@ -3,15 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/core.h>
-#include <limits>
 
 #include "analysis/free_grains.h"
 #include "stress/overload.h"
 
 namespace talus {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// A plane is named by where it is seen from the grain.
 std::string plane_name(double nx) {
@@ -57,7 +54,8 @@ double length_of(const NeighbourhoodCurve& curve, const InspectionRule& rule) {
 
 double gamma_at(const NeighbourhoodCurve& curve, double l) {
   const auto after = std::ranges::upper_bound(curve.l, l);
-  return after == curve.l.begin() ? nan : curve.gamma[static_cast<std::size_t>(after - curve.l.begin()) - 1];
+  return after == curve.l.begin() ? not_known
+                                  : curve.gamma[static_cast<std::size_t>(after - curve.l.begin()) - 1];
 }
 
 }  // namespace
@@ -78,7 +76,7 @@ Inspection inspect(const BedFrame& bed, const Clusters& clusters, const Inspecti
   of.internal_moment = bed.frame.internal_moment[i];
   of.state = stress_state(of.internal_moment);
   of.gamma = bed.frame.gamma[i];
-  of.neighbourhood_gamma = nan;
+  of.neighbourhood_gamma = not_known;
   if (!of.free) return of;
   of.overloaded = is_overloaded(of.gamma, rule.threshold);
   of.cluster = clusters.label[i];

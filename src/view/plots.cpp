@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "analysis/packing.h"
 #include "core/trigonometry.h"
@@ -10,7 +9,6 @@
 namespace talus {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t most_points = 2000;  // of a curve over steps: about as many as pixels
 constexpr int gamma_bins = 50;
 
@@ -21,7 +19,7 @@ PlotSeries law(const std::string& name) { return {name, {}, {}, true, {}}; }
 PlotSeries series_of(const QuantityMember& member) { return talus::series_of(quantity_of(member)); }
 
 /// A logarithmic axis has no place for zero.
-double positive(double value) { return value > 0.0 ? value : nan; }
+double positive(double value) { return value > 0.0 ? value : not_known; }
 
 void clear(PlotSeries& series) {
   series.x.clear();

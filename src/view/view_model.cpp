@@ -2,7 +2,6 @@
 
 #include <filesystem>
 #include <fmt/core.h>
-#include <limits>
 
 #include "core/errors.h"
 #include "io/run_file.h"
@@ -107,7 +106,7 @@ void ViewModel::go_to(std::size_t frame) {
 void ViewModel::go_to_angle(const std::string& angle) {
   if (!data_->replay)
     throw Error(ExitCode::usage, path() + ": this run is being computed, so it has no frames to go to");
-  const double theta_c = data_->theta_c.value_or(std::numeric_limits<double>::quiet_NaN());
+  const double theta_c = data_->theta_c.value_or(not_known);
   go_to(frames_at(data_->frames->file().frame_tilts(), {angle}, theta_c).front());
 }
 
