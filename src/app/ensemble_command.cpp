@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
 #include <fmt/core.h>
 #include <memory>
 
@@ -13,14 +12,14 @@
 #include "app/ensemble_report.h"
 #include "app/ensemble_submit.h"
 #include "app/ensemble_workers.h"
+#include "app/jobs_option.h"
 #include "app/open_run.h"
-#include "app/pool_line.h"
 #include "app/stop_signals.h"
 #include "app/wall_time.h"
 #include "core/errors.h"
-#include "core/output_file.h"
 #include "core/text.h"
 #include "ensemble/member_series.h"
+#include "ensemble/pool.h"
 #include "ensemble/until.h"
 #include "ensemble/worker.h"
 #include "io/durable_file.h"
@@ -44,16 +43,6 @@ struct EnsembleArguments {
   bool json = false;
 };
 
-/// The exit code of an ensemble in which members failed is that of the first.
-void refuse_failures(const EnsembleView& view) {
-  std::vector<FailedJob> failed;
-  for (std::size_t m = 0; m < view.states.size(); ++m)
-    if (view.states[m].stage == MemberStage::failed)
-      failed.push_back({file_beside(view.plan.members[m].path, ".log"),
-                        read_failure(view.plan.members[m].path).exit_code});
-  if (!failed.empty()) refuse(failed, "left out of the means");
-}
-
 void run_ensemble(const EnsembleArguments& arguments) {
   if (arguments.scenario.empty() || arguments.folder.empty())
     throw Error(ExitCode::usage,
@@ -61,13 +50,8 @@ void run_ensemble(const EnsembleArguments& arguments) {
   if (!arguments.until.empty()) parse_precision(arguments.until);
   const EnsembleManifest wanted{"", parse_seeds(arguments.seeds), arguments.until,
                                 plan_variants(arguments.scenario, arguments.settings, arguments.axes)};
-  prepare_folder(arguments.folder);
-  for (const char* name : {"members.csv", "averages.csv", "ensemble.h5"})
-    output_target((std::filesystem::path(arguments.folder) / name).string(), {true, {arguments.scenario}});
-  extend_ensemble(arguments.folder, wanted);
-  if (arguments.jobs > 0)
-    compute_members({arguments.folder, arguments.times, arguments.max_wall, arguments.jobs});
-  const EnsembleView view = write_averages(arguments.folder);
+  const EnsembleView view = compute_ensemble(
+      wanted, {arguments.folder, arguments.times, arguments.max_wall, arguments.jobs}, {arguments.scenario});
   std::printf("%s", (arguments.json ? ensemble_json(view) + "\n" : ensemble_text(view)).c_str());
   refuse_failures(view);
 }
@@ -200,13 +184,7 @@ void add_ensemble_command(CLI::App& app) {
   command->add_option(
       "--until", arguments->until,
       "Begin no more members once the standard error of a mean is this small, e.g. theta_c:0.2");
-  command
-      ->add_option(
-          "--jobs", arguments->jobs,
-          "Workers side by side, each on one thread; with 0 the ensemble is begun or extended and left to "
-          "others")
-      ->capture_default_str()
-      ->check(CLI::Range(0, 256));
+  add_jobs_option(*command, arguments->jobs);
   command->add_flag("--json", arguments->json, "Print the result as JSON");
   add_time_options(*command, arguments);
   add_subcommands(*command, arguments);

@@ -14,6 +14,7 @@
 #include "app/progress_text.h"
 #include "app/status_line.h"
 #include "core/errors.h"
+#include "core/output_file.h"
 #include "ensemble/ensemble_manifest.h"
 #include "ensemble/member_state.h"
 #include "ensemble/pool.h"
@@ -133,6 +134,26 @@ void compute_members(const EnsembleWorkers& workers) {
     ended = ended_now;
     std::this_thread::sleep_for(std::chrono::seconds(1));
   }
+}
+EnsembleView compute_ensemble(const EnsembleManifest& wanted, const EnsembleWorkers& workers,
+                              const std::vector<std::string>& inputs) {
+  if (!is_ensemble(workers.folder))
+    for (const Member& member : plan_of(wanted, workers.folder).members) is_complete(member, "ensemble");
+  prepare_folder(workers.folder);
+  for (const char* name : {"members.csv", "averages.csv", "ensemble.h5"})
+    output_target((std::filesystem::path(workers.folder) / name).string(), {true, inputs});
+  extend_ensemble(workers.folder, wanted);
+  if (workers.jobs > 0) compute_members(workers);
+  return write_averages(workers.folder);
+}
+
+void refuse_failures(const EnsembleView& view, const std::string& consequence) {
+  std::vector<FailedJob> failed;
+  for (std::size_t m = 0; m < view.states.size(); ++m)
+    if (view.states[m].stage == MemberStage::failed)
+      failed.push_back({file_beside(view.plan.members[m].path, ".log"),
+                        read_failure(view.plan.members[m].path).exit_code});
+  if (!failed.empty()) refuse(failed, consequence);
 }
 
 }  // namespace talus

@@ -2,7 +2,9 @@
 /// Workers of an ensemble as processes side by side on this machine, with their progress on stderr.
 
 #include <string>
+#include <vector>
 
+#include "app/ensemble_report.h"
 #include "ensemble/claim.h"
 
 namespace talus {
@@ -11,7 +13,7 @@ struct EnsembleWorkers {
   std::string folder;
   ClaimTimes times;
   std::string max_wall;  ///< HH:MM; empty: no limit
-  int jobs = 1;          ///< workers side by side, each on one thread
+  int jobs = 1;          ///< workers side by side, each on one thread; 0: what is missing is left to others
 };
 
 /// Computes what is missing of an ensemble. Members that others compute are waited for, and taken over where
@@ -19,5 +21,16 @@ struct EnsembleWorkers {
 /// With a limit of time others are left alone. Throws Error(stopped) on a signal or where the time is over,
 /// the Error of a worker that ended with one, and as read_ensemble does.
 void compute_members(const EnsembleWorkers& workers);
+
+/// Begins an ensemble in the folder of the workers, or adds to the one that is there what it lacks, computes
+/// what is missing of it, and writes its averages. Returns how far it is then. `inputs`: files that are read,
+/// and never replaced. Throws as extend_ensemble and compute_members do, and Error(bad_data), before an
+/// ensemble is begun, where a run of another scenario has the name of a member.
+EnsembleView compute_ensemble(const EnsembleManifest& wanted, const EnsembleWorkers& workers,
+                              const std::vector<std::string>& inputs);
+
+/// Throws the Error of members that failed, with the exit code of the first; does nothing where none has.
+/// `consequence`: "left out of the means".
+void refuse_failures(const EnsembleView& view, const std::string& consequence = "left out of the means");
 
 }  // namespace talus

@@ -14,6 +14,7 @@
 #include "app/figure_runs.h"
 #include "app/figure_text.h"
 #include "app/gnuplot.h"
+#include "app/jobs_option.h"
 #include "app/open_run.h"
 #include "app/pool_line.h"
 #include "app/progress.h"

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <fmt/core.h>
-#include <thread>
 
 #include "app/progress_text.h"
 #include "app/status_line.h"
@@ -44,7 +43,5 @@ std::vector<FailedJob> run_with_progress(const std::vector<Job>& jobs, std::size
                              line.show(line_text(progress, end_text(progress), counted, line));
                          }});
 }
-
-int default_jobs() { return static_cast<int>(std::max(1u, std::thread::hardware_concurrency())); }
 
 }  // namespace talus

@@ -13,7 +13,4 @@ namespace talus {
 std::vector<FailedJob> run_with_progress(const std::vector<Job>& jobs, std::size_t all, int at_once,
                                          const std::string& work, const std::string& counted = "runs");
 
-/// Processors of this machine: how many jobs run side by side where nothing is asked.
-int default_jobs();
-
 }  // namespace talus

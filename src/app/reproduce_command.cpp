@@ -15,6 +15,7 @@
 #include "app/figure_runs.h"
 #include "app/figure_text.h"
 #include "app/gnuplot.h"
+#include "app/jobs_option.h"
 #include "app/output_files.h"
 #include "app/pool_line.h"
 #include "app/stop_signals.h"

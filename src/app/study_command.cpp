@@ -6,8 +6,9 @@
 #include <optional>
 
 #include "app/commands.h"
+#include "app/ensemble_workers.h"
+#include "app/jobs_option.h"
 #include "app/json.h"
-#include "app/pool_line.h"
 #include "core/output_file.h"
 #include "ensemble/study_report.h"
 #include "io/durable_file.h"
@@ -59,7 +60,7 @@ std::string study_json(const StudyResult& result) {
                               comparison_json(compare(result, v, static_cast<StudyQuantity>(k))));
     variations.emplace_back(result.plan.variants[v].name, json::object(quantities, 2));
   }
-  return json::object({{"scenario", json::quoted(result.plan.variants.front().scenario_file)},
+  return json::object({{"scenario", json::quoted(result.plan.scenario_file)},
                        {"reference_deg", json::number(result.reference)},
                        {"variations", json::object(variations, 1)},
                        {"runs", json::object(runs_json(result), 1)}});
@@ -71,15 +72,18 @@ void study(const StudyArguments& arguments) {
   const std::filesystem::path folder = arguments.folder;
   for (const char* table : {"study.csv", "study.md"})
     output_target((folder / table).string(), {true, {arguments.scenario}});
-  prepare_folder(folder.string());
-  const std::vector<FailedJob> failed =
-      run_with_progress(missing_runs(plan, "study"), plan.members.size(), arguments.jobs, "study");
-  if (failed.size() == plan.members.size()) refuse(failed);
+  const EnsembleView view = compute_ensemble(
+      {"", plan.seeds, "", plan.variants}, {arguments.folder, {}, "", arguments.jobs}, {arguments.scenario});
+  if (count_of(view.states, MemberStage::done) == 0) {
+    refuse_failures(view, "nothing can be compared");
+    std::printf("%s", ensemble_text(view).c_str());  // others are to compute it
+    return;
+  }
   const StudyResult result = read_study(plan, arguments.reference);
   write_text(folder / "study.csv", study_csv(result));
   write_text(folder / "study.md", study_markdown(result));
   std::printf("%s\n", (arguments.json ? study_json(result) : study_markdown(result)).c_str());
-  if (!failed.empty()) refuse(failed);
+  refuse_failures(view, "left out of the tables");
 }
 
 }  // namespace
@@ -107,9 +111,7 @@ void add_study_command(CLI::App& app) {
       ->add_option("--at", arguments->reference,
                    "Angle at which beds are compared, deg [smallest theta_c, rounded down to a whole degree]")
       ->check(CLI::Range(0.0, 60.0));
-  command->add_option("--jobs", arguments->jobs, "Runs side by side, each on one thread")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 256));
+  add_jobs_option(*command, arguments->jobs);
   command->add_flag("--json", arguments->json, "Print the result as JSON");
   command->callback([arguments] { study(*arguments); });
 }

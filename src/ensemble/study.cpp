@@ -2,43 +2,34 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/core.h>
 #include <limits>
 
 #include "core/errors.h"
-#include "core/hash.h"
 #include "ensemble/axes.h"
+#include "ensemble/ensemble_manifest.h"
+#include "ensemble/member_state.h"
+#include "ensemble/until.h"
 #include "io/run_file.h"
-#include "scenario/keys.h"
-#include "scenario/text.h"
-#include "session/run_header.h"
 
 namespace talus {
 
 StudyPlan plan_study(const std::string& scenario_file, const std::vector<std::string>& settings,
                      const std::vector<std::string>& axes, const std::string& seeds,
                      const std::string& folder) {
-  const std::vector<std::uint64_t> all_seeds = parse_seeds(seeds);
-  std::vector<Variant> variants;
+  std::vector<Variant> variants = plan_variants(scenario_file, settings, {});
+  variants.front().name = "baseline";
   std::vector<std::string> varied;
-  const auto add = [&](const std::vector<std::string>& variation) {
-    std::vector<std::string> all = settings_without(settings, variation);
-    std::vector<std::string> with_seed = all;
-    with_seed.push_back(fmt::format("seed={}", all_seeds.front()));
-    const Scenario scenario = read_scenario(scenario_file, with_seed, nullptr, variation);
-    all.insert(all.end(), variation.begin(), variation.end());
-    for (const std::string& setting : variation)
-      if (std::ranges::find(varied, key_of_setting(setting)) == varied.end())
-        varied.push_back(key_of_setting(setting));
-    if (std::ranges::find(variants, scenario, &Variant::scenario) != variants.end()) return;
-    const std::string name = variation.empty() ? "baseline" : variation_name(variation, scenario);
-    variants.push_back({name, scenario_file, all, scenario});
-  };
-  add({});
-  for (const std::string& axis : axes)
-    for (const std::vector<std::string>& variation : parse_axis(axis)) add(variation);
+  for (const std::string& axis : axes) {
+    for (const std::vector<std::string>& variation : parse_axis(axis))
+      for (const std::string& setting : variation)
+        if (std::ranges::find(varied, key_of_setting(setting)) == varied.end())
+          varied.push_back(key_of_setting(setting));
+    for (Variant& variant : plan_variants(scenario_file, settings, {axis}))
+      if (std::ranges::find(variants, variant.scenario, &Variant::scenario) == variants.end())
+        variants.push_back(std::move(variant));
+  }
   const std::string baseline = variation_name(varied, variants.front().scenario);
-  return {plan_ensemble(all_seeds, std::move(variants), folder), baseline};
+  return {plan_ensemble(parse_seeds(seeds), std::move(variants), folder), scenario_file, baseline};
 }
 
 double common_angle(const std::vector<RunReach>& reaches) {
@@ -55,11 +46,11 @@ double common_angle(const std::vector<RunReach>& reaches) {
 StudyResult read_study(const StudyPlan& plan, std::optional<double> reference) {
   StudyResult result{plan, 0.0, {}};
   std::vector<RunReach> reaches;
-  for (const std::size_t k : complete_members(plan)) {
-    const RunFile run = RunFile::open(plan.members[k].path);
-    reaches.push_back(reach(run));
-    result.outcomes.push_back(
-        {k, {}, hash_text(state_hash(run.checkpoint().world)), version_of(run.header().provenance)});
+  const std::vector<MemberNumbers> numbers = numbers_of(plan, look_at_members(plan));
+  for (std::size_t m = 0; m < plan.members.size(); ++m) {
+    if (numbers[m].numbers.empty()) continue;
+    reaches.push_back(reach(RunFile::open(plan.members[m].path)));
+    result.outcomes.push_back({m, {}, numbers[m].state_hash, numbers[m].version});
   }
   if (reaches.empty())
     throw Error(ExitCode::bad_data, "no run of the study is complete; nothing can be compared");

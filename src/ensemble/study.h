@@ -16,17 +16,18 @@ namespace talus {
 /// One factor at a time: the scenario as it is (variant 0, the "baseline"), and beside it each value of each
 /// axis alone, called "tilt.step=0.002" or "tilt.rate=2,tilt.step=0.002".
 struct StudyPlan : EnsemblePlan {
-  std::string baseline;  ///< its values of the keys that vary: "solver.tolerance=3e-07,tilt.step=0.001"
+  std::string scenario_file;  ///< that is studied
+  std::string baseline;       ///< its values of the keys that vary: "solver.tolerance=3e-07,tilt.step=0.001"
 };
 
-/// Reads the scenario with each variation of each axis; the runs are files below `folder`. `settings` hold
-/// for all runs; an axis takes its keys out of them. A variation that is the baseline or an earlier variation
-/// again is left out. Throws as read_scenario, parse_axis and parse_seeds do.
+/// The scenario, and beside it each variation of each axis, as members of an ensemble in `folder`. `settings`
+/// hold for all runs; an axis takes its keys out of them. A variation that is the baseline or an earlier
+/// variation again is left out. Throws as plan_variants and parse_seeds do.
 StudyPlan plan_study(const std::string& scenario_file, const std::vector<std::string>& settings,
                      const std::vector<std::string>& axes, const std::string& seeds,
                      const std::string& folder);
 
-/// What was read from a complete run.
+/// What a member that is done gave.
 struct StudyOutcome {
   std::size_t member = 0;  ///< index into StudyPlan::members
   StudyFigures figures;
@@ -37,12 +38,12 @@ struct StudyOutcome {
 struct StudyResult {
   StudyPlan plan;
   double reference = 0.0;              ///< deg, the angle at which beds are compared
-  std::vector<StudyOutcome> outcomes;  ///< of the complete runs, in the order of the plan
+  std::vector<StudyOutcome> outcomes;  ///< of the members that are done, in the order of the plan
 };
 
-/// Reads the complete runs of a study. Beds are compared at `reference` deg; without a value at the smallest
-/// theta_c of them, rounded down to a whole degree, or where no slope failed at the smallest last tilt.
-/// Throws Error(bad_data) where no run is complete, and as RunFile::open does.
+/// Reads the members of a study that are done. Beds are compared at `reference` deg; without a value at the
+/// smallest theta_c of them, rounded down to a whole degree, or where no slope failed at the smallest last
+/// tilt. Throws Error(bad_data) where none is done, and as numbers_of and RunFile::open do.
 StudyResult read_study(const StudyPlan& plan, std::optional<double> reference);
 
 /// The angle that read_study takes by itself, deg.

@@ -114,8 +114,7 @@ std::string introduction(const StudyResult& result) {
   std::string text = fmt::format(
       "# Study of {}\n\n{} of {} runs complete; seeds {}. Values are means over seeds ± standard error; "
       "worst residuals are the largest of all seeds.\n",
-      plan.variants.front().scenario_file, result.outcomes.size(), plan.members.size(),
-      joined(plan.seeds, ", "));
+      plan.scenario_file, result.outcomes.size(), plan.members.size(), joined(plan.seeds, ", "));
   if (!plan.baseline.empty()) text += fmt::format("Baseline: {}.\n", plan.baseline);
   for (const std::string& version : versions) text += fmt::format("Computed by Talus {}.\n", version);
   if (versions.size() > 1)

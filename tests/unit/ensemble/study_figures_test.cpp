@@ -10,7 +10,10 @@
 
 #include "core/errors.h"
 #include "core/trigonometry.h"
+#include "ensemble/member_numbers.h"
+#include "ensemble/member_state.h"
 #include "ensemble/study.h"
+#include "io/durable_file.h"
 #include "support/temporary_folder.h"
 
 namespace talus {
@@ -135,7 +138,7 @@ TEST(CommonAngle, is_the_smallest_that_all_beds_reach) {
 
 /// Seeds 3 and 7 of a baseline and one variation.
 StudyPlan small_plan(const std::string& folder) {
-  return {plan_ensemble({3, 7}, {{"baseline", "", {}, {}}, {"other", "", {}, {}}}, folder), ""};
+  return {plan_ensemble({3, 7}, {{"baseline", "", {}, {}}, {"other", "", {}, {}}}, folder), "", ""};
 }
 
 TEST(StudyResult, pairs_runs_by_their_seeds) {
@@ -155,20 +158,25 @@ TEST(StudyResult, pairs_runs_by_their_seeds) {
   EXPECT_EQ(unpaired.difference.count, 1) << "the baseline lacks seed 7";
 }
 
-TEST(StudyResult, is_that_of_the_complete_runs) {
+TEST(StudyResult, is_that_of_the_members_that_are_done) {
   const test::TemporaryFolder folder;
   const StudyPlan plan = small_plan(folder.path());
-  std::filesystem::create_directories(folder.path("other"));
+  for (const char* variation : {"baseline", "other"})
+    std::filesystem::create_directories(folder.path(variation));
+  write_run(plan.members[0].path, 1.5);  // and not analysed yet
   write_run(plan.members[1].path, 2.5);
+  write_text(numbers_path(plan.members[1].path),
+             numbers_csv({"fe", "0.0.0 (abc)", 5.0, {{"theta_c", "deg", 2.5}}}));
   const StudyResult found = read_study(plan, {});
   ASSERT_EQ(found.outcomes.size(), 1u);
   EXPECT_EQ(found.outcomes[0].member, 1u);
   EXPECT_EQ(found.outcomes[0].version, "0.0.0 (abc)");
+  EXPECT_EQ(found.outcomes[0].state_hash, "fe");
   EXPECT_EQ(found.reference, 2.0);
   EXPECT_DOUBLE_EQ(at(found.outcomes[0].figures, StudyQuantity::volume_strain_at_reference), -0.03);
 }
 
-TEST(StudyResult, without_a_complete_run_is_refused) {
+TEST(StudyResult, without_a_member_that_is_done_is_refused) {
   const test::TemporaryFolder folder;
   EXPECT_THROW(read_study(small_plan(folder.path()), {}), Error);
 }
