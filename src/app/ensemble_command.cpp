@@ -20,6 +20,7 @@
 #include "core/text.h"
 #include "ensemble/member_series.h"
 #include "ensemble/pool.h"
+#include "ensemble/reproduction_values.h"
 #include "ensemble/until.h"
 #include "ensemble/worker.h"
 #include "io/durable_file.h"
@@ -56,9 +57,11 @@ void run_ensemble(const EnsembleArguments& arguments) {
   refuse_failures(view);
 }
 
-/// Runs or resumes a member, analyses it, and leaves its numbers beside it: the last of which makes it done.
+/// Runs or resumes a member, analyses it, does what the task of the ensemble asks besides, and leaves its
+/// numbers beside it: the last of which makes it done.
 void compute_member(const EnsembleArguments& arguments) {
-  const EnsemblePlan plan = plan_of(read_ensemble(arguments.folder), arguments.folder);
+  const EnsembleManifest manifest = read_ensemble(arguments.folder);
+  const EnsemblePlan plan = plan_of(manifest, arguments.folder);
   const auto member = std::ranges::find(plan.members, arguments.member, &Member::name);
   if (member == plan.members.end())
     throw Error(ExitCode::usage, fmt::format("{} has no member {}", arguments.folder, arguments.member));
@@ -80,6 +83,7 @@ void compute_member(const EnsembleArguments& arguments) {
       analysed_run(member->path, parse_analysis_settings({}), {.threads = 1, .quiet = true});
   write_text(series_path(member->path),
              series_csv(member_series(analysed.analysis, analysed.statics.mean_diameter)));
+  if (std::holds_alternative<ReadingsTask>(manifest.task)) make_readings(*member);
   write_text(numbers_path(member->path),
              numbers_csv(member_numbers(RunFile::open(member->path), analysed.analysis)));
 }

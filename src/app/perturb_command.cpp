@@ -63,7 +63,7 @@ EnsemblePlan plan_runs(const PerturbArguments& arguments) {
   std::vector<std::string> with_seed = arguments.settings;
   with_seed.push_back(fmt::format("seed={}", seeds.front()));
   const Scenario scenario = read_scenario(arguments.scenario, with_seed);
-  return plan_ensemble(seeds, {{"", arguments.scenario, arguments.settings, scenario}}, arguments.folder);
+  return plan_ensemble(seeds, {{"", arguments.scenario, scenario}}, arguments.folder);
 }
 
 /// The table stands beside the run.

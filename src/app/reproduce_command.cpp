@@ -5,23 +5,18 @@
 #include <cstdio>
 #include <filesystem>
 #include <fmt/core.h>
-#include <functional>
 #include <memory>
-#include <optional>
 
 #include "app/commands.h"
 #include "app/count_progress.h"
+#include "app/ensemble_workers.h"
 #include "app/figure_files.h"
 #include "app/figure_runs.h"
 #include "app/figure_text.h"
 #include "app/gnuplot.h"
 #include "app/jobs_option.h"
-#include "app/output_files.h"
-#include "app/pool_line.h"
 #include "app/stop_signals.h"
 #include "core/errors.h"
-#include "core/output_file.h"
-#include "ensemble/built_in_scenarios.h"
 #include "ensemble/reproduction_report.h"
 #include "ensemble/reproduction_values.h"
 #include "figures/catalogue.h"
@@ -40,42 +35,26 @@ struct ReproduceArguments {
   int jobs = default_jobs();
 };
 
-/// The built-in scenarios as files: `talus run` reads them, and so can a user.
-void write_scenarios(const ReproductionPlan& plan) {
-  prepare_folder(parent_folder(plan.variants.front().scenario_file));
-  for (const Variant& bed : plan.variants)
-    write_text(bed.scenario_file,
-               std::string(built_in_scenario(fs::path(bed.scenario_file).stem().string())));
+/// Lets workers make again what is missing of members that are done, or is of another version.
+void reopen(const ReproductionPlan& plan) {
+  for (const std::size_t m : done_members(plan))
+    if (!is_measured(plan.members[m])) remove_file(numbers_path(plan.members[m].path));
 }
 
 /// What is still to be run, and how long that may take.
 void announce(const ReproductionPlan& plan, int jobs) {
   double seconds = 0.0;
   for (const Member& member : plan.members) seconds += estimate(member.scenario).seconds;
-  const std::vector<std::size_t> complete = complete_members(plan);
-  for (const std::size_t m : complete) seconds -= estimate(plan.members[m].scenario).seconds;
-  std::fprintf(stderr, "%zu of %zu runs to compute, about %s on %d processor%s; then analyses and figures\n",
-               plan.members.size() - complete.size(), plan.members.size(),
-               duration_text(seconds / jobs).c_str(), jobs, jobs == 1 ? "" : "s");
-}
-
-/// Analyses of the runs, stored and others, and all that they give.
-ReproductionResult measure(const ReproductionPlan& plan, const std::string& folder, int jobs,
-                           const std::function<void()>& keep_on) {
-  const std::vector<Job> missing = missing_analyses(plan);
-  keep_on();
-  const std::vector<FailedJob> failed =
-      run_with_progress(missing, complete_members(plan).size(), jobs, "analysis", "analyses");
-  if (!failed.empty()) refuse(failed, "nothing is compared without their analysis");
-  std::optional<CountProgress> line;
-  return measure_runs(plan, {folder, jobs, keep_on, [&line](std::size_t done, std::size_t all) {
-                               if (!line) line.emplace("analyses of the threshold", all, false);
-                               line->show(done);
-                             }});
+  const std::vector<std::size_t> done = done_members(plan);
+  for (const std::size_t m : done) seconds -= estimate(plan.members[m].scenario).seconds;
+  std::fprintf(stderr,
+               "%zu of %zu runs to compute, about %s on %d processor%s; then their analyses, and figures\n",
+               plan.members.size() - done.size(), plan.members.size(), duration_text(seconds / jobs).c_str(),
+               jobs, jobs == 1 ? "" : "s");
 }
 
 std::vector<RunGroup> open_groups(const ReproductionPlan& plan) {
-  std::vector<std::size_t> members = complete_members(plan);
+  std::vector<std::size_t> members = done_members(plan);
   // By bed, so that groups come in the order of the plan: the paper's preparation first.
   std::ranges::stable_sort(members, {}, [&](std::size_t m) { return plan.members[m].variant; });
   std::vector<std::string> paths;
@@ -107,21 +86,20 @@ bool is_drawn(const Figure& figure, std::span<const RunGroup> groups, const fs::
 
 /// Draws all figures of the catalogue that can be made of the complete, analysed runs and returns them as
 /// pictures of the report. A figure whose provenance and script are those that would be written is kept.
-std::vector<ReportPicture> draw_figures(const ReproductionPlan& plan, const std::string& folder,
-                                        const std::function<void()>& keep_on) {
+std::vector<ReportPicture> draw_figures(const ReproductionPlan& plan, const std::string& folder) {
   const std::vector<RunGroup> groups = open_groups(plan);
   const std::string into = (fs::path(folder) / "figures").string();
   const auto catalogue = figure_catalogue();
   std::vector<ReportPicture> pictures;
   CountProgress progress("figures", catalogue.size(), false);
   for (std::size_t k = 0; k < catalogue.size(); ++k) {
-    keep_on();
+    stop_if_asked();
     if (const auto figure = catalogue[k].make(groups)) {
       const FigureOptions options{0, command_of(*figure, into)};
       try {
         if (!is_drawn(*figure, groups, into, options)) write_figure(*figure, groups, into, options);
       } catch (const Error&) {
-        keep_on();  // Ctrl-C ends gnuplot too: that is no error of the figure
+        stop_if_asked();  // Ctrl-C ends gnuplot too: that is no error of the figure
         throw;
       }
       pictures.push_back(
@@ -147,21 +125,17 @@ void reproduce(const ReproduceArguments& arguments) {
   const std::string seeds = !arguments.seeds.empty() ? arguments.seeds : arguments.quick ? "1" : "1-2";
   const ReproductionPlan plan = plan_reproduction(arguments.quick, seeds, folder);
   require_gnuplot();
-  const auto keep_on = [stop = stop_request()] {
-    if (*stop != 0)
-      throw Error(ExitCode::stopped, "the reproduction was stopped; repeat the command to continue");
-  };
-  write_scenarios(plan);
-  announce(plan, arguments.jobs);
-  const std::vector<Job> missing = missing_runs(plan, "reproduction");
-  keep_on();
-  const std::vector<FailedJob> failed =
-      run_with_progress(missing, plan.members.size(), arguments.jobs, "reproduction");
-  const std::string consequence = "left out of the report";
-  if (failed.size() == plan.members.size()) refuse(failed, consequence);
-  const ReproductionResult result = measure(plan, folder, arguments.jobs, keep_on);
-  write_report(result, draw_figures(plan, folder, keep_on), folder);
-  if (!failed.empty()) refuse(failed, consequence);
+  reopen(plan);
+  if (arguments.jobs > 0) announce(plan, arguments.jobs);
+  const EnsembleView view = compute_ensemble({"", plan.seeds, "", plan.variants, ReadingsTask{}},
+                                             {folder, {}, "", arguments.jobs}, {});
+  if (done_members(plan).empty()) {
+    refuse_failures(view, "nothing is left to report");
+    std::printf("%s", ensemble_text(view).c_str());  // others are to compute it
+    return;
+  }
+  write_report(measure_members(plan), draw_figures(plan, folder), folder);
+  refuse_failures(view, "left out of the report");
 }
 
 }  // namespace
@@ -178,9 +152,7 @@ void add_reproduce_command(CLI::App& app) {
                       "Folder of runs, figures and report; what is complete in it is kept [reproduction, or "
                       "reproduction-quick]");
   command->add_option("--seeds", arguments->seeds, "Seeds of each bed, e.g. 1-4 or 1-3,8 [1-2; quick: 1]");
-  command->add_option("--jobs", arguments->jobs, "Runs side by side, each on one thread")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 256));
+  add_jobs_option(*command, arguments->jobs);
   command->callback([arguments] { reproduce(*arguments); });
 }
 

@@ -52,6 +52,8 @@ std::string text_of(const EnsembleManifest& manifest) {
   std::string text =
       fmt::format("{}\nversion {}\nseeds {}\n", first_line, manifest.version, seeds_text(manifest.seeds));
   if (!manifest.until.empty()) text += fmt::format("until {}\n", manifest.until);
+  if (const std::string task = task_text(manifest.task); !task.empty())
+    text += fmt::format("task {}\n", task);
   for (const Variant& variant : manifest.variants)
     text += fmt::format("variant {} {}\n", hash_of(read_text(variant.scenario_file)), variant.name);
   return fmt::format("{}hash {}\n", text, hash_of(text));
@@ -79,7 +81,7 @@ Variant read_variant(const std::string& folder, const std::string& name, const s
                 path +
                     " was changed since the ensemble began; expected the scenario that it was made with: "
                     "undo the change, or begin another ensemble with it");
-  return {name, path, {}, parse_scenario(text, path)};
+  return {name, path, parse_scenario(text, path)};
 }
 
 /// Adds what a line of the manifest says.
@@ -89,6 +91,7 @@ void take_line(EnsembleManifest& manifest, const std::string& folder, const std:
   if (kind == "version") manifest.version = rest;
   if (kind == "seeds") manifest.seeds = parse_seeds(rest);
   if (kind == "until") manifest.until = rest;
+  if (kind == "task") manifest.task = parse_task(rest, manifest_path(folder));
   if (kind != "variant") return;
   const std::size_t end = std::min(rest.find(' '), rest.size());
   const std::string name = rest.substr(std::min(end + 1, rest.size()));
@@ -110,7 +113,16 @@ std::string differences(const Scenario& there, const Scenario& here) {
   return joined(parts, "; ");
 }
 
+std::string shown(const MemberTask& task) {
+  const std::string text = task_text(task);
+  return text.empty() ? "no task beside their analysis" : fmt::format("the task '{}'", text);
+}
+
 void require_same(const EnsembleManifest& found, const EnsembleManifest& wanted, const std::string& folder) {
+  if (found.task != wanted.task)
+    throw Error(ExitCode::bad_data,
+                fmt::format("{} holds an ensemble whose members have {}, expected {}; give another folder",
+                            folder, shown(found.task), shown(wanted.task)));
   bool common = false;
   for (const Variant& variant : wanted.variants) {
     const Variant* there = variant_called(found, variant.name);
@@ -188,7 +200,7 @@ std::vector<Variant> plan_variants(const std::string& scenario_file, const std::
     if (!scenario.deposition.file.empty())
       scenario.deposition.file = fs::absolute(scenario.deposition.file).string();
     if (std::ranges::find(variants, scenario, &Variant::scenario) != variants.end()) continue;
-    variants.push_back({variation_name(combination, scenario), scenario_file, {}, scenario});
+    variants.push_back({variation_name(combination, scenario), scenario_file, scenario});
   }
   return variants;
 }
@@ -198,7 +210,7 @@ EnsembleManifest extend_ensemble(const std::string& folder, const EnsembleManife
   prepare_folder(folder);
   // Only one process at a time extends an ensemble; the others wait.
   const Descriptor lock = create_locked_when_free(lock_path);
-  EnsembleManifest all{version_text(), wanted.seeds, wanted.until, {}};
+  EnsembleManifest all{version_text(), wanted.seeds, wanted.until, {}, wanted.task};
   std::string before;
   if (is_ensemble(folder)) {
     before = read_text(manifest_path(folder));

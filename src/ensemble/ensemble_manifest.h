@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "ensemble/member_task.h"
 #include "ensemble/plan.h"
 
 namespace talus {
@@ -14,7 +15,8 @@ struct EnsembleManifest {
   std::string version;               ///< of the Talus that wrote it
   std::vector<std::uint64_t> seeds;  ///< ascending
   std::string until;                 ///< "theta_c:0.2": no more members from then on; empty: all of them
-  std::vector<Variant> variants;     ///< their scenario files lie in the folder; no settings
+  std::vector<Variant> variants;     ///< their scenario files lie in the folder
+  MemberTask task = {};
 };
 
 /// DIR/ensemble.manifest.
@@ -40,7 +42,8 @@ std::vector<Variant> plan_variants(const std::string& scenario_file, const std::
 /// Begins an ensemble in the folder, or adds to the one that is there what it lacks: seeds and variants.
 /// `until` replaces the one before, unless it is empty. The manifest is written last, whole or not at all.
 /// Returns what is there then. Throws Error(bad_data) where a variant of the same name has another scenario
-/// there, or where none of the variants is there yet; otherwise as write_text does.
+/// there, where none of the variants is there yet, or where the members have another task; otherwise as
+/// write_text does.
 EnsembleManifest extend_ensemble(const std::string& folder, const EnsembleManifest& wanted);
 
 }  // namespace talus

@@ -68,6 +68,14 @@ std::vector<MemberState> look_at_members(const EnsemblePlan& plan) {
   return states;
 }
 
+std::vector<std::size_t> done_members(const EnsemblePlan& plan) {
+  const std::vector<MemberState> states = look_at_members(plan);
+  std::vector<std::size_t> done;
+  for (std::size_t m = 0; m < states.size(); ++m)
+    if (states[m].stage == MemberStage::done) done.push_back(m);
+  return done;
+}
+
 std::size_t count_of(const std::vector<MemberState>& states, MemberStage stage) {
   return static_cast<std::size_t>(std::ranges::count(states, stage, &MemberState::stage));
 }

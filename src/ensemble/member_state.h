@@ -25,6 +25,9 @@ struct MemberState {
 /// Of all members, in the order of the plan, with one look at each folder.
 std::vector<MemberState> look_at_members(const EnsemblePlan& plan);
 
+/// Those that are done, in the order of the plan.
+std::vector<std::size_t> done_members(const EnsemblePlan& plan);
+
 std::size_t count_of(const std::vector<MemberState>& states, MemberStage stage);
 
 /// The files beside the run that tell of its end: numbers.csv of what is done, the error of what failed.

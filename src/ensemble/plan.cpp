@@ -7,7 +7,6 @@
 
 #include "core/errors.h"
 #include "core/visible_text.h"
-#include "io/run_file.h"
 
 namespace talus {
 namespace {
@@ -63,13 +62,6 @@ EnsemblePlan plan_ensemble(std::vector<std::uint64_t> seeds, std::vector<Variant
       plan.members.back().scenario.seed = seed;
     }
   return plan;
-}
-
-std::vector<std::size_t> complete_members(const EnsemblePlan& plan) {
-  std::vector<std::size_t> complete;
-  for (std::size_t m = 0; m < plan.members.size(); ++m)
-    if (run_presence(plan.members[m].path) == RunPresence::packed) complete.push_back(m);
-  return complete;
 }
 
 std::string file_beside(const std::string& path, const char* ending) {

@@ -12,10 +12,9 @@ namespace talus {
 
 /// A scenario with all that is changed in it.
 struct Variant {
-  std::string name;                   ///< "baseline", "wbc-100": the folder of its runs; empty: none
-  std::string scenario_file;          ///< as `talus run` reads it
-  std::vector<std::string> settings;  ///< "key=value", without the seed
-  Scenario scenario;                  ///< what they give; its seed is not used
+  std::string name;           ///< "baseline", "wbc-100": the folder of its runs; empty: none
+  std::string scenario_file;  ///< as `talus run` reads it
+  Scenario scenario;          ///< what it says; its seed is not used
 };
 
 /// One run of the plan.
@@ -39,9 +38,6 @@ std::vector<std::uint64_t> parse_seeds(const std::string& text);
 /// Every variant with every seed, in files below `folder`.
 EnsemblePlan plan_ensemble(std::vector<std::uint64_t> seeds, std::vector<Variant> variants,
                            const std::string& folder);
-
-/// The members whose runs are there and complete.
-std::vector<std::size_t> complete_members(const EnsemblePlan& plan);
 
 /// `text` between separators; an empty text has one empty part.
 std::vector<std::string> split(const std::string& text, char separator);

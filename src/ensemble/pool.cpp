@@ -213,20 +213,6 @@ Job job_of(const Member& member, std::vector<std::string> arguments) {
           estimate(member.scenario).seconds};
 }
 
-std::vector<Job> missing_runs(const EnsemblePlan& plan, const std::string& work) {
-  std::vector<Job> jobs;
-  for (const Member& member : plan.members) {
-    if (is_complete(member, work)) continue;
-    const Variant& variant = plan.variants[member.variant];
-    std::vector<std::string> arguments = {
-        "run", path_word(variant.scenario_file), "-o", path_word(member.path), "--resume", "--threads", "1"};
-    add_settings(arguments, variant.settings);
-    arguments.insert(arguments.end(), {"--seed", std::to_string(member.seed)});
-    jobs.push_back(job_of(member, std::move(arguments)));
-  }
-  return jobs;
-}
-
 void add_settings(std::vector<std::string>& arguments, const std::vector<std::string>& settings) {
   for (const std::string& setting : settings) arguments.insert(arguments.end(), {"--set", setting});
 }

@@ -64,9 +64,6 @@ bool is_complete(const Member& member, const std::string& work);
 /// The job of a member, with the log beside its run file.
 Job job_of(const Member& member, std::vector<std::string> arguments);
 
-/// `talus run --resume` on one thread, of the members that are not complete. Throws as is_complete does.
-std::vector<Job> missing_runs(const EnsemblePlan& plan, const std::string& work);
-
 /// Adds "--set key=value" to a command.
 void add_settings(std::vector<std::string>& arguments, const std::vector<std::string>& settings);
 

@@ -1,13 +1,10 @@
 #include "ensemble/reproduction.h"
 
-#include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <fmt/core.h>
 
 #include "ensemble/built_in_scenarios.h"
 #include "scenario/text.h"
-#include "session/estimate.h"
 
 namespace talus {
 namespace {
@@ -18,26 +15,19 @@ constexpr double quick_scale = 0.5;  // of lengths and depths
 
 std::string setting(const char* key, double value) { return fmt::format("{}={}", key, short_text(value)); }
 
-/// The beds of the paper, with their scenarios in `folder`.
-struct BedMaker {
-  bool quick;
-  std::filesystem::path folder;
-
-  Variant operator()(std::string name, const std::string& scenario_name,
-                     std::vector<std::string> settings) const {
-    const std::string text(built_in_scenario(scenario_name));
-    const std::string file = scenario_name + ".toml";
-    if (quick) {
-      const Scenario full = parse_scenario(text, file);
-      settings.push_back(setting("bed.length", quick_scale * full.bed.length));
-      settings.push_back(setting("bed.depth", quick_scale * full.bed.depth));
-    }
-    const Scenario scenario = parse_scenario(text, file, settings);
-    return {std::move(name), (folder / file).string(), std::move(settings), scenario};
+/// A bed of the paper.
+Variant make_bed(bool quick, std::string name, const std::string& scenario_name,
+                 std::vector<std::string> settings) {
+  const std::string text(built_in_scenario(scenario_name)), file = scenario_name + ".toml";
+  if (quick) {
+    const Scenario full = parse_scenario(text, file);
+    settings.push_back(setting("bed.length", quick_scale * full.bed.length));
+    settings.push_back(setting("bed.depth", quick_scale * full.bed.depth));
   }
-};
+  return {std::move(name), file, parse_scenario(text, file, settings)};
+}
 
-std::vector<Variant> make_beds(const BedMaker& make_bed) {
+std::vector<Variant> make_beds(bool quick) {
   std::vector<Variant> beds;
   for (const std::string_view method : preparations) {
     std::string name = "pbc";
@@ -46,10 +36,10 @@ std::vector<Variant> make_beds(const BedMaker& make_bed) {
       name += fmt::format("-{}", method);
       settings.push_back(fmt::format("deposition.method={}", method));
     }
-    beds.push_back(make_bed(std::move(name), "paper-pbc", std::move(settings)));
+    beds.push_back(make_bed(quick, std::move(name), "paper-pbc", std::move(settings)));
   }
   for (const int length : wall_lengths)
-    beds.push_back(make_bed("wbc-" + short_text((make_bed.quick ? quick_scale : 1.0) * length),
+    beds.push_back(make_bed(quick, "wbc-" + short_text((quick ? quick_scale : 1.0) * length),
                             fmt::format("paper-wbc-{}", length), {}));
   return beds;
 }
@@ -74,14 +64,7 @@ void add_rows(std::string& text, const Member& run, const std::string& analysis,
 }  // namespace
 
 ReproductionPlan plan_reproduction(bool quick, const std::string& seeds, const std::string& folder) {
-  const std::filesystem::path below = folder;
-  ReproductionPlan plan{
-      plan_ensemble(parse_seeds(seeds), make_beds({quick, below / "scenarios"}), (below / "runs").string()),
-      quick};
-  std::ranges::stable_sort(plan.members, {}, [](const Member& member) {
-    return std::pair(member.seed, estimate(member.scenario).seconds);
-  });
-  return plan;
+  return {plan_ensemble(parse_seeds(seeds), make_beds(quick), folder), quick};
 }
 
 bool is_periodic(const Variant& bed) { return bed.scenario.bed.boundary == BedBoundary::periodic; }

@@ -13,20 +13,20 @@
 namespace talus {
 
 /// The variants are beds of the paper, or such a bed prepared in another way: periodic ones first, the
-/// paper's before other preparations. In each seed the cheapest run comes first.
+/// paper's before other preparations.
 struct ReproductionPlan : EnsemblePlan {
   bool quick = false;
 };
 
 /// The periodic bed with three preparations (deposition.method: poured, geometric, collapse) and five beds
 /// between walls. `quick`: H = 20 D, walls at L = 50 ... 150 D, so the paper's H / L, and L = 100 D for the
-/// periodic bed. Run files are in `folder`/runs, scenarios in `folder`/scenarios. Throws as parse_seeds does.
+/// periodic bed. They are members of an ensemble in `folder`. Throws as parse_seeds does.
 ReproductionPlan plan_reproduction(bool quick, const std::string& seeds, const std::string& folder);
 
 bool is_periodic(const Variant& bed);
 double depth_over_length(const Variant& bed);
 
-/// What a complete run gave.
+/// What a member that is done gave.
 struct ReproducedOutcome {
   std::size_t member = 0;  ///< index into ReproductionPlan::members
   std::string version;     ///< of the Talus that computed it, with its git hash

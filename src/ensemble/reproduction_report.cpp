@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <fmt/core.h>
 
 #include "core/text.h"
@@ -80,12 +79,9 @@ std::string versions_text(const ReproductionResult& result) {
 
 std::vector<std::string> run_commands(const ReproductionPlan& plan) {
   std::vector<std::string> lines;
-  for (const Variant& bed : plan.variants) {
-    lines.push_back("talus run scenarios/" + std::filesystem::path(bed.scenario_file).filename().string());
-    for (const std::string& setting : bed.settings) lines.back() += " --set " + setting;
-    lines.back() += fmt::format(" --seed N -o runs/{}/seed-N.h5", bed.name);
-  }
-  lines.push_back("talus analyze runs/*/seed-*.h5");
+  for (const Variant& bed : plan.variants)
+    lines.push_back(fmt::format("talus run scenarios/{0}.toml --seed N -o {0}/seed-N.h5", bed.name));
+  lines.emplace_back("talus analyze */seed-*.h5");
   return lines;
 }
 
@@ -209,7 +205,7 @@ ReportTable definition_table() {
 std::vector<ReportBlock> definition_blocks() {
   return {
       ReportHeading{2, "How each number is measured"},
-      ReportParagraph{"`talus analyze runs/BED/seed-N.h5` prints the series of a run and, with `--json`, all "
+      ReportParagraph{"`talus analyze BED/seed-N.h5` prints the series of a run and, with `--json`, all "
                       "of them; they stand in the run file under the path given here. Definitions are those "
                       "of docs/analysis.md and docs/notation.md; `values.csv` has the value of each run."},
       definition_table()};

@@ -1,30 +1,21 @@
 #pragma once
-/// The analyses that a reproduction needs, and what they give: all that is there and valid is kept.
+/// What the members of a reproduction give, each by the analysis of its run file and by those of the
+/// readings.
 
-#include <cstddef>
-#include <functional>
-#include <string>
-#include <vector>
-
-#include "ensemble/pool.h"
 #include "ensemble/reproduction.h"
 
 namespace talus {
 
-/// `talus analyze` with the default parameters, of each complete run whose stored analysis is not valid.
-std::vector<Job> missing_analyses(const ReproductionPlan& plan);
+/// Analyses the complete run of a periodic bed for each reading that its file does not hold, and keeps their
+/// values beside it ("seed-1.readings/averaging=1.csv"); those that are there and valid are kept. A bed
+/// between walls has none.
+void make_readings(const Member& member);
 
-/// How the analyses that no run file stores are made.
-struct ValueOptions {
-  std::string folder;  ///< their values are kept in FOLDER/study
-  int threads = 1;
-  std::function<void()> keep_on;  ///< called now and then; throws where it is to stop
-  /// Called with the number of analyses that have been made, and of those that had to be.
-  std::function<void(std::size_t done, std::size_t all)> show;
-};
+/// Whether the run of a member is there, with its analysis and its readings, both of this version.
+bool is_measured(const Member& member);
 
-/// Reads what the complete runs give; their analyses are stored. Makes the other analyses of periodic beds
-/// that are not there yet.
-ReproductionResult measure_runs(const ReproductionPlan& plan, const ValueOptions& options);
+/// Reads what the members that are done give. Throws Error(bad_data) where the values of one are not there,
+/// or not of this version.
+ReproductionResult measure_members(const ReproductionPlan& plan);
 
 }  // namespace talus

@@ -4,8 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <csignal>
-#include <fstream>
-#include <sstream>
 #include <thread>
 
 #include "process.h"
@@ -13,7 +11,7 @@
 namespace talus::test {
 namespace {
 
-const char* const first_run = "quick/runs/wbc-50/seed-1.h5";
+const char* const first_run = "quick/wbc-150/seed-1.h5";  // the longest
 
 pid_t start_quick(const TemporaryFolder& folder) {
   const pid_t process = start_talus({"reproduce", "--quick", "-o", "quick", "--jobs", "1"}, folder.path());
@@ -31,7 +29,7 @@ int steps_of_first_run(const TemporaryFolder& folder) {
 TEST(Reproduce, of_a_bad_form_leaves_with_64_before_anything_is_written) {
   const TemporaryFolder folder;
   for (const std::vector<std::string>& bad :
-       {std::vector<std::string>{"--jobs", "0"}, {"--seeds", "2-1"}, {"--seeds", "x"}, {"slope.toml"}}) {
+       {std::vector<std::string>{"--jobs", "-1"}, {"--seeds", "2-1"}, {"--seeds", "x"}, {"slope.toml"}}) {
     std::vector<std::string> arguments = {"reproduce", "--quick", "-o", "quick"};
     arguments.insert(arguments.end(), bad.begin(), bad.end());
     EXPECT_EQ(run_talus(arguments, folder.path()).exit_code, 64) << bad.front();
@@ -55,29 +53,28 @@ TEST(Reproduce, that_is_stopped_leaves_with_75_and_goes_on_where_it_was) {
   EXPECT_FALSE(std::filesystem::exists(folder.path("quick/report.html")));
 }
 
-TEST(Reproduce, writes_the_scenarios_that_a_user_can_run) {
+TEST(Reproduce, begins_an_ensemble_that_others_may_compute) {
   const TemporaryFolder folder;
-  const pid_t process = start_quick(folder);
-  kill(process, SIGTERM);
-  EXPECT_EQ(wait_for(process), 75);
-  std::ifstream source(TALUS_SOURCE_DIR "/assets/scenarios/paper-wbc-300.toml");
-  std::ifstream written(folder.path("quick/scenarios/paper-wbc-300.toml"));
-  std::stringstream expected, found;
-  expected << source.rdbuf();
-  found << written.rdbuf();
-  EXPECT_FALSE(expected.str().empty());
-  EXPECT_EQ(found.str(), expected.str());
-  EXPECT_EQ(run_talus({"check", "quick/scenarios/paper-pbc.toml"}, folder.path()).exit_code, 0);
+  const Outcome begun = run_talus({"reproduce", "--quick", "-o", "quick", "--jobs", "0"}, folder.path());
+  EXPECT_EQ(begun.exit_code, 0) << begun.err;
+  EXPECT_NE(begun.out.find("quick: 0 of 8 done"), std::string::npos) << begun.out;
+  EXPECT_FALSE(std::filesystem::exists(folder.path("quick/report.html")));
+  EXPECT_NE(text_of(folder.path("quick/ensemble.manifest")).find("task readings\n"), std::string::npos);
+  EXPECT_EQ(run_talus({"check", "quick/scenarios/wbc-150.toml"}, folder.path()).exit_code, 0);
+  const Outcome full = run_talus({"reproduce", "-o", "quick", "--jobs", "0"}, folder.path());
+  EXPECT_EQ(full.exit_code, 65) << "another bed";
+  EXPECT_NE(full.err.find("bed.depth is 20 there, 40 here"), std::string::npos) << full.err;
 }
 
 TEST(Reproduce, refuses_a_folder_with_another_run_in_it) {
   const TemporaryFolder folder;
   write_file(folder, "bed.toml", "[bed]\nlength = 10\ndepth = 4\n[tilt]\nend_angle = 0.5\n");
-  std::filesystem::create_directories(folder.path("quick/runs/wbc-50"));
+  std::filesystem::create_directories(folder.path("quick/wbc-150"));
   ASSERT_EQ(run_talus({"run", "bed.toml", "-o", first_run}, folder.path()).exit_code, 0);
   const Outcome outcome = run_talus({"reproduce", "--quick", "-o", "quick"}, folder.path());
   EXPECT_EQ(outcome.exit_code, 65);
   EXPECT_NE(outcome.err.find(first_run), std::string::npos) << outcome.err;
+  EXPECT_FALSE(std::filesystem::exists(folder.path("quick/ensemble.manifest")));
 }
 
 }  // namespace

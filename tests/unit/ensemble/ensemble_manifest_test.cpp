@@ -80,6 +80,22 @@ TEST_F(EnsembleManifestTest, of_another_scenario_is_refused_and_says_why) {
       << "variants of which none is there";
 }
 
+TEST_F(EnsembleManifestTest, has_one_task_for_its_members) {
+  EnsembleManifest asked = wanted({1});
+  asked.task = ReadingsTask{};
+  extend_ensemble(ensemble, asked);
+  EXPECT_EQ(read_ensemble(ensemble).task, MemberTask(ReadingsTask{}));
+  try {
+    extend_ensemble(ensemble, wanted({1}));
+    FAIL() << "nothing was refused";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::bad_data);
+    EXPECT_NE(std::string(error.what()).find("have the task 'readings', expected no task"), std::string::npos)
+        << error.what();
+  }
+  EXPECT_EQ(test::exit_code_of([] { parse_task("dance", "e"); }), ExitCode::bad_data);
+}
+
 TEST_F(EnsembleManifestTest, that_was_changed_is_refused) {
   extend_ensemble(ensemble, wanted({1}));
   const std::string path = manifest_path(ensemble), whole = text_of(path);

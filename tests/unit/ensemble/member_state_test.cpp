@@ -17,7 +17,7 @@ TEST(MemberState, follows_from_the_files_beside_the_run) {
   const test::TemporaryFolder folder;
   std::filesystem::create_directory(folder.path("a"));
   const EnsemblePlan plan =
-      plan_ensemble({1, 2, 3, 4}, {{"a", "", {}, {}}, {"b", "", {}, {}}}, folder.path().string());
+      plan_ensemble({1, 2, 3, 4}, {{"a", "", {}}, {"b", "", {}}}, folder.path().string());
   touch(folder.path("a/seed-1.csv"));
   touch(folder.path("a/seed-1.claim-0"));  // its worker has not given it back yet
   touch(folder.path("a/seed-2.failed"));

@@ -30,8 +30,7 @@ TEST(Seeds, of_another_form_are_refused) {
 }
 
 TEST(EnsemblePlan, has_every_variant_with_every_seed) {
-  const EnsemblePlan plan =
-      plan_ensemble({3, 7}, {{"a", "x.toml", {}, {}}, {"", "y.toml", {}, {}}}, "folder");
+  const EnsemblePlan plan = plan_ensemble({3, 7}, {{"a", "x.toml", {}}, {"", "y.toml", {}}}, "folder");
   ASSERT_EQ(plan.members.size(), 4u);
   const std::vector<std::string> names = {"a/seed-3", "seed-3", "a/seed-7", "seed-7"};
   for (std::size_t m = 0; m < 4; ++m) {
@@ -40,17 +39,6 @@ TEST(EnsemblePlan, has_every_variant_with_every_seed) {
     EXPECT_EQ(plan.members[m].variant, m % 2);
     EXPECT_EQ(plan.members[m].scenario.seed, m < 2 ? 3u : 7u);
   }
-}
-
-TEST(EnsemblePlan, gives_the_commands_of_what_is_missing) {
-  const EnsemblePlan plan = plan_ensemble({3}, {{"a", "x.toml", {"tilt.rate=2"}, {}}}, "/none");
-  const std::vector<Job> jobs = missing_runs(plan, "study");
-  ASSERT_EQ(jobs.size(), 1u);
-  EXPECT_EQ(jobs[0].arguments,
-            (std::vector<std::string>{"run", "x.toml", "-o", "/none/a/seed-3.h5", "--resume", "--threads",
-                                      "1", "--set", "tilt.rate=2", "--seed", "3"}));
-  EXPECT_EQ(jobs[0].log, "/none/a/seed-3.log");
-  EXPECT_GT(jobs[0].estimate, 0.0);
 }
 
 TEST(Refusal, has_the_exit_code_of_the_first_and_names_all_logs) {

@@ -124,7 +124,7 @@ TEST(ReproductionReport, has_every_value_of_the_paper) {
   const std::string report = page_of(like_the_paper(0.0));
   for (const PaperValue& paper : paper_values)
     EXPECT_NE(report.find(std::string("<td>").append(paper.name)), std::string::npos) << paper.name;
-  for (const char* part : {"scenarios/paper-wbc-250.toml", "9.9.9 (abc)", "2 of 2"})
+  for (const char* part : {"talus run scenarios/wbc-250.toml", "9.9.9 (abc)", "2 of 2"})
     EXPECT_NE(report.find(part), std::string::npos) << part;
 }
 

@@ -74,7 +74,7 @@ TEST(Starts, are_remembered_from_one_to_the_next) {
 
 TEST(EnsembleMark, counts_members_runs_and_committed_steps) {
   const test::TemporaryFolder folder;
-  const EnsemblePlan plan = plan_ensemble({1, 2, 3, 4}, {{"", "", {}, {}}}, folder.path().string());
+  const EnsemblePlan plan = plan_ensemble({1, 2, 3, 4}, {{"", "", {}}}, folder.path().string());
   write(folder.path("seed-1.csv"), "");
   write(folder.path("seed-2.h5"), "");
   std::filesystem::create_directory(folder.path("seed-3.h5.run"));

@@ -138,7 +138,7 @@ TEST(CommonAngle, is_the_smallest_that_all_beds_reach) {
 
 /// Seeds 3 and 7 of a baseline and one variation.
 StudyPlan small_plan(const std::string& folder) {
-  return {plan_ensemble({3, 7}, {{"baseline", "", {}, {}}, {"other", "", {}, {}}}, folder), "", ""};
+  return {plan_ensemble({3, 7}, {{"baseline", "", {}}, {"other", "", {}}}, folder), "", ""};
 }
 
 TEST(StudyResult, pairs_runs_by_their_seeds) {

@@ -28,7 +28,7 @@ TEST(Precision, is_a_quantity_and_an_error) {
 }
 
 TEST(Precision, is_reached_where_the_mean_of_every_variant_is_known_so_well) {
-  const EnsemblePlan plan = plan_ensemble({1, 2, 3, 4, 5}, {{"a", "", {}, {}}, {"b", "", {}, {}}}, "none");
+  const EnsemblePlan plan = plan_ensemble({1, 2, 3, 4, 5}, {{"a", "", {}}, {"b", "", {}}}, "none");
   std::vector<MemberNumbers> numbers;
   for (const double theta_c : {19.0, 20.0, 21.0, 20.0, 20.0})  // deviation 0.71, error 0.32
     numbers.insert(numbers.end(), {member_with(theta_c), member_with(theta_c)});

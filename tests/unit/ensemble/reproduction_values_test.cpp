@@ -1,0 +1,95 @@
+/// The further analyses of a member of a reproduction: what is missing is made, what is there is kept.
+
+#include "ensemble/reproduction_values.h"
+
+#include <gtest/gtest.h>
+
+#include "core/errors.h"
+#include "core/hash.h"
+#include "core/snapshot.h"
+#include "ensemble/member_numbers.h"
+#include "ensemble/member_state.h"
+#include "io/analysis_file.h"
+#include "io/durable_file.h"
+#include "session/analysis_run.h"
+#include "session/run.h"
+#include "session/run_header.h"
+#include "support/exit_code.h"
+#include "support/small_bed.h"
+#include "support/temporary_folder.h"
+
+namespace talus {
+namespace {
+
+namespace fs = std::filesystem;
+
+class ReadingsTest : public testing::Test {
+ protected:
+  /// A plan of one member whose run and analysis are complete.
+  ReproductionPlan computed(const Scenario& scenario) const {
+    ReproductionPlan plan{plan_ensemble({1}, {{"bed", "", scenario}}, folder_.path().string()), false};
+    const Member& member = plan.members.front();
+    fs::create_directories(folder_.path("bed"));
+    Session session(member.scenario);
+    RunStore store = RunStore::create(member.path, run_header(session, {"", {}, "", 1}), false);
+    run_to_end(session, store, {});
+    const RunFile run = RunFile::open(member.path);
+    const Analysis analysis = analyse_run(run, AnalysisParameters(), 1, {});
+    store_analysis(member.path, analysis, hash_text(state_hash(run.checkpoint().world)));
+    write_text(numbers_path(member.path), numbers_csv(member_numbers(RunFile::open(member.path), analysis)));
+    return plan;
+  }
+  std::size_t count_of_readings() const {
+    const fs::path readings = folder_.path("bed/seed-1.readings");
+    if (!fs::exists(readings)) return 0;
+    return static_cast<std::size_t>(
+        std::distance(fs::directory_iterator(readings), fs::directory_iterator()));
+  }
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(ReadingsTest, are_made_where_they_are_missing_and_measured) {
+  const ReproductionPlan plan = computed(test::small_tilted_bed(1.0));
+  const Member& member = plan.members.front();
+  EXPECT_FALSE(is_measured(member));
+  EXPECT_EQ(test::exit_code_of([&] { measure_members(plan); }), ExitCode::bad_data);
+  make_readings(member);
+  EXPECT_TRUE(is_measured(member));
+  EXPECT_EQ(count_of_readings(), 12u);
+  const std::string averaged = folder_.path("bed/seed-1.readings/averaging=1.csv"),
+                    joined = folder_.path("bed/seed-1.readings/joining=neighbours.csv");
+  const std::string before = read_text(averaged);
+  const auto written = fs::last_write_time(joined);
+  write_text(averaged, "of another version\n");
+  EXPECT_FALSE(is_measured(member));
+  make_readings(member);
+  EXPECT_EQ(read_text(averaged), before);
+  EXPECT_EQ(fs::last_write_time(joined), written);
+
+  const ReproductionResult result = measure_members(plan);
+  ASSERT_EQ(result.outcomes.size(), 1u);
+  const ReproducedOutcome& outcome = result.outcomes.front();
+  EXPECT_GT(outcome.seconds, 0.0);
+  ASSERT_EQ(outcome.values.size(), chain_analyses(paper_depth).size());
+  for (const auto& thresholds : outcome.values) EXPECT_FALSE(thresholds.empty());
+  fs::remove(member.path);
+  EXPECT_FALSE(is_measured(member)) << "without its run";
+}
+
+TEST_F(ReadingsTest, are_none_between_walls) {
+  Scenario scenario = test::small_tilted_bed(1.0);
+  scenario.bed.boundary = BedBoundary::walls;
+  const ReproductionPlan plan = computed(scenario);
+  make_readings(plan.members.front());
+  EXPECT_EQ(count_of_readings(), 0u);
+  EXPECT_TRUE(is_measured(plan.members.front()));
+  const ReproductionResult result = measure_members(plan);
+  ASSERT_EQ(result.outcomes.size(), 1u);
+  EXPECT_FALSE(result.outcomes[0].values.front().empty());
+  EXPECT_TRUE(result.outcomes[0].values[1].empty());
+  remove_file(numbers_path(plan.members.front().path));
+  EXPECT_TRUE(measure_members(plan).outcomes.empty()) << "of what is not done";
+}
+
+}  // namespace
+}  // namespace talus
