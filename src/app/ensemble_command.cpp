@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <fmt/core.h>
+#include <functional>
 #include <memory>
 
 #include "app/analysed_run.h"
@@ -14,6 +15,8 @@
 #include "app/ensemble_workers.h"
 #include "app/jobs_option.h"
 #include "app/open_run.h"
+#include "app/perturbed_run.h"
+#include "app/progress.h"
 #include "app/stop_signals.h"
 #include "app/wall_time.h"
 #include "core/errors.h"
@@ -54,7 +57,7 @@ void run_ensemble(const EnsembleArguments& arguments) {
   const EnsembleView view = compute_ensemble(
       wanted, {arguments.folder, arguments.times, arguments.max_wall, arguments.jobs}, {arguments.scenario});
   std::printf("%s", (arguments.json ? ensemble_json(view) + "\n" : ensemble_text(view)).c_str());
-  refuse_failures(view);
+  refuse_failures(view.plan, "left out of the means");
 }
 
 /// Runs or resumes a member, analyses it, does what the task of the ensemble asks besides, and leaves its
@@ -65,9 +68,17 @@ void compute_member(const EnsembleArguments& arguments) {
   const auto member = std::ranges::find(plan.members, arguments.member, &Member::name);
   if (member == plan.members.end())
     throw Error(ExitCode::usage, fmt::format("{} has no member {}", arguments.folder, arguments.member));
-  if (!is_complete(*member, "ensemble")) {
+  const auto* trials = std::get_if<PerturbationPlan>(&manifest.task);
+  if (!is_complete(*member)) {
     RunControl control;
     control.stop = stop_request();
+    std::function<void(const RunProgress&)> push;
+    if (trials != nullptr) push = trials_on_the_way(member->path, *trials, stop_request());
+    ProgressLine line(false);
+    control.on_step = [&push, &line](const RunProgress& progress) {
+      line.show(progress);
+      if (push) push(progress);
+    };
     if (!arguments.max_wall.empty()) control.max_wall = parse_wall_time("--max-wall", arguments.max_wall);
     RunRequest request{
         plan.variants[member->variant].scenario_file, member->path, {}, 1, false, command_line()};
@@ -79,13 +90,15 @@ void compute_member(const EnsembleArguments& arguments) {
     if (run_to_end(open.session, open.store, control) == RunEnd::stopped)
       throw Error(ExitCode::stopped, "the member was stopped; its run goes on from its checkpoint");
   }
+  if (trials != nullptr) complete_trials(member->path, *trials);
   const AnalysedRun analysed =
       analysed_run(member->path, parse_analysis_settings({}), {.threads = 1, .quiet = true});
   write_text(series_path(member->path),
              series_csv(member_series(analysed.analysis, analysed.statics.mean_diameter)));
   if (std::holds_alternative<ReadingsTask>(manifest.task)) make_readings(*member);
-  write_text(numbers_path(member->path),
-             numbers_csv(member_numbers(RunFile::open(member->path), analysed.analysis)));
+  const MemberNumbers numbers = member_numbers(RunFile::open(member->path), analysed.analysis);
+  write_text(numbers_path(member->path), numbers_csv(numbers));
+  std::printf("%s is done: state %s\n", member->name.c_str(), numbers.state_hash.c_str());
 }
 
 void work(const EnsembleArguments& arguments) {

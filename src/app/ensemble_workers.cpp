@@ -93,21 +93,22 @@ std::vector<FailedJob> run_workers(const EnsembleWorkers& workers, const Ensembl
   std::vector<Job> jobs;
   for (std::size_t k = 1; k <= std::min<std::size_t>(missing, static_cast<std::size_t>(workers.jobs)); ++k) {
     const std::string name = fmt::format("worker-{}", k);
-    jobs.push_back({name, worker_words(workers),
-                    (std::filesystem::path(workers.folder) / "workers" / (name + ".log")).string(), 0.0});
+    jobs.push_back({worker_words(workers),
+                    (std::filesystem::path(workers.folder) / "workers" / (name + ".log")).string()});
   }
   const EnsemblePace pace{estimate_of(plan, states, MemberStage::done)};
   StatusLine line(false, 60.0);
   AveragesOnTheWay averages{count_of(states, MemberStage::done)};
   auto shown = pace.begin;  // a look at ten thousand members takes some hundredths of a second
-  const auto show_now_and_then = [&](const PoolProgress&) {
+  const auto show_now_and_then = [&] {
     renew(averages, workers.folder);
     const bool on_time = std::chrono::steady_clock::now() - shown > std::chrono::seconds(2);
-    if (!(line.on_terminal() ? on_time : line.is_due())) return;
+    if (!(line.on_terminal() ? on_time : line.is_due())) return true;
     shown = std::chrono::steady_clock::now();
     show(line, plan, pace);
+    return true;
   };
-  std::vector<FailedJob> failed = run_jobs(jobs, {"ensemble", workers.jobs, jobs.size(), show_now_and_then});
+  std::vector<FailedJob> failed = run_jobs(jobs, "the ensemble", show_now_and_then);
   line.finish();
   const bool stopped = std::ranges::any_of(failed, [](const FailedJob& worker) {
     return worker.exit_code == static_cast<int>(ExitCode::stopped);
@@ -135,25 +136,34 @@ void compute_members(const EnsembleWorkers& workers) {
     std::this_thread::sleep_for(std::chrono::seconds(1));
   }
 }
+void begin_ensemble(const std::string& folder, const EnsembleManifest& wanted,
+                    const std::vector<std::string>& inputs) {
+  if (!is_ensemble(folder))
+    for (const Member& member : plan_of(wanted, folder).members) is_complete(member);
+  prepare_folder(folder);
+  for (const char* name : {"members.csv", "averages.csv", "ensemble.h5"})
+    output_target((std::filesystem::path(folder) / name).string(), {true, inputs});
+  extend_ensemble(folder, wanted);
+}
+
 EnsembleView compute_ensemble(const EnsembleManifest& wanted, const EnsembleWorkers& workers,
                               const std::vector<std::string>& inputs) {
-  if (!is_ensemble(workers.folder))
-    for (const Member& member : plan_of(wanted, workers.folder).members) is_complete(member, "ensemble");
-  prepare_folder(workers.folder);
-  for (const char* name : {"members.csv", "averages.csv", "ensemble.h5"})
-    output_target((std::filesystem::path(workers.folder) / name).string(), {true, inputs});
-  extend_ensemble(workers.folder, wanted);
+  begin_ensemble(workers.folder, wanted, inputs);
   if (workers.jobs > 0) compute_members(workers);
   return write_averages(workers.folder);
 }
 
-void refuse_failures(const EnsembleView& view, const std::string& consequence) {
+void refuse_failures(const EnsemblePlan& plan, const std::string& consequence) {
+  const std::vector<MemberState> states = look_at_members(plan);
   std::vector<FailedJob> failed;
-  for (std::size_t m = 0; m < view.states.size(); ++m)
-    if (view.states[m].stage == MemberStage::failed)
-      failed.push_back({file_beside(view.plan.members[m].path, ".log"),
-                        read_failure(view.plan.members[m].path).exit_code});
-  if (!failed.empty()) refuse(failed, consequence);
+  for (std::size_t m = 0; m < states.size(); ++m) {
+    if (states[m].stage != MemberStage::failed) continue;
+    const MemberFailure failure = read_failure(plan.members[m].path);
+    failed.push_back({file_beside(plan.members[m].path, ".log"), failure.exit_code, failure.message});
+  }
+  if (failed.empty()) return;
+  const char* const them = failed.size() == 1 ? "it" : "them";
+  refuse(failed, fmt::format("{} until talus ensemble retry lets {} be computed again", consequence, them));
 }
 
 }  // namespace talus

@@ -22,15 +22,19 @@ struct EnsembleWorkers {
 /// the Error of a worker that ended with one, and as read_ensemble does.
 void compute_members(const EnsembleWorkers& workers);
 
-/// Begins an ensemble in the folder of the workers, or adds to the one that is there what it lacks, computes
-/// what is missing of it, and writes its averages. Returns how far it is then. `inputs`: files that are read,
-/// and never replaced. Throws as extend_ensemble and compute_members do, and Error(bad_data), before an
-/// ensemble is begun, where a run of another scenario has the name of a member.
+/// Begins an ensemble in the folder, or adds to the one that is there what it lacks. `inputs`: files that are
+/// read, and never replaced. Throws as extend_ensemble does, and Error(bad_data), before an ensemble is
+/// begun, where a run of another scenario has the name of a member.
+void begin_ensemble(const std::string& folder, const EnsembleManifest& wanted,
+                    const std::vector<std::string>& inputs);
+
+/// Does that in the folder of the workers, computes what is missing, and writes the averages. Returns how far
+/// the ensemble is then. Throws as begin_ensemble and compute_members do.
 EnsembleView compute_ensemble(const EnsembleManifest& wanted, const EnsembleWorkers& workers,
                               const std::vector<std::string>& inputs);
 
-/// Throws the Error of members that failed, with the exit code of the first; does nothing where none has.
-/// `consequence`: "left out of the means".
-void refuse_failures(const EnsembleView& view, const std::string& consequence = "left out of the means");
+/// Throws the Error of the members of a plan that failed, with the exit code of the first; does nothing where
+/// none has. `consequence`: "left out of the means".
+void refuse_failures(const EnsemblePlan& plan, const std::string& consequence);
 
 }  // namespace talus

@@ -130,12 +130,12 @@ void reproduce(const ReproduceArguments& arguments) {
   const EnsembleView view = compute_ensemble({"", plan.seeds, "", plan.variants, ReadingsTask{}},
                                              {folder, {}, "", arguments.jobs}, {});
   if (done_members(plan).empty()) {
-    refuse_failures(view, "nothing is left to report");
+    refuse_failures(plan, "nothing is left to report");
     std::printf("%s", ensemble_text(view).c_str());  // others are to compute it
     return;
   }
   write_report(measure_members(plan), draw_figures(plan, folder), folder);
-  refuse_failures(view, "left out of the report");
+  refuse_failures(plan, "left out of the report");
 }
 
 }  // namespace

@@ -74,8 +74,8 @@ void study(const StudyArguments& arguments) {
     output_target((folder / table).string(), {true, {arguments.scenario}});
   const EnsembleView view = compute_ensemble(
       {"", plan.seeds, "", plan.variants}, {arguments.folder, {}, "", arguments.jobs}, {arguments.scenario});
-  if (count_of(view.states, MemberStage::done) == 0) {
-    refuse_failures(view, "nothing can be compared");
+  if (done_members(plan).empty()) {
+    refuse_failures(plan, "nothing can be compared");
     std::printf("%s", ensemble_text(view).c_str());  // others are to compute it
     return;
   }
@@ -83,7 +83,7 @@ void study(const StudyArguments& arguments) {
   write_text(folder / "study.csv", study_csv(result));
   write_text(folder / "study.md", study_markdown(result));
   std::printf("%s\n", (arguments.json ? study_json(result) : study_markdown(result)).c_str());
-  refuse_failures(view, "left out of the tables");
+  refuse_failures(plan, "left out of the tables");
 }
 
 }  // namespace

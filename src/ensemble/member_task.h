@@ -4,6 +4,8 @@
 #include <string>
 #include <variant>
 
+#include "session/perturbation_table.h"
+
 namespace talus {
 
 /// A member is a run and its analysis, no more.
@@ -16,9 +18,10 @@ struct ReadingsTask {
   bool operator==(const ReadingsTask&) const = default;
 };
 
-using MemberTask = std::variant<PlainTask, ReadingsTask>;
+/// A PerturbationPlan: copies of the bed are pushed while the run goes on.
+using MemberTask = std::variant<PlainTask, ReadingsTask, PerturbationPlan>;
 
-/// "readings": what the manifest says of the task. Plain: empty.
+/// "readings", "trials --from 12 ...": what the manifest says of the task. Plain: empty.
 std::string task_text(const MemberTask& task);
 
 /// Throws Error(bad_data), naming `path`, where it is no such text.

@@ -5,9 +5,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
-#include <chrono>
 #include <csignal>
 #include <ctime>
 #include <fmt/core.h>
@@ -16,7 +14,6 @@
 #include "core/errors.h"
 #include "core/output_file.h"
 #include "io/run_file.h"
-#include "session/estimate.h"
 #include "session/run_header.h"
 
 namespace talus {
@@ -80,141 +77,72 @@ pid_t start(const Job& job, const sigset_t& signals) {
   return process;
 }
 
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-struct Running {
-  const Job* job;
-  Clock::time_point since;
-};
-
-/// Jobs on their way.
-struct Pool {
-  const std::vector<Job>& jobs;
-  const PoolOptions& options;
-  std::size_t next = 0;  ///< job to be started
-  std::map<pid_t, Running> running = {};
-  std::vector<FailedJob> failed = {};
-  std::size_t done = 0;
-  double estimate_of_done = 0.0;  ///< s
-  double seconds_of_done = 0.0;   ///< s, what these really took
-  Clock::time_point begin = Clock::now();
-};
-
-/// Jobs that ended tell how far the estimates are off; those under way count with what is left of them.
-double seconds_left(const Pool& pool) {
-  const double pace = pool.estimate_of_done > 0.0 ? pool.seconds_of_done / pool.estimate_of_done : 1.0;
-  double left = 0.0, longest = 0.0;
-  for (std::size_t k = pool.next; k < pool.jobs.size(); ++k) left += pace * pool.jobs[k].estimate;
-  for (const auto& [process, running] : pool.running) {
-    const double rest = std::max(0.0, pace * running.job->estimate - seconds_since(running.since));
-    left += rest;
-    longest = std::max(longest, rest);
-  }
-  return std::max(left / pool.options.at_once, longest);
-}
-
-void show(const Pool& pool, PoolProgress progress = {}) {
-  if (!pool.options.show) return;
-  progress.all = pool.options.all;
-  progress.done = pool.options.all - pool.jobs.size() + pool.done;
-  progress.running = pool.running.size();
-  progress.seconds = seconds_since(pool.begin);
-  progress.seconds_left = seconds_left(pool);
-  pool.options.show(progress);
-}
-
-void end(Pool& pool, const Running& ended, int exit_code) {
-  PoolProgress progress;
-  progress.ended = ended.job;
-  progress.exit_code = exit_code;
-  progress.seconds_of_job = seconds_since(ended.since);
-  if (exit_code == 0) {
-    ++pool.done;
-    pool.estimate_of_done += ended.job->estimate;
-    pool.seconds_of_done += progress.seconds_of_job;
-  } else {
-    pool.failed.push_back({ended.job->log, exit_code});
-  }
-  show(pool, progress);
-}
-
-/// Takes the jobs out of the pool that have ended.
-void collect(Pool& pool) {
-  for (auto child = pool.running.begin(); child != pool.running.end();) {
+/// Takes the jobs out of `running` that have ended; those with an error go to `failed`.
+void collect(std::map<pid_t, const Job*>& running, std::vector<FailedJob>& failed) {
+  for (auto child = running.begin(); child != running.end();) {
     int status = 0;
     if (waitpid(child->first, &status, WNOHANG) != child->first) {
       ++child;
       continue;
     }
-    const Running ended = child->second;
-    child = pool.running.erase(child);
-    end(pool, ended, WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status));
+    const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    if (code != 0) failed.push_back({child->second->log, code});
+    child = running.erase(child);
   }
 }
 
 }  // namespace
 
-std::vector<FailedJob> run_jobs(const std::vector<Job>& jobs, const PoolOptions& options) {
+std::vector<FailedJob> run_jobs(const std::vector<Job>& jobs, const std::string& work,
+                                const std::function<bool()>& go_on) {
   for (const Job& job : jobs) {
     prepare_folder_of(job.log);
     output_target(job.log);  // a FIFO would wait for somebody to read it
   }
   const HeldSignals signals;
-  Pool pool{jobs, options};
+  std::map<pid_t, const Job*> running;
+  std::vector<FailedJob> failed;
+  for (const Job& job : jobs) running.emplace(start(job, signals.before()), &job);
   bool stopped = false, given_up = false;
-  while (!pool.running.empty() || (!stopped && !given_up && pool.next < jobs.size())) {
-    while (!stopped && !given_up && pool.next < jobs.size() &&
-           pool.running.size() < static_cast<std::size_t>(options.at_once)) {
-      const Job& job = jobs[pool.next++];
-      pool.running.emplace(start(job, signals.before()), Running{&job, Clock::now()});
+  const auto end_all = [&] {
+    for (const auto& [process, job] : running) kill(process, SIGTERM);
+  };
+  while (!running.empty()) {
+    if (!stopped && !given_up && !go_on()) {
+      given_up = true;
+      end_all();
     }
     const int signal = signals.wait();
-    const bool asked = signal == SIGINT || signal == SIGTERM || signal == SIGHUP;
-    const bool gives_up = !asked && !given_up && options.give_up && options.give_up();
-    stopped = stopped || asked;
-    given_up = given_up || gives_up;
-    if (asked || gives_up)
-      for (const auto& [process, running] : pool.running) kill(process, SIGTERM);
-    collect(pool);
-    show(pool);
+    if (signal == SIGINT || signal == SIGTERM || signal == SIGHUP) {
+      stopped = true;
+      end_all();
+    }
+    collect(running, failed);
   }
   if (stopped)
-    throw Error(ExitCode::stopped,
-                fmt::format("the {} was stopped; repeat the command to continue", options.work));
-  return pool.failed;
+    throw Error(ExitCode::stopped, fmt::format("{} was stopped; repeat the command to continue", work));
+  return failed;
 }
 
 void refuse(const std::vector<FailedJob>& failed, const std::string& consequence) {
   std::string text = fmt::format("{}{} ended with an error, {}; see", failed.size(),
                                  failed.size() == 1 ? " run" : " runs", consequence);
-  for (const FailedJob& job : failed) text += fmt::format("\n  {} (exit code {})", job.log, job.exit_code);
+  for (const auto& [log, exit_code, said] : failed)
+    text += fmt::format("\n  {} (exit code {}){}{}", log, exit_code, said.empty() ? "" : ": ", said);
   const int code = failed.front().exit_code;
   throw Error(code > 128 ? ExitCode::internal : static_cast<ExitCode>(code), text);
 }
 
-bool is_complete(const Member& member, const std::string& work) {
+bool is_complete(const Member& member) {
   const RunPresence presence = run_presence(member.path);
   if (presence == RunPresence::none) return false;
   // Values are compared, not texts: a key that an earlier version did not have is at its default in it.
   if (stored_scenario(RunFile::open(member.path).header(), member.path) != member.scenario)
     throw Error(ExitCode::bad_data,
-                fmt::format("{} is a run of another scenario than this {}'s; expected the scenario, the "
-                            "settings and the version that the {} began with; give another folder",
-                            member.path, work, work));
+                fmt::format("{} is a run of another scenario than this ensemble's; expected the scenario, "
+                            "the settings and the version that the ensemble began with; give another folder",
+                            member.path));
   return presence == RunPresence::packed;
-}
-
-Job job_of(const Member& member, std::vector<std::string> arguments) {
-  return {member.name, std::move(arguments), file_beside(member.path, ".log"),
-          estimate(member.scenario).seconds};
-}
-
-void add_settings(std::vector<std::string>& arguments, const std::vector<std::string>& settings) {
-  for (const std::string& setting : settings) arguments.insert(arguments.end(), {"--set", setting});
 }
 
 std::string path_word(const std::string& path) { return path.starts_with('-') ? "./" + path : path; }

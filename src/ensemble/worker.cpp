@@ -63,6 +63,7 @@ Look take_next(const EnsemblePlan& plan, const std::vector<MemberState>& states,
   for (const std::size_t m : longest_first(plan)) {
     const Member& member = plan.members[m];
     const MemberState& state = states[m];
+    if (!worker.options.only.empty() && member.name != worker.options.only) continue;
     if (state.stage == MemberStage::done || state.stage == MemberStage::failed) continue;
     if (state.claim) {
       const ClaimState claim = claim_state(member.path, *state.claim, worker.watch);
@@ -116,8 +117,9 @@ void compute(Worker& worker, Taken& taken) {
   }
   if (worker.options.tell) worker.options.tell(member.name, -1);
   bool lost = false;
-  PoolOptions pool{"worker", 1, 1, {}, [&] { return lost = lost || !taken.claim.beat(); }};
-  const std::vector<FailedJob> failed = run_jobs({job_of(member, std::move(arguments))}, pool);
+  const auto keep_claim = [&] { return !(lost = lost || !taken.claim.beat()); };
+  const std::vector<FailedJob> failed =
+      run_jobs({{std::move(arguments), file_beside(member.path, ".log")}}, "the worker", keep_claim);
   if (lost) return;  // somebody else goes on with it
   const int code = failed.empty() ? 0 : failed.front().exit_code;
   if (worker.options.tell) worker.options.tell(member.name, code);

@@ -19,6 +19,7 @@ struct WorkerOptions {
   std::optional<double> max_wall;  ///< s that it may take
   /// Called at each member that it takes and that ends: `exit_code` is -1 where it begins. May be empty.
   std::function<void(const std::string& member, int exit_code)> tell;
+  std::string only = {};  ///< the one member that it may take; empty: any
 };
 
 /// How a worker ended.

@@ -17,8 +17,7 @@ constexpr std::string_view head =
 constexpr std::size_t column_count = 7;
 
 std::string plan_line(const PerturbationTable& table) {
-  return fmt::format("# talus perturb --from {} --every {} --patch {}{}", short_text(table.plan.first),
-                     short_text(table.plan.every), patch_text(table.plan.patch),
+  return fmt::format("# talus perturb {}{}", plan_text(table.plan),
                      table.complete ? ": complete" : ": under way");
 }
 
@@ -67,6 +66,23 @@ std::optional<SurfacePatch> parse_patch(const std::string& text) {
     return std::nullopt;
   const bool usable = patch.width > 0.0 && patch.width < 1e6 && patch.depth > 0.0 && patch.depth < 1e6;
   return usable ? std::optional(patch) : std::nullopt;
+}
+
+std::string plan_text(const PerturbationPlan& plan) {
+  return fmt::format("--from {} --every {} --patch {}", short_text(plan.first), short_text(plan.every),
+                     patch_text(plan.patch));
+}
+
+std::optional<PerturbationPlan> parse_plan(const std::string& text) {
+  std::istringstream words = text_stream(text);
+  std::string option, first, every, patch;
+  words >> option >> first >> option >> every >> option >> patch;
+  PerturbationPlan plan;
+  const std::optional<SurfacePatch> found = parse_patch(patch);
+  if (!found || !read_number(first, plan.first) || !read_number(every, plan.every)) return std::nullopt;
+  plan.patch = *found;
+  if (plan_text(plan) != text) return std::nullopt;
+  return plan;
 }
 
 std::string perturbation_csv(const PerturbationTable& table) {

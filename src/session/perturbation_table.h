@@ -35,6 +35,11 @@ std::string patch_text(const SurfacePatch& patch);
 /// The patch of such a text; no value where it has another form, or a side that is not a number above 0.
 std::optional<SurfacePatch> parse_patch(const std::string& text);
 
+/// A plan as the options of `talus perturb`: "--from 12 --every 0.5 --patch 10x2".
+std::string plan_text(const PerturbationPlan& plan);
+/// The plan of such a text; no value where plan_text writes no such one.
+std::optional<PerturbationPlan> parse_plan(const std::string& text);
+
 /// CSV with one row for each trial. Its first line says how the run is perturbed and whether the table is
 /// complete.
 std::string perturbation_csv(const PerturbationTable& table);

@@ -33,7 +33,8 @@ TEST(Perturb, leaves_the_run_as_it_is_without) {
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_NE(hash_of("plain.h5", folder), "");
   EXPECT_EQ(hash_of("p/seed-2.h5", folder), hash_of("plain.h5", folder));
-  const std::string table = text_of(folder.path("p/seed-2.csv"));
+  EXPECT_NE(text_of(folder.path("p/seed-2.log")).find("13.000 deg: no avalanche"), std::string::npos);
+  const std::string table = text_of(folder.path("p/seed-2.trials.csv"));
   for (const char* part : {"4x1: complete\n", "\n8,0,0,rest,", "\n13,0,0,rest,", "\n18,0,0,rest,", "\n18,5,"})
     EXPECT_NE(table.find(part), std::string::npos) << part << "\n" << table;
 }
@@ -47,11 +48,11 @@ TEST(Perturb, reports_its_seeds_and_computes_none_again) {
   EXPECT_NE(first.out.find("6 states of 2 runs"), std::string::npos) << first.out;
   const std::string rows = text_of(folder.path("p/perturb.csv"));
   EXPECT_EQ(std::ranges::count(rows, '\n'), 7) << rows;
-  const auto written = std::filesystem::last_write_time(folder.path("p/seed-1.csv"));
+  const auto written = std::filesystem::last_write_time(folder.path("p/seed-1.trials.csv"));
   const Outcome again = run_talus(perturb("p", {"--seeds", "1-2"}), folder.path());
   EXPECT_EQ(again.exit_code, 0) << again.err;
   EXPECT_EQ(again.out, first.out);
-  EXPECT_EQ(std::filesystem::last_write_time(folder.path("p/seed-1.csv")), written);
+  EXPECT_EQ(std::filesystem::last_write_time(folder.path("p/seed-1.trials.csv")), written);
 }
 
 TEST(Perturb, draws_its_figure_where_there_is_a_gnuplot) {
@@ -84,7 +85,7 @@ TEST_P(InterruptedPerturb, goes_on_to_the_same_table) {
   EXPECT_EQ(code, 0);
   EXPECT_GT(stops, 0) << "it was never interrupted: nothing was tested";
   EXPECT_EQ(hash_of("parts/seed-1.h5", folder), hash_of("whole/seed-1.h5", folder));
-  EXPECT_EQ(text_of(folder.path("parts/seed-1.csv")), text_of(folder.path("whole/seed-1.csv")));
+  EXPECT_EQ(text_of(folder.path("parts/seed-1.trials.csv")), text_of(folder.path("whole/seed-1.trials.csv")));
 }
 
 INSTANTIATE_TEST_SUITE_P(Signals, InterruptedPerturb, testing::Values(SIGTERM, SIGKILL));
@@ -93,7 +94,7 @@ TEST(Perturb, that_is_stopped_stops_its_seeds) {
   const TemporaryFolder folder;
   write_file(folder, "bed.toml", "[bed]\nlength = 50\ndepth = 20\n");
   const pid_t process = start_talus(perturb("p", {"--seeds", "1-2"}), folder.path());
-  for (int wait = 0; wait < 1000 && !std::filesystem::exists(folder.path("p/seed-1.csv")); ++wait)
+  for (int wait = 0; wait < 1000 && !std::filesystem::exists(folder.path("p/seed-1.trials.csv")); ++wait)
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   kill(process, SIGINT);
   EXPECT_EQ(wait_for(process), 75);
@@ -122,15 +123,45 @@ TEST(Perturb, does_not_mix_plans_or_scenarios_in_a_folder) {
   ASSERT_EQ(run_talus(perturb("p", {"--seed", "1"}), folder.path()).exit_code, 0);
   const Outcome plan = run_talus({"perturb", "bed.toml", "-o", "p", "--seeds", "1"}, folder.path());
   EXPECT_EQ(plan.exit_code, 65);
-  EXPECT_NE(plan.err.find("p/seed-1.csv"), std::string::npos) << plan.err;
+  EXPECT_NE(plan.err.find("have the task 'trials --from 8 --every 5 --patch 4x1'"), std::string::npos)
+      << plan.err;
   const Outcome scenario =
       run_talus(perturb("p", {"--seed", "1", "--set", "contact.friction=0.3"}), folder.path());
   EXPECT_EQ(scenario.exit_code, 65);
-  EXPECT_NE(scenario.err.find("another scenario"), std::string::npos) << scenario.err;
-  std::filesystem::remove(folder.path("p/seed-1.csv"));
+  EXPECT_NE(scenario.err.find("contact.friction is 0.5 there, 0.3 here"), std::string::npos) << scenario.err;
+}
+
+TEST(Perturb, takes_no_run_that_lacks_its_trials) {
+  const TemporaryFolder folder;
+  write_file(folder, "bed.toml", tiny_bed);
+  std::filesystem::create_directory(folder.path("p"));
+  ASSERT_EQ(run_talus({"run", "bed.toml", "-o", "p/seed-1.h5"}, folder.path()).exit_code, 0);
   const Outcome missing = run_talus(perturb("p", {"--seed", "1"}), folder.path());
   EXPECT_EQ(missing.exit_code, 65);
-  EXPECT_NE(missing.err.find("no table beside it"), std::string::npos) << missing.err;
+  EXPECT_NE(missing.err.find("no table of trials beside it"), std::string::npos) << missing.err;
+  EXPECT_EQ(run_talus(perturb("p", {"--seed", "2"}), folder.path()).exit_code, 0) << "another seed";
+  std::filesystem::remove(folder.path("p/seed-1.h5"));
+  EXPECT_EQ(run_talus(perturb("p", {"--seed", "1"}), folder.path()).exit_code, 65) << "it has failed";
+  ASSERT_EQ(run_talus({"ensemble", "retry", "p"}, folder.path()).exit_code, 0);
+  EXPECT_EQ(run_talus(perturb("p", {"--seed", "1"}), folder.path()).exit_code, 0);
+}
+
+TEST(Perturb, of_one_seed_computes_no_other_and_is_an_ensemble_that_others_may_compute) {
+  const TemporaryFolder folder;
+  write_file(folder, "bed.toml", tiny_bed);
+  const Outcome begun = run_talus(perturb("p", {"--seeds", "1-3", "--jobs", "0"}), folder.path());
+  EXPECT_EQ(begun.exit_code, 0) << begun.err;
+  EXPECT_NE(begun.out.find("p: 0 of 3 done"), std::string::npos) << begun.out;
+  const pid_t beside = start_talus(perturb("p", {"--seed", "2"}), folder.path());
+  EXPECT_EQ(run_talus(perturb("p", {"--seed", "2"}), folder.path()).exit_code, 0) << "it waits";
+  EXPECT_TRUE(std::filesystem::exists(folder.path("p/seed-2.csv")));
+  EXPECT_EQ(wait_for(beside), 0);
+  for (const char* other : {"p/seed-1.trials.csv", "p/seed-3.trials.csv", "p/perturb.md"})
+    EXPECT_FALSE(std::filesystem::exists(folder.path(other))) << other;
+  ASSERT_EQ(run_talus({"ensemble", "work", "p"}, folder.path()).exit_code, 0);
+  const Outcome report = run_talus(perturb("p", {"--seeds", "1-3", "--jobs", "0"}), folder.path());
+  EXPECT_EQ(report.exit_code, 0) << report.err;
+  EXPECT_NE(report.out.find("9 states of 3 runs"), std::string::npos) << report.out;
 }
 
 }  // namespace

@@ -93,7 +93,19 @@ TEST_F(EnsembleManifestTest, has_one_task_for_its_members) {
     EXPECT_NE(std::string(error.what()).find("have the task 'readings', expected no task"), std::string::npos)
         << error.what();
   }
-  EXPECT_EQ(test::exit_code_of([] { parse_task("dance", "e"); }), ExitCode::bad_data);
+  EXPECT_EQ(parse_task("", "e"), MemberTask(PlainTask{}));
+  for (const char* text : {"dance", "readings ", "trials", "trials --from 12", "trials --from 12 --every x"})
+    EXPECT_EQ(test::exit_code_of([&] { parse_task(text, "e"); }), ExitCode::bad_data) << text;
+}
+
+TEST_F(EnsembleManifestTest, keeps_the_plan_of_trials_to_the_last_bit) {
+  EnsembleManifest asked = wanted({1});
+  const PerturbationPlan plan = {1.0 / 3.0, 0.1, {10.5, 2.0}};
+  asked.task = plan;
+  extend_ensemble(ensemble, asked);
+  EXPECT_EQ(read_ensemble(ensemble).task, MemberTask(plan));
+  asked.task = PerturbationPlan{1.0 / 3.0, 0.1, {10.5, 2.5}};
+  EXPECT_EQ(test::exit_code_of([&] { extend_ensemble(ensemble, asked); }), ExitCode::bad_data);
 }
 
 TEST_F(EnsembleManifestTest, that_was_changed_is_refused) {

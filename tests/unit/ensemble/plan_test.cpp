@@ -1,15 +1,11 @@
-/// Seeds, and every variant with each of them; which runs are missing.
+/// Seeds, and every variant with each of them.
 
 #include "ensemble/plan.h"
 
 #include <gtest/gtest.h>
 
-#include <fstream>
-
 #include "core/errors.h"
-#include "ensemble/pool.h"
 #include "support/exit_code.h"
-#include "support/temporary_folder.h"
 
 namespace talus {
 namespace {
@@ -39,17 +35,6 @@ TEST(EnsemblePlan, has_every_variant_with_every_seed) {
     EXPECT_EQ(plan.members[m].variant, m % 2);
     EXPECT_EQ(plan.members[m].scenario.seed, m < 2 ? 3u : 7u);
   }
-}
-
-TEST(Refusal, has_the_exit_code_of_the_first_and_names_all_logs) {
-  try {
-    refuse({{"a.log", 65}, {"b.log", 137}});
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ExitCode::bad_data);
-    EXPECT_NE(std::string(error.what()).find("2 runs ended with an error"), std::string::npos);
-    EXPECT_NE(std::string(error.what()).find("b.log (exit code 137)"), std::string::npos);
-  }
-  EXPECT_EQ(test::exit_code_of([] { refuse({{"b.log", 137}}); }), ExitCode::internal) << "ended by a signal";
 }
 
 }  // namespace

@@ -3,8 +3,15 @@
 #include "ensemble/pool.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <chrono>
+#include <csignal>
+#include <thread>
+
+#include "core/errors.h"
 #include "io/durable_file.h"
+#include "support/exit_code.h"
 #include "support/temporary_folder.h"
 
 namespace talus {
@@ -12,18 +19,18 @@ namespace {
 
 TEST(DISABLED_JobOfAPool, ends_well) {}
 TEST(DISABLED_JobOfAPool, ends_with_an_error) { FAIL() << "as it should"; }
+TEST(DISABLED_JobOfAPool, takes_long) { std::this_thread::sleep_for(std::chrono::minutes(1)); }
 
 Job job(const std::string& test, const std::string& log) {
-  return {test,
-          {"--gtest_also_run_disabled_tests", "--gtest_filter=DISABLED_JobOfAPool." + test},
-          log,
-          test == "ends_well" ? 2.0 : 5.0};
+  return {{"--gtest_also_run_disabled_tests", "--gtest_filter=DISABLED_JobOfAPool." + test}, log};
 }
+
+bool always() { return true; }
 
 TEST(Pool, does_all_jobs_and_returns_those_that_failed) {
   const test::TemporaryFolder folder;
   const std::string good = folder.path("a/b/good.log"), bad = folder.path("bad.log");
-  const auto failed = run_jobs({job("ends_well", good), job("ends_with_an_error", bad)}, {"test", 2, 2, {}});
+  const auto failed = run_jobs({job("ends_well", good), job("ends_with_an_error", bad)}, "the test", always);
   ASSERT_EQ(failed.size(), 1u);
   EXPECT_EQ(failed[0].log, bad);
   EXPECT_EQ(failed[0].exit_code, 1);
@@ -31,25 +38,38 @@ TEST(Pool, does_all_jobs_and_returns_those_that_failed) {
   EXPECT_NE(read_text(good).find("1 test"), std::string::npos) << "its folder was made";
 }
 
-TEST(Pool, tells_how_far_it_is) {
+TEST(Pool, ends_its_jobs_where_it_is_not_to_go_on) {
   const test::TemporaryFolder folder;
-  std::vector<PoolProgress> ends;
-  const auto show = [&](const PoolProgress& progress) {
-    if (progress.ended != nullptr) ends.push_back(progress);
-  };
-  const std::vector<Job> jobs = {job("ends_with_an_error", folder.path("1.log")),
-                                 job("ends_well", folder.path("2.log"))};
-  run_jobs(jobs, {"test", 1, 5, show});
-  ASSERT_EQ(ends.size(), 2u);
-  EXPECT_EQ(ends[0].ended, &jobs[0]);
-  EXPECT_EQ(ends[0].exit_code, 1);
-  EXPECT_EQ(ends[0].done, 3u) << "three were complete before";
-  EXPECT_EQ(ends[0].all, 5u);
-  EXPECT_EQ(ends[0].running, 0u);
-  EXPECT_DOUBLE_EQ(ends[0].seconds_left, 2.0) << "by the estimate alone: nothing has ended well yet";
-  EXPECT_EQ(ends[1].exit_code, 0);
-  EXPECT_EQ(ends[1].done, 4u);
-  EXPECT_DOUBLE_EQ(ends[1].seconds_left, 0.0);
+  const std::vector<Job> jobs = {job("takes_long", folder.path("1.log")),
+                                 job("takes_long", folder.path("2.log"))};
+  const auto failed = run_jobs(jobs, "the test", [] { return false; });
+  ASSERT_EQ(failed.size(), 2u) << "side by side: both had begun";
+  for (const FailedJob& each : failed) EXPECT_EQ(each.exit_code, 128 + SIGTERM);
+}
+
+TEST(Pool, passes_a_signal_on_and_says_that_it_was_stopped) {
+  const test::TemporaryFolder folder;
+  const std::vector<Job> jobs = {job("takes_long", folder.path("1.log"))};
+  int asked = 0;
+  const auto signalled = [&] { return ++asked > 1 || kill(getpid(), SIGTERM) == 0; };
+  EXPECT_EQ(test::exit_code_of([&] { run_jobs(jobs, "the test", signalled); }), ExitCode::stopped);
+  EXPECT_EQ(asked, 1);
+}
+
+TEST(Refusal, has_the_exit_code_of_the_first_and_names_all_logs) {
+  try {
+    refuse({{"a.log", 65, "what it said"}, {"b.log", 137}}, "left out");
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::bad_data);
+    EXPECT_STREQ(error.what(),
+                 "2 runs ended with an error, left out; see\n"
+                 "  a.log (exit code 65): what it said\n  b.log (exit code 137)");
+  }
+  EXPECT_EQ(test::exit_code_of([] {
+              refuse({{"b.log", 137}}, "");
+            }),
+            ExitCode::internal)
+      << "ended by a signal";
 }
 
 }  // namespace

@@ -48,6 +48,16 @@ TEST(PerturbationTable, reads_back_to_the_last_bit) {
   }
 }
 
+TEST(PerturbationPlan, is_read_back_from_its_text_alone) {
+  const PerturbationPlan plan = example().plan;
+  EXPECT_EQ(plan_text(plan), "--from 12.5 --every 0.25 --patch 10x1.5");
+  EXPECT_EQ(parse_plan(plan_text(plan)), plan);
+  for (const char* text :
+       {"", "--from 12.5 --every 0.25", "--from 12.5 --every 0.25 --patch 10x1.5 --all",
+        "--from 12.5 --each 0.25 --patch 10x1.5", "--from 12.50 --every 0.25 --patch 10x1.5"})
+    EXPECT_FALSE(parse_plan(text).has_value()) << text;
+}
+
 TEST(PerturbationTable, of_another_plan_is_refused) {
   const std::string text = perturbation_csv(example());
   PerturbationPlan plan = example().plan;

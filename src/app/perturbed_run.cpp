@@ -1,0 +1,88 @@
+#include "app/perturbed_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fmt/core.h>
+
+#include "core/errors.h"
+#include "core/trigonometry.h"
+#include "ensemble/plan.h"
+#include "io/durable_file.h"
+#include "io/run_file.h"
+#include "session/perturbation_threshold.h"
+
+namespace talus {
+namespace {
+
+std::string trials_path(const std::string& run) { return file_beside(run, ".trials.csv"); }
+
+void write_trials(const std::string& run, const PerturbationTable& table) {
+  write_text(trials_path(run), perturbation_csv(table));
+}
+
+/// The tilt of a session in deg, to the step.
+double tilt_of(const Session& session) {
+  const double step = session.scenario().tilt.step;
+  return static_cast<double>(std::llround(degrees(session.world().tilt) / step)) * step;
+}
+
+/// Whether the session stands at a tilt of the plan, on its way to failure.
+bool is_due(const Session& session, const PerturbationPlan& plan) {
+  if (session.phase() != Phase::tilt || session.angle_of_repose()) return false;
+  const auto steps = [&](double angle) { return std::llround(angle / session.scenario().tilt.step); };
+  const auto since_first = steps(tilt_of(session)) - steps(plan.first);
+  return since_first >= 0 && since_first % std::max(1LL, steps(plan.every)) == 0;
+}
+
+/// "[0.32, 0.37] sqrt(g D)": between what started no avalanche and what did.
+std::string bracket_text(const Threshold& threshold) {
+  if (!threshold.held) return "does not hold by itself";
+  if (std::isinf(threshold.with))
+    return fmt::format("no avalanche up to {:.3g} sqrt(g D)", threshold.without);
+  return fmt::format("threshold in [{:.3g}, {:.3g}] sqrt(g D){}", threshold.without, threshold.with,
+                     threshold.monotone ? "" : ", erratic");
+}
+
+}  // namespace
+
+PerturbationTable read_trials(const std::string& run, const PerturbationPlan& plan) {
+  const std::string path = trials_path(run);
+  if (!std::filesystem::exists(path))
+    throw Error(ExitCode::bad_data,
+                fmt::format("{} has no table of trials beside it, expected {}; give another folder, or "
+                            "remove the run",
+                            run, path));
+  return parse_perturbation_csv(read_text(path), path, plan);
+}
+
+std::function<void(const RunProgress&)> trials_on_the_way(const std::string& run,
+                                                          const PerturbationPlan& plan,
+                                                          const volatile std::sig_atomic_t* stop) {
+  const bool begins = run_presence(run) == RunPresence::none;
+  if (begins) write_trials(run, {plan, false, {}});
+  const auto keep_on = [stop] {
+    if (*stop != 0)
+      throw Error(ExitCode::stopped, "the trials were stopped; they begin again with their state");
+  };
+  return [run, keep_on, table = read_trials(run, plan)](const RunProgress& progress) mutable {
+    const Session& session = progress.session;
+    const double tilt = tilt_of(session);
+    const bool done = !table.states.empty() && table.states.back().tilt >= tilt;
+    if (done || !is_due(session, table.plan)) return;
+    table.states.push_back({tilt, perturb(session.world(), session.scenario(), table.plan.patch, keep_on)});
+    write_trials(run, table);
+    std::fprintf(stderr, "%.3f deg: %s\n", tilt,
+                 bracket_text(threshold_of(table.states.back().trials)).c_str());
+  };
+}
+
+void complete_trials(const std::string& run, const PerturbationPlan& plan) {
+  PerturbationTable table = read_trials(run, plan);
+  if (table.complete) return;
+  table.complete = true;
+  write_trials(run, table);
+}
+
+}  // namespace talus
