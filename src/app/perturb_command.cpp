@@ -41,8 +41,9 @@ struct PerturbArguments {
 
 /// One variant without a name: its runs are in the folder itself.
 EnsembleManifest manifest_of(const PerturbArguments& arguments) {
-  return {"", arguments.seed ? std::vector{*arguments.seed} : parse_seeds(arguments.seeds), "",
-          plan_variants(arguments.scenario, arguments.settings, {}), arguments.plan};
+  return {.seeds = arguments.seed ? std::vector{*arguments.seed} : parse_seeds(arguments.seeds),
+          .variants = plan_variants(arguments.scenario, arguments.settings, {}),
+          .task = arguments.plan};
 }
 
 /// Adds one seed to the ensemble and has it computed here, whatever else is missing. Waits where another

@@ -127,8 +127,9 @@ void reproduce(const ReproduceArguments& arguments) {
   require_gnuplot();
   reopen(plan);
   if (arguments.jobs > 0) announce(plan, arguments.jobs);
-  const EnsembleView view = compute_ensemble({"", plan.seeds, "", plan.variants, ReadingsTask{}},
-                                             {folder, {}, "", arguments.jobs}, {});
+  const EnsembleView view =
+      compute_ensemble({.seeds = plan.seeds, .variants = plan.variants, .task = ReadingsTask{}},
+                       {folder, {}, "", arguments.jobs}, {});
   if (done_members(plan).empty()) {
     refuse_failures(plan, "nothing is left to report");
     std::printf("%s", ensemble_text(view).c_str());  // others are to compute it

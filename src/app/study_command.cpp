@@ -72,8 +72,9 @@ void study(const StudyArguments& arguments) {
   const std::filesystem::path folder = arguments.folder;
   for (const char* table : {"study.csv", "study.md"})
     output_target((folder / table).string(), {true, {arguments.scenario}});
-  const EnsembleView view = compute_ensemble(
-      {"", plan.seeds, "", plan.variants}, {arguments.folder, {}, "", arguments.jobs}, {arguments.scenario});
+  const EnsembleView view =
+      compute_ensemble({.seeds = plan.seeds, .variants = plan.variants},
+                       {arguments.folder, {}, "", arguments.jobs}, {arguments.scenario});
   if (done_members(plan).empty()) {
     refuse_failures(plan, "nothing can be compared");
     std::printf("%s", ensemble_text(view).c_str());  // others are to compute it

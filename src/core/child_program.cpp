@@ -42,9 +42,12 @@ std::vector<char*> pointers(std::vector<std::string>& texts) {
 
 /// What the child is to become: all that needs memory is made before the fork.
 struct Start {
+  const char* file;  ///< as PATH finds it
   std::vector<char*> words, variables;
   ProgramStreams streams;
   const char* folder;
+  int end_signal;  ///< that it gets when this process ends
+  bool own_group;
   pid_t parent;
 };
 
@@ -52,8 +55,9 @@ void give(int stream, int from, int nowhere) { ::dup2(from < 0 ? nowhere : from,
 
 /// Between fork and exec: only calls that are safe there. Returns where it fails.
 void become(const Start& start) {
-  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  prctl(PR_SET_PDEATHSIG, start.end_signal);
   if (::getppid() != start.parent) _exit(1);  // it has ended already
+  if (start.own_group) ::setpgid(0, 0);
   sigset_t none;
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);
@@ -61,17 +65,11 @@ void become(const Start& start) {
   give(STDIN_FILENO, start.streams.in, nowhere);
   give(STDOUT_FILENO, start.streams.out, nowhere);
   give(STDERR_FILENO, start.streams.err, nowhere);
-  if (::chdir(start.folder) == 0) ::execvpe(start.words[0], start.words.data(), start.variables.data());
+  if (::chdir(start.folder) == 0) ::execvpe(start.file, start.words.data(), start.variables.data());
 }
 
-}  // namespace
-
-pid_t start_program(const std::vector<std::string>& words, const ProgramStreams& streams,
-                    const std::string& folder, ProgramEnvironment environment) {
-  std::vector<std::string> arguments = words, variables = environment == ProgramEnvironment::whole
-                                                              ? whole_environment()
-                                                              : clean_environment();
-  const Start start = {pointers(arguments), pointers(variables), streams, folder.c_str(), ::getpid()};
+/// Returns once the program has begun, or -1.
+pid_t run(const Start& start) {
   int ends[2] = {-1, -1};
   if (::pipe2(ends, O_CLOEXEC) != 0) return -1;
   const Descriptor from(ends[0]);
@@ -92,6 +90,24 @@ pid_t start_program(const std::vector<std::string>& words, const ProgramStreams&
   wait_for_program(child, {});
   errno = reason;
   return -1;
+}
+
+}  // namespace
+
+pid_t start_program(const std::vector<std::string>& words, const ProgramStreams& streams,
+                    const std::string& folder, ProgramEnvironment environment) {
+  std::vector<std::string> arguments = words, variables = environment == ProgramEnvironment::whole
+                                                              ? whole_environment()
+                                                              : clean_environment();
+  return run({words[0].c_str(), pointers(arguments), pointers(variables), streams, folder.c_str(), SIGKILL,
+              false, ::getpid()});
+}
+
+pid_t start_this_program(const std::vector<std::string>& arguments, const ProgramStreams& streams) {
+  std::vector<std::string> words = {"talus"}, variables = whole_environment();
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  return run(
+      {"/proc/self/exe", pointers(words), pointers(variables), streams, ".", SIGTERM, true, ::getpid()});
 }
 
 int wait_for_program(pid_t program, const std::function<void()>& meanwhile) {

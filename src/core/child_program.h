@@ -27,6 +27,12 @@ pid_t start_program(const std::vector<std::string>& words, const ProgramStreams&
                     const std::string& folder = ".",
                     ProgramEnvironment environment = ProgramEnvironment::clean);
 
+/// Starts another process of this very program, even where its file has been replaced since, with these
+/// arguments. It is asked to end (SIGTERM) when this process ends, so that it can commit what it computes,
+/// and is in a group of its own, so that Ctrl-C reaches it through this process alone. Returns as
+/// start_program.
+pid_t start_this_program(const std::vector<std::string>& arguments, const ProgramStreams& streams);
+
 /// Waits until it has ended and returns its status (waitpid). `meanwhile` is called ten times a second, or
 /// may be empty; where it throws, the program is ended.
 int wait_for_program(pid_t program, const std::function<void()>& meanwhile);

@@ -210,7 +210,9 @@ EnsembleManifest extend_ensemble(const std::string& folder, const EnsembleManife
   prepare_folder(folder);
   // Only one process at a time extends an ensemble; the others wait.
   const Descriptor lock = create_locked_when_free(lock_path);
-  EnsembleManifest all{version_text(), wanted.seeds, wanted.until, {}, wanted.task};
+  EnsembleManifest all = wanted;
+  all.version = version_text();
+  all.variants.clear();
   std::string before;
   if (is_ensemble(folder)) {
     before = read_text(manifest_path(folder));

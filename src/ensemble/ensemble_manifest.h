@@ -12,10 +12,10 @@
 namespace talus {
 
 struct EnsembleManifest {
-  std::string version;               ///< of the Talus that wrote it
-  std::vector<std::uint64_t> seeds;  ///< ascending
-  std::string until;                 ///< "theta_c:0.2": no more members from then on; empty: all of them
-  std::vector<Variant> variants;     ///< their scenario files lie in the folder
+  std::string version = {};               ///< of the Talus that wrote it
+  std::vector<std::uint64_t> seeds = {};  ///< ascending
+  std::string until = {};                 ///< "theta_c:0.2": no more members from then on; empty: all of them
+  std::vector<Variant> variants = {};     ///< their scenario files lie in the folder
   MemberTask task = {};
 };
 

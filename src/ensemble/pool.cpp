@@ -1,9 +1,7 @@
 #include "ensemble/pool.h"
 
 #include <fcntl.h>
-#include <sys/prctl.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <csignal>
@@ -11,6 +9,8 @@
 #include <fmt/core.h>
 #include <map>
 
+#include "core/child_program.h"
+#include "core/descriptor.h"
 #include "core/errors.h"
 #include "core/output_file.h"
 #include "io/run_file.h"
@@ -38,41 +38,16 @@ class HeldSignals {
     constexpr timespec half_a_second = {0, 500'000'000};
     return sigtimedwait(&held_, nullptr, &half_a_second);
   }
-  const sigset_t& before() const { return before_; }
 
  private:
   sigset_t held_;
   sigset_t before_;
 };
 
-/// Between fork and exec: only calls that are safe there.
-[[noreturn]] void become(const char* log, char* const* arguments, pid_t parent, const sigset_t& signals) {
-  prctl(PR_SET_PDEATHSIG, SIGTERM);
-  if (getppid() != parent) _exit(static_cast<int>(ExitCode::stopped));
-  // Ctrl-C reaches the whole foreground group: the child leaves it, so that it is asked to stop only once.
-  setpgid(0, 0);
-  sigprocmask(SIG_SETMASK, &signals, nullptr);
-  const int out = open(log, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
-  const int in = open("/dev/null", O_RDONLY | O_CLOEXEC);
-  if (out < 0 || in < 0) _exit(static_cast<int>(ExitCode::cannot_create));
-  dup2(in, STDIN_FILENO);
-  dup2(out, STDOUT_FILENO);
-  dup2(out, STDERR_FILENO);
-  // This very program, even where its file has been replaced since.
-  execv("/proc/self/exe", arguments);
-  _exit(static_cast<int>(ExitCode::internal));
-}
-
-pid_t start(const Job& job, const sigset_t& signals) {
-  std::vector<std::string> words = {"talus"};
-  words.insert(words.end(), job.arguments.begin(), job.arguments.end());
-  std::vector<char*> arguments;
-  arguments.reserve(words.size() + 1);
-  for (std::string& word : words) arguments.push_back(word.data());
-  arguments.push_back(nullptr);
-  const pid_t parent = getpid();
-  const pid_t process = fork();
-  if (process == 0) become(job.log.c_str(), arguments.data(), parent, signals);
+pid_t start(const Job& job) {
+  const Descriptor log(open(job.log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666));
+  if (log.get() < 0) throw creation_error("open", job.log, errno);
+  const pid_t process = start_this_program(job.arguments, {.in = -1, .out = log.get(), .err = log.get()});
   if (process < 0) throw system_error(ExitCode::io_error, "start a process for", job.log, errno);
   return process;
 }
@@ -102,7 +77,7 @@ std::vector<FailedJob> run_jobs(const std::vector<Job>& jobs, const std::string&
   const HeldSignals signals;
   std::map<pid_t, const Job*> running;
   std::vector<FailedJob> failed;
-  for (const Job& job : jobs) running.emplace(start(job, signals.before()), &job);
+  for (const Job& job : jobs) running.emplace(start(job), &job);
   bool stopped = false, given_up = false;
   const auto end_all = [&] {
     for (const auto& [process, job] : running) kill(process, SIGTERM);
