@@ -3,7 +3,6 @@
 #include <cmath>
 #include <cstdio>
 #include <fmt/core.h>
-#include <limits>
 #include <memory>
 
 #include "app/commands.h"
@@ -29,8 +28,7 @@ FrameChoice choose_frames(const ForcesArguments& arguments, const RunFile& run) 
   if (run.frame_count() == 0)
     throw Error(ExitCode::bad_data,
                 arguments.run + " has no frames yet: the first is that of the bed at rest");
-  const double theta_c =
-      find_value(run.checkpoint().results, "theta_c").value_or(std::numeric_limits<double>::quiet_NaN());
+  const double theta_c = find_value(run.checkpoint().results, "theta_c").value_or(not_known);
   return frames_at(run.frame_tilts(), arguments.at, theta_c);
 }
 

@@ -8,7 +8,7 @@
 namespace talus {
 namespace {
 
-constexpr double same_tilt = 1e-6;  // deg, far below the spacing of frames
+constexpr double same_angle = 1e-6;  // deg, far below the spacing of frames
 
 /// The resamples of each number of values, made once.
 using ResamplesByCount = std::map<int, Resamples>;
@@ -59,7 +59,7 @@ std::vector<AveragedQuantity> averaged_numbers(const std::vector<MemberResult>& 
 /// Multiples of the spacing up to the last that some member reaches.
 std::vector<double> grid_up_to(double largest, double spacing) {
   std::vector<double> angles;
-  for (int k = 0; k * spacing <= largest + same_tilt; ++k) angles.push_back(k * spacing);
+  for (int k = 0; k * spacing <= largest + same_angle; ++k) angles.push_back(k * spacing);
   return angles;
 }
 
@@ -134,10 +134,10 @@ AngleCorrelations correlations_of(const std::vector<AveragedQuantity>& numbers) 
 }  // namespace
 
 double interpolated(const std::vector<double>& tilts, const std::vector<double>& values, double theta) {
-  const auto upper = std::ranges::lower_bound(tilts, theta - same_tilt);
+  const auto upper = std::ranges::lower_bound(tilts, theta - same_angle);
   if (upper == tilts.end() || std::isnan(theta)) return std::nan("");
   const auto k = static_cast<std::size_t>(upper - tilts.begin());
-  if (*upper <= theta + same_tilt) return values[k];
+  if (*upper <= theta + same_angle) return values[k];
   if (k == 0) return std::nan("");
   const double share = (theta - tilts[k - 1]) / (tilts[k] - tilts[k - 1]);
   return values[k - 1] + share * (values[k] - values[k - 1]);

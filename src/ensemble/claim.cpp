@@ -32,7 +32,7 @@ std::string this_boot() {
 }
 
 /// The first line of a claim; after it comes a byte for each heartbeat.
-std::string first_line() {
+std::string line_of_claim() {
   std::array<char, 256> host{};
   ::gethostname(host.data(), host.size() - 1);
   return fmt::format("process {} on host {}, boot {}\n", ::getpid(), host.data(), this_boot());
@@ -107,7 +107,7 @@ std::optional<Claim> Claim::take(const std::string& run, std::optional<int> foun
   if (file.get() < 0) throw creation_error("create", path, errno);
   ::flock(file.get(), LOCK_EX | LOCK_NB);  // for this machine; others go by the heartbeats
   Claim claim(path, claim_path(run, number + 1), std::move(file), times.beat());
-  const std::string text = first_line();
+  const std::string text = line_of_claim();
   if (::write(claim.file_.get(), text.data(), text.size()) != static_cast<ssize_t>(text.size()))
     throw system_error(ExitCode::io_error, "write", path, errno);
   ::fdatasync(claim.file_.get());  // other machines see it sooner; where it fails they see it later

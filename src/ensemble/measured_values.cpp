@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <optional>
 
@@ -14,7 +13,6 @@ namespace {
 
 using enum PaperQuantity;
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr double same_tilt = 1e-9;      // rad: tilts are multiples of a step up to rounding
 constexpr double failure_window = 0.5;  // deg before theta_c
 
@@ -73,13 +71,13 @@ double gradient(const RunAtThreshold& of) {
 double contracted(const RunAtThreshold& of) {
   const double onset = of.run.analysis.dilation[0];
   if (std::isnan(onset)) return -of.frame(of.at_theta_c).volume_strain;
-  if (of.run.analysis.dilation_low[0] <= of.run.tilts.front() + same_tilt) return none;
+  if (of.run.analysis.dilation_low[0] <= of.run.tilts.front() + same_tilt) return not_known;
   return -of.frame(of.frame_at(onset)).volume_strain;
 }
 
 double dilated(const RunAtThreshold& of) {
   const double onset = of.run.analysis.dilation[0];
-  if (std::isnan(onset)) return none;
+  if (std::isnan(onset)) return not_known;
   return of.frame(of.at_theta_c).volume_strain - of.frame(of.frame_at(onset)).volume_strain;
 }
 
@@ -94,7 +92,7 @@ Measured dilation_tilt(const RunAtThreshold& of) {
 template <typename Value>
 Measured at_percolation(const RunAtThreshold& of, const Value& value) {
   const double onset = of.threshold().percolation;
-  if (std::isnan(onset)) return {none, false};
+  if (std::isnan(onset)) return {not_known, false};
   return {value(of.frame_at(onset)), std::isnan(of.threshold().percolation_error)};
 }
 
@@ -138,7 +136,7 @@ Measured measure_packing(const RunAtThreshold& of, PaperQuantity quantity) {
     case wall_gradient:
       return {gradient(of)};
     default:
-      return {none};
+      return {not_known};
   }
 }
 
@@ -146,7 +144,7 @@ Measured measure_chain(const RunAtThreshold& of, PaperQuantity quantity, Populat
   const auto fraction = population == Population::all ? &FrameThreshold::overloaded_fraction_of_all
                                                       : &FrameThreshold::overloaded_fraction;
   const auto overloaded = [&](std::size_t k) { return of.overload(k).*fraction; };
-  const auto at_jump = [&](const auto& value) { return Measured{of.jump ? value(*of.jump) : none}; };
+  const auto at_jump = [&](const auto& value) { return Measured{of.jump ? value(*of.jump) : not_known}; };
   switch (quantity) {
     case overloaded_at_0:
       return {overloaded(0)};
@@ -175,7 +173,7 @@ Measured measure_chain(const RunAtThreshold& of, PaperQuantity quantity, Populat
     case theta_d_by_percolation:
       return at_percolation(of, [&](std::size_t k) { return degrees(of.run.tilts[k]); });
     default:
-      return {none};
+      return {not_known};
   }
 }
 
@@ -196,9 +194,9 @@ bool needs_threshold(PaperQuantity quantity) {
 
 Measured measure(const MeasuredRun& run, PaperQuantity quantity, std::size_t factor, Population population) {
   const RunAtThreshold of = at_threshold(run, factor);
-  if (std::isnan(of.theta_c)) return {none};
+  if (std::isnan(of.theta_c)) return {not_known};
   if (!needs_threshold(quantity)) return measure_packing(of, quantity);
-  if (factor >= run.analysis.thresholds.size()) return {none};
+  if (factor >= run.analysis.thresholds.size()) return {not_known};
   return measure_chain(of, quantity, population);
 }
 
@@ -211,7 +209,7 @@ MeasuredValues measure_all(const MeasuredRun& run, std::size_t factor, Populatio
 
 WallPoint wall_point(const MeasuredRun& run, double length) {
   const double ratio = measure(run, shear_over_tangent_of_walls, 0, Population::carrying).value;
-  if (std::isnan(ratio)) return {none, none};
+  if (std::isnan(ratio)) return {not_known, not_known};
   const RunAtThreshold of = at_threshold(run, 0);
   return {of.frame(of.at_theta_c).volume / (length * length), ratio};
 }

@@ -5,7 +5,6 @@
 #include <charconv>
 #include <cmath>
 #include <fmt/core.h>
-#include <limits>
 #include <variant>
 
 #include "analysis/quantities.h"
@@ -47,7 +46,7 @@ void add_numbers(std::vector<NamedNumber>& numbers, const Quantity& quantity, co
 double result(const Figures& figures, const std::string& name) {
   for (const auto& [key, value] : figures)
     if (key == name) return value;
-  return std::numeric_limits<double>::quiet_NaN();
+  return not_known;
 }
 
 }  // namespace
@@ -58,7 +57,7 @@ void refuse_table(const std::string& path) {
 }
 
 double parse_cell(const std::string& text, const std::string& path) {
-  if (text.empty()) return std::numeric_limits<double>::quiet_NaN();
+  if (text.empty()) return not_known;
   double value = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size()) refuse_table(path);
@@ -129,7 +128,7 @@ MemberNumbers parse_numbers(const std::string& text, const std::string& path) {
 
 double number_called(const MemberNumbers& numbers, const std::string& name) {
   const auto found = std::ranges::find(numbers.numbers, name, &NamedNumber::name);
-  return found == numbers.numbers.end() ? std::numeric_limits<double>::quiet_NaN() : found->value;
+  return found == numbers.numbers.end() ? not_known : found->value;
 }
 
 }  // namespace talus

@@ -73,7 +73,7 @@ std::vector<double> mean_scores(std::span<const ReadingResult> results, std::siz
 
 /// The middle of the values; between two, their mean.
 double median(std::vector<double> values) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  if (values.empty()) return not_known;
   std::ranges::sort(values);
   const std::size_t half = values.size() / 2;
   return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);

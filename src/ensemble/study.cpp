@@ -62,7 +62,7 @@ StudyResult read_study(const StudyPlan& plan, std::optional<double> reference) {
 
 std::vector<double> values_of(const StudyResult& result, std::size_t variant, StudyQuantity quantity) {
   const auto& seeds = result.plan.seeds;
-  std::vector<double> values(seeds.size(), std::numeric_limits<double>::quiet_NaN());
+  std::vector<double> values(seeds.size(), not_known);
   for (const StudyOutcome& outcome : result.outcomes) {
     const Member& member = result.plan.members[outcome.member];
     if (member.variant != variant) continue;

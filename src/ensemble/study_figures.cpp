@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "analysis/quantities.h"
 #include "core/trigonometry.h"
@@ -12,13 +11,11 @@
 namespace talus {
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
-
 /// Tilts are sums in radians: two that are meant to be equal differ by less than this, deg.
 constexpr double same_angle = 1e-6;
 
 double figure(const Figures& figures, std::string_view name) {
-  return find_value(figures, name).value_or(none);
+  return find_value(figures, name).value_or(not_known);
 }
 
 /// Mean displacement of the free grains along the bed between two frames, m.
@@ -77,7 +74,8 @@ void measure_bed(const RunFile& run, const std::vector<ObservableRow>& rows, dou
   const auto value = [&](const BedField& field) {
     if (!field.member) return mean_displacement(run.frame(0), frame, statics) / statics.depth;
     if (const auto& observable = quantity_of(*field.member).display.observable) return at(*row, *observable);
-    return std::isnan(theta_c) ? none : count_overloaded({frame, statics}, sine(radians(theta_c))).fraction();
+    return std::isnan(theta_c) ? not_known
+                               : count_overloaded({frame, statics}, sine(radians(theta_c))).fraction();
   };
   std::ranges::transform(bed_fields(), figures.begin() + static_cast<std::ptrdiff_t>(first), value);
 }
@@ -129,7 +127,7 @@ RunReach reach(const RunFile& run) {
 
 StudyFigures study_figures(const RunFile& run, double reference) {
   StudyFigures figures;
-  figures.fill(none);
+  figures.fill(not_known);
   const auto [theta_c, end] = reach(run);
   at(figures, StudyQuantity::theta_c) = theta_c;
   const std::vector<ObservableRow> rows = run.observables();

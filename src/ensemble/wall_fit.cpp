@@ -1,7 +1,6 @@
 #include "ensemble/wall_fit.h"
 
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "core/statistics.h"
@@ -13,14 +12,13 @@ namespace talus {
 double wall_law(double k, double depth_over_length) { return 1.0 - k / 3.0 * depth_over_length; }
 
 WallFit fit_wall_law(std::span<const WallPoint> points) {
-  constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  if (points.empty()) return {none, none};
+  if (points.empty()) return {not_known, not_known};
   const auto count = static_cast<Eigen::Index>(points.size());
   const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>> data(
       &points.front().depth_over_length, count, 2);
   const Eigen::VectorXd x = data.col(0), ratio = data.col(1), loss = 1.0 - ratio.array();
   const double k = 3.0 * x.dot(loss) / x.squaredNorm();
-  if (count < 2) return {k, none};
+  if (count < 2) return {k, not_known};
   const Eigen::VectorXd residual = ratio - x.unaryExpr([k](double each) { return wall_law(k, each); });
   return {k, 3.0 * std::sqrt(residual.squaredNorm() / static_cast<double>(count - 1) / x.squaredNorm())};
 }
