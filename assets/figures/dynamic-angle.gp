@@ -1,4 +1,5 @@
-# Above, the angle at rest over each of the angles it is compared with; below, one run over time.
+# Above, the angle at rest over each of the angles it is compared with; below, one run over time, if there is a flow.
+upper = flow ? 1 : 0.55 / 0.3
 set multiplot
 titles = "'{/:Italic θ_c}  (deg)' '{/:Italic θ_d} ({/:Italic l_c} max)  (deg)' '{/:Italic θ_d} (percolation)  (deg)' '{/:Italic θ_d} (dilation)  (deg)'"
 last = word(factors, words(factors))
@@ -13,8 +14,8 @@ set xtics 5
 set mxtics 5
 set ytics 2
 set mytics 2
-set tmargin at screen 0.9
-set bmargin at screen 0.56
+set tmargin at screen 1 - 0.1 * upper
+set bmargin at screen 1 - 0.44 * upper
 do for [panel = 1:4] {
   set lmargin at screen 0.065 + (panel - 1) * 0.235
   set rmargin at screen 0.065 + (panel - 1) * 0.235 + 0.215
@@ -39,22 +40,24 @@ do for [panel = 1:4] {
       with xerrorbars linetype g dashtype solid linewidth 1 pointtype open[g] pointsize 0.55 notitle
 }
 
-unset key
-set format y "%g"
-set lmargin at screen 0.065
-set rmargin at screen 0.93
-set tmargin at screen 0.44
-set bmargin at screen 0.1
-set xrange [*:*] noextend
-set xtics autofreq
-set yrange [*:*]
-set ytics nomirror autofreq textcolor rgb "#000000"
-set y2range [0:*]
-set y2tics textcolor rgb "#1f4e79"
-set xlabel "time since failure (s)"
-set ylabel "{/:Italic θ}  (deg)"
-set y2label "surface velocity / ({/:Italic gD})^{1/2}" offset -1, 0 textcolor rgb "#1f4e79"
-set label 1 "(e)" at graph 0.985, graph 0.93 right
-plot figure . "-trace.csv" using "time":"velocity" axes x1y2 with lines linecolor rgb "#1f4e79" dashtype solid linewidth 1 notitle, \
-  figure . "-trace.csv" using "time":"theta" axes x1y1 with lines linecolor rgb "#000000" dashtype solid linewidth 2 notitle
+if (flow) {
+  unset key
+  set format y "%g"
+  set lmargin at screen 0.065
+  set rmargin at screen 0.93
+  set tmargin at screen 0.44
+  set bmargin at screen 0.1
+  set xrange [*:*] noextend
+  set xtics autofreq
+  set yrange [*:*]
+  set ytics nomirror autofreq textcolor rgb "#000000"
+  set y2range [0:*]
+  set y2tics textcolor rgb "#1f4e79"
+  set xlabel "time since failure (s)"
+  set ylabel "{/:Italic θ}  (deg)"
+  set y2label "surface velocity / ({/:Italic gD})^{1/2}" offset -1, 0 textcolor rgb "#1f4e79"
+  set label 1 "(e)" at graph 0.985, graph 0.93 right
+  plot figure . "-trace.csv" using "time":"velocity" axes x1y2 with lines linecolor rgb "#1f4e79" dashtype solid linewidth 1 notitle, \
+    figure . "-trace.csv" using "time":"theta" axes x1y1 with lines linecolor rgb "#000000" dashtype solid linewidth 2 notitle
+}
 unset multiplot

@@ -1,6 +1,7 @@
 #include "analysis/quantities.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/errors.h"
 #include "core/trigonometry.h"
@@ -103,6 +104,29 @@ double number_of(const Quantity& quantity, const FrameRecord& frame, std::size_t
       quantity.member);
 }
 
+void set_number(const Quantity& quantity, double value, FrameRecord& frame, std::size_t f) {
+  const auto set = [value](auto& number) {
+    if constexpr (std::is_same_v<std::remove_reference_t<decltype(number)>, Index>)
+      number = std::isnan(value) ? 0 : static_cast<Index>(std::lround(value));
+    else
+      number = value;
+  };
+  std::visit(
+      [&]<typename Record, typename T>(T Record::*member) {
+        if constexpr (std::is_arithmetic_v<T> && std::is_same_v<Record, FrameRecord>)
+          set(frame.*member);
+        else if constexpr (std::is_arithmetic_v<T> && std::is_same_v<Record, FrameThreshold>)
+          if (f < frame.thresholds.size()) set(frame.thresholds[f].*member);
+      },
+      quantity.member);
+}
+
+bool is_number_of_run(const Quantity& quantity) {
+  return std::holds_alternative<double Analysis::*>(quantity.member) ||
+         std::holds_alternative<std::array<double, 2> Analysis::*>(quantity.member) ||
+         std::holds_alternative<double RunThreshold::*>(quantity.member);
+}
+
 bool is_number_of_frame(const Quantity& quantity) {
   return std::visit(
       []<typename Record, typename T>(T Record::*) {
@@ -123,6 +147,11 @@ bool needs_threshold(const Quantity& quantity) { return quantity.shape.find('F')
 double scaled(const Quantity& quantity, double value, double mean_diameter) {
   if (quantity.unit == "m") return value / mean_diameter;
   return quantity.unit == "rad" ? degrees(value) : value;
+}
+
+double unscaled(const Quantity& quantity, double value, double mean_diameter) {
+  if (quantity.unit == "m") return value * mean_diameter;
+  return quantity.unit == "rad" ? radians(value) : value;
 }
 
 std::string scaled_unit(const Quantity& quantity) {

@@ -62,8 +62,14 @@ void set_values(const Quantity& quantity, const Values& values, Analysis& analys
 /// number.
 double number_of(const Quantity& quantity, const FrameRecord& frame, std::size_t f = 0);
 
+/// Sets it, rounded where it counts something; leaves a quantity that is no such number.
+void set_number(const Quantity& quantity, double value, FrameRecord& frame, std::size_t f = 0);
+
 /// Whether there is one number of it in a frame, or one for each threshold of a frame.
 bool is_number_of_frame(const Quantity& quantity);
+
+/// Whether there is one number of it in a run, or one for each threshold or strain: no frames, bins or edges.
+bool is_number_of_run(const Quantity& quantity);
 
 /// Element k of a quantity in doubles, among all its values; NaN where there are fewer.
 double number_of(const Quantity& quantity, const Analysis& analysis, std::size_t k);
@@ -73,6 +79,8 @@ bool needs_threshold(const Quantity& quantity);
 
 /// In the unit of tables: lengths in mean diameters (m), angles in degrees, all else as it is.
 double scaled(const Quantity& quantity, double value, double mean_diameter);
+/// From that unit back to that of the table.
+double unscaled(const Quantity& quantity, double value, double mean_diameter);
 /// "D", "deg", or the unit of the table of quantities.
 std::string scaled_unit(const Quantity& quantity);
 

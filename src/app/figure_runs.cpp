@@ -1,57 +1,120 @@
 #include "app/figure_runs.h"
 
 #include <cstdio>
+#include <filesystem>
 #include <fmt/core.h>
 
+#include "app/output_files.h"
 #include "core/errors.h"
 #include "core/visible_text.h"
+#include "ensemble/averages_reader.h"
 #include "ensemble/ensemble_manifest.h"
 #include "ensemble/member_state.h"
-#include "session/run_header.h"
+#include "io/durable_file.h"
+#include "io/run_store.h"
+#include "session/analysis_parameters.h"
 
 namespace talus {
 namespace {
 
-std::vector<std::string> members_done(const std::string& folder) {
+namespace fs = std::filesystem;
+
+/// What is read so far, and how runs are to be analysed.
+struct Reading {
+  const std::vector<std::string>& settings;
+  AnalysisParameters parameters;
+  const AnalysisOptions& options;
+  FigureInput input = {};
+};
+
+FigureRun open_run(const std::string& path, const AnalysisParameters& parameters,
+                   const AnalysisOptions& options) {
+  // The analysis comes first: storing it replaces the file.
+  AnalysedRun run = analysed_run(path, parameters, options);
+  if (!run.is_kept && !options.quiet)
+    std::fprintf(stderr, "talus: note: %s: %s\n", path.c_str(), visible(run.state).c_str());
+  return run_of_file(path, RunFile::open(path), std::move(run.analysis));
+}
+
+void add_run(Reading& reading, const std::string& path) {
+  reading.input.runs.push_back(open_run(path, reading.parameters, reading.options));
+  for (const std::string& file : output_of_run(path, false).inputs) reading.input.files.push_back(file);
+}
+
+/// Values come from an analysis that was made.
+void refuse_settings(const Reading& reading, const std::string& path) {
+  if (reading.settings.empty()) return;
+  throw Error(ExitCode::usage,
+              fmt::format("--set {}: {} has the values of an analysis that was made with the default "
+                          "parameters, and no run that could be analysed with others",
+                          visible_word(reading.settings.front()), path));
+}
+
+/// A member whose run is gone, from its tables.
+void add_tables(Reading& reading, const Member& member, const Variant& variant) {
+  const std::string numbers = numbers_path(member.path), series = series_path(member.path);
+  refuse_settings(reading, numbers);
+  reading.input.runs.push_back(run_of_values(
+      numbers,
+      {member.seed, parse_numbers(read_text(numbers), numbers), parse_series(read_text(series), series)},
+      read_text(variant.scenario_file)));
+  reading.input.files.insert(reading.input.files.end(), {numbers, series});
+}
+
+void add_ensemble(Reading& reading, const std::string& folder) {
   const EnsemblePlan plan = plan_of(read_ensemble(folder), folder);
   const std::vector<MemberState> states = look_at_members(plan);
-  std::vector<std::string> runs;
-  for (std::size_t m = 0; m < states.size(); ++m)
-    if (states[m].stage == MemberStage::done) runs.push_back(plan.members[m].path);
-  if (runs.empty())
+  if (count_of(states, MemberStage::done) == 0)
     throw Error(ExitCode::missing_input,
                 fmt::format("{}: no member of this ensemble is done yet; talus ensemble status {} tells how "
                             "far they are",
                             folder, folder));
-  return runs;
+  for (std::size_t m = 0; m < states.size(); ++m) {
+    const Member& member = plan.members[m];
+    if (states[m].stage != MemberStage::done) continue;
+    if (run_presence(member.path) == RunPresence::none)
+      add_tables(reading, member, plan.variants[member.variant]);
+    else
+      add_run(reading, member.path);
+  }
+}
+
+void add_values(Reading& reading, const std::string& path) {
+  refuse_settings(reading, path);
+  for (const StoredVariant& variant : read_averages(path))
+    for (std::size_t m = 0; m < variant.seeds.size(); ++m)
+      reading.input.runs.push_back(
+          run_of_values(fmt::format("{}#{}{}seed-{}", path, variant.name, variant.name.empty() ? "" : "/",
+                                    variant.seeds[m]),
+                        member_of(variant, m), variant.scenario));
+  reading.input.files.push_back(path);
 }
 
 }  // namespace
-
-std::vector<std::string> runs_named(const std::vector<std::string>& paths) {
-  std::vector<std::string> runs;
-  for (const std::string& path : paths) {
-    const std::vector<std::string> named =
-        is_ensemble(path) ? members_done(path) : std::vector<std::string>{path};
-    runs.insert(runs.end(), named.begin(), named.end());
-  }
-  return runs;
-}
 
 std::vector<FigureRun> open_figure_runs(const std::vector<std::string>& paths,
                                         const AnalysisParameters& parameters,
                                         const AnalysisOptions& options) {
   std::vector<FigureRun> runs;
-  for (const std::string& path : paths) {
-    // The analysis comes first: storing it replaces the file.
-    AnalysedRun run = analysed_run(path, parameters, options);
-    if (!run.is_kept && !options.quiet)
-      std::fprintf(stderr, "talus: note: %s: %s\n", path.c_str(), visible(run.state).c_str());
-    RunFile file = RunFile::open(path);
-    const Scenario scenario = stored_scenario(file.header(), path);
-    runs.push_back({path, std::move(file), std::move(run.analysis), scenario});
-  }
+  for (const std::string& path : paths) runs.push_back(open_run(path, parameters, options));
   return runs;
+}
+
+FigureInput read_figure_input(const std::vector<std::string>& paths, const std::vector<std::string>& settings,
+                              const AnalysisOptions& options) {
+  Reading reading{settings, parse_analysis_settings(settings), options};
+  for (const std::string& path : paths) {
+    const std::string averages = (fs::path(path) / "ensemble.h5").string();
+    if (is_ensemble(path))
+      add_ensemble(reading, path);
+    else if (is_averages_file(path))
+      add_values(reading, path);
+    else if (is_averages_file(averages))
+      add_values(reading, averages);
+    else
+      add_run(reading, path);
+  }
+  return std::move(reading.input);
 }
 
 }  // namespace talus

@@ -1,5 +1,5 @@
 #pragma once
-/// Runs opened and analysed, for figures.
+/// Runs opened and analysed, for figures, and the values of members of ensembles.
 
 #include <string>
 #include <vector>
@@ -9,12 +9,22 @@
 
 namespace talus {
 
-/// `paths`, with each folder of an ensemble replaced by the runs of its members that are done. Throws
-/// Error(missing_input) where there is none in it yet, and as read_ensemble does.
-std::vector<std::string> runs_named(const std::vector<std::string>& paths);
-
 /// The runs at `paths`, in that order. Throws as analysed_run does.
 std::vector<FigureRun> open_figure_runs(const std::vector<std::string>& paths,
                                         const AnalysisParameters& parameters, const AnalysisOptions& options);
+
+/// What the arguments of `talus figures` stand for.
+struct FigureInput {
+  std::vector<FigureRun> runs;
+  std::vector<std::string> files;  ///< files and folders that were read, and must not be replaced
+};
+
+/// Each of `paths` is a run; a folder of an ensemble, for its members that are done: the run of each where it
+/// is there, else its tables; or an ensemble.h5, or a folder that has one, for the values in it. `settings`
+/// change the analysis, which only runs can have made anew. Throws Error(missing_input) where an ensemble has
+/// no member that is done, Error(usage) where there are settings and no runs to analyse, and as analysed_run,
+/// read_ensemble and read_averages do.
+FigureInput read_figure_input(const std::vector<std::string>& paths, const std::vector<std::string>& settings,
+                              const AnalysisOptions& options);
 
 }  // namespace talus

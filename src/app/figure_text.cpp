@@ -33,13 +33,13 @@ std::string table_json(const Figure& figure, const Table& table) {
 }
 
 std::string run_json(const FigureRun& run, const std::string& group) {
-  const std::string& scenario = run.file.header().scenario_resolved;
+  const std::string& scenario = run.scenario_text;
   json::Members parameters;
   for (const auto& [name, value] : run.analysis.parameters) parameters.emplace_back(name, quoted(value));
   return json::object({{"path", quoted(run.path)},
                        {"group", quoted(group)},
                        {"seed", json::number(run.scenario.seed)},
-                       {"state_hash", quoted(hash_text(state_hash(run.file.checkpoint().world)))},
+                       {"state_hash", quoted(run.state_hash)},
                        {"scenario_hash", quoted(hash_text(hash_bytes(std::as_bytes(std::span(scenario)))))},
                        {"analysis_key", quoted(run.analysis.key)},
                        {"analysis", json::object(parameters, 3)}},

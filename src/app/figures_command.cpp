@@ -13,9 +13,9 @@
 #include "app/figure_files.h"
 #include "app/figure_runs.h"
 #include "app/gnuplot.h"
-#include "app/output_files.h"
 #include "app/stop_signals.h"
 #include "core/errors.h"
+#include "core/output_file.h"
 #include "core/visible_text.h"
 #include "figures/catalogue.h"
 #include "scenario/suggestion.h"
@@ -78,30 +78,37 @@ std::vector<FigureRecipe> chosen_recipes(const std::vector<std::string>& only) {
   return recipes;
 }
 
+/// Whether no run has its file: of members only values are there.
+bool have_values_only(std::span<const RunGroup> groups) {
+  return std::ranges::none_of(groups, [](const RunGroup& group) {
+    return std::ranges::any_of(group.runs, [](const FigureRun& run) { return run.file.has_value(); });
+  });
+}
+
 /// The figures that can be made of the runs; the others are named with what they need.
 std::vector<Figure> make_figures(const std::vector<FigureRecipe>& recipes, std::span<const RunGroup> groups) {
   std::vector<Figure> figures;
   for (const FigureRecipe& recipe : recipes)
     if (auto figure = recipe.make(groups))
       figures.push_back(std::move(*figure));
+    else if (recipe.material == Material::frames && have_values_only(groups))
+      fmt::print(stderr, "left out: {} needs {}; given are only values of members, without their runs\n",
+                 recipe.name, recipe.needs);
     else
-      std::fprintf(stderr, "left out: %.*s needs %.*s\n", static_cast<int>(recipe.name.size()),
-                   recipe.name.data(), static_cast<int>(recipe.needs.size()), recipe.needs.data());
+      fmt::print(stderr, "left out: {} needs {}\n", recipe.name, recipe.needs);
   if (figures.empty()) throw Error(ExitCode::bad_data, "no figure can be made of these runs");
   return figures;
 }
 
 void make(const FiguresArguments& arguments) {
   const std::vector<FigureRecipe> recipes = chosen_recipes(arguments.only);
-  const AnalysisParameters parameters = parse_analysis_settings(arguments.settings);
+  parse_analysis_settings(arguments.settings);  // before anything is read
   require_gnuplot();
-  const std::vector<std::string> runs = runs_named(arguments.runs);
-  const std::vector<RunGroup> groups = group_runs(open_figure_runs(runs, parameters, arguments.analysis));
+  FigureInput input = read_figure_input(arguments.runs, arguments.settings, arguments.analysis);
+  const std::vector<RunGroup> groups = group_runs(std::move(input.runs));
   const std::vector<Figure> figures = make_figures(recipes, groups);
   const std::filesystem::path folder = arguments.folder;
-  OutputRule rule{arguments.overwrite};
-  for (const std::string& run : runs)
-    for (const std::string& input : output_of_run(run, false).inputs) rule.inputs.push_back(input);
+  const OutputRule rule{arguments.overwrite, input.files};
   for (const Figure& figure : figures)
     for (const std::string& file : figure_files(figure)) output_target((folder / file).string(), rule);
   CountProgress progress("figures", figures.size(), arguments.analysis.quiet);
@@ -132,8 +139,8 @@ void add_figures_command(CLI::App& app) {
   command
       ->add_option(
           "runs", arguments->runs,
-          "Run files, or folders of ensembles; runs that differ in their seed only are averaged. Their "
-          "analysis is read from the file, or made and stored")
+          "Run files, or folders of ensembles, or an ensemble.h5 alone; runs that differ in their seed only "
+          "are averaged. Their analysis is read from the file, or made and stored")
       ->required();
   command->add_option("-o,--output", arguments->folder, "Folder of the figures, made where missing")
       ->required();

@@ -26,13 +26,6 @@ constexpr const char* header = "quantity,unit,value";
 constexpr const char* angle_at_rest = "theta_r";
 constexpr std::array<const char*, 2> counted_steps = {"unconverged_steps_deposition", "unconverged_steps"};
 
-/// Whether there is one of it, or one for each threshold, in a run: no lists of frames, bins or edges.
-bool is_of_run(const Quantity& quantity) {
-  return std::holds_alternative<double Analysis::*>(quantity.member) ||
-         std::holds_alternative<std::array<double, 2> Analysis::*>(quantity.member) ||
-         std::holds_alternative<double RunThreshold::*>(quantity.member);
-}
-
 void add_numbers(std::vector<NamedNumber>& numbers, const Quantity& quantity, const Analysis& analysis,
                  double mean_diameter) {
   const Values values = values_of(quantity, analysis);
@@ -75,7 +68,7 @@ MemberNumbers member_numbers(const RunFile& run, const Analysis& analysis) {
                       result(end.timing, "deposition") + result(end.timing, "tilt"),
                       {}};
   for (const Quantity& quantity : quantities())
-    if (is_of_run(quantity))
+    if (is_number_of_run(quantity))
       add_numbers(found.numbers, quantity, analysis, run.header().statics.mean_diameter);
   found.numbers.push_back({angle_at_rest, "deg", degrees(result(end.results, angle_at_rest))});
   for (const char* name : counted_steps) found.numbers.push_back({name, "1", result(end.results, name)});
@@ -85,7 +78,7 @@ MemberNumbers member_numbers(const RunFile& run, const Analysis& analysis) {
 std::vector<std::string> numbers_of_run() {
   std::vector<std::string> names;
   for (const Quantity& quantity : quantities())
-    if (is_of_run(quantity)) names.push_back(quantity.name);
+    if (is_number_of_run(quantity)) names.push_back(quantity.name);
   names.emplace_back(angle_at_rest);
   names.insert(names.end(), counted_steps.begin(), counted_steps.end());
   return names;

@@ -10,9 +10,16 @@
 
 namespace talus {
 
+/// What a figure is made from.
+enum class Material {
+  values,  ///< numbers of runs and of their frames, which an ensemble keeps of all its members
+  frames,  ///< distributions, maps and series, which are in the files of runs only
+};
+
 struct FigureRecipe {
   std::string_view name;   ///< Figure::name
   std::string_view title;  ///< Figure::title
+  Material material;
   std::string_view needs;  ///< "a periodic bed that has failed": what a message says where it cannot be made
   /// No value where there is no run of the kind it needs.
   std::optional<Figure> (*make)(std::span<const RunGroup> groups);

@@ -40,7 +40,7 @@ void add_means(Table& table, const RunChoice& runs, std::vector<double> FrameRec
 double mean_tilt(const RunChoice& runs, const State& state) {
   double sum = 0.0;
   for (std::size_t r = 0; r < runs.size(); ++r)
-    sum += runs[r]->file.frame_tilts()[state.frames[r]] / static_cast<double>(runs.size());
+    sum += runs[r]->analysis.frames[state.frames[r]].tilt / static_cast<double>(runs.size());
   return sum;
 }
 
@@ -149,7 +149,7 @@ std::optional<Figure> correlations(std::span<const RunGroup> groups) {
   figure.height_over_width = 0.4;
   Column distance{"r", "D", "distance between two contact points, or two centres", {}};
   for (const double r : failed->first().analysis.correlation_distance)
-    distance.values.push_back(r / failed->first().file.header().statics.mean_diameter);
+    distance.values.push_back(r / failed->first().mean_diameter);
   Table table{"", {std::move(distance)}};
   add_means(table, failed->runs, &FrameRecord::normal_force_correlation,
             {"force", "1", "correlation of normal forces", {}});

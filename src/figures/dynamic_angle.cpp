@@ -14,19 +14,11 @@
 namespace talus {
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr double seconds_before_failure = 2.0;
-
-/// rad; NaN where the run has none.
-double angle_at_rest(const FigureRun& run) {
-  for (const auto& [name, value] : run.file.checkpoint().results)
-    if (name == "theta_r") return value;
-  return none;
-}
 
 RunChoice runs_at_rest(const RunGroup& group) {
   RunChoice runs = all_runs(group);
-  std::erase_if(runs, [](const FigureRun* run) { return std::isnan(angle_at_rest(*run)); });
+  std::erase_if(runs, [](const FigureRun* run) { return std::isnan(run->theta_r); });
   return runs;
 }
 
@@ -58,7 +50,7 @@ std::vector<Column> empty_columns(std::span<const RunThreshold> thresholds) {
 /// between the two; where there is no frame before it, it has no range.
 std::vector<double> row_of(const FigureRun& run) {
   const Analysis& analysis = run.analysis;
-  std::vector<double> row = {static_cast<double>(run.scenario.seed), degrees(angle_at_rest(run)),
+  std::vector<double> row = {static_cast<double>(run.scenario.seed), degrees(run.theta_r),
                              degrees(analysis.theta_c)};
   for (const RunThreshold& threshold : analysis.thresholds)
     for (const auto& [tilt, error] : {std::pair(threshold.lc_jump, threshold.lc_jump_error),
@@ -86,15 +78,24 @@ std::string factors_text(const FigureRun& run) {
                 [](const RunThreshold& threshold) { return short_text(threshold.factor); });
 }
 
-std::string caption_of(std::size_t runs, const FigureRun& shown, const std::string& label) {
+std::string caption_of(std::size_t runs) {
   return fmt::format(
       "Angle at rest theta_r, the dynamic angle of repose, of {}, (a) over the angle of repose theta_c and "
       "(b, c, d) over theta_d by each of its estimators; the line is theta_r = theta. (b) and (c): jump of "
       "l_c max and percolation of the overloaded grains, filled for the first threshold, open for the last; "
       "bars reach to the frame before. (d): onset of dilation, filled by the volume, open by the centre of "
-      "mass; bars are the range in which the strain is at its minimum within noise. (e) Tilt and velocity of "
-      "the surface layer over the time since failure: {}, seed {}.",
-      runs_text(runs), label, shown.scenario.seed);
+      "mass; bars are the range in which the strain is at its minimum within noise.",
+      runs_text(runs));
+}
+
+/// The flow of one run, which only its file has.
+void add_trace(Figure& figure, const FigureRun& run, const std::string& label) {
+  figure.height_over_width = 0.55;
+  set_variable(figure, "flow", 1.0);
+  figure.caption +=
+      fmt::format(" (e) Tilt and velocity of the surface layer over the time since failure: {}, seed {}.",
+                  label, run.scenario.seed);
+  figure.tables.push_back(flow_trace(run));
 }
 
 /// Whole degrees, a degree and more beside all angles at rest.
@@ -118,13 +119,13 @@ std::size_t row_of_failure(const std::vector<ObservableRow>& rows) {
 }  // namespace
 
 Table flow_trace(const FigureRun& run) {
-  const RunStatics& statics = run.file.header().statics;
+  const RunStatics& statics = run.file->header().statics;
   const double unit = std::sqrt(statics.gravity * statics.mean_diameter);
   Table table{"trace",
               {{"time", "s", "time since failure", {}},
                {"theta", "deg", "tilt", {}},
                {"velocity", "sqrt(g D)", "mean velocity of the surface layer since the row before", {}}}};
-  const std::vector<ObservableRow> rows = run.file.all_observables();
+  const std::vector<ObservableRow> rows = run.file->all_observables();
   const double failure = at(rows[row_of_failure(rows)], Observable::time);
   for (std::size_t k = 1; k < rows.size(); ++k) {
     const double time = at(rows[k], Observable::time);
@@ -144,22 +145,25 @@ std::optional<Figure> dynamic_angle_figure(std::span<const RunGroup> groups) {
   figure.name = "dynamic-angle";
   figure.title = "Angle at rest over theta_c and theta_d";
   figure.wide = true;
-  figure.height_over_width = 0.55;
+  figure.height_over_width = 0.3;
+  set_variable(figure, "flow", 0.0);
   const FigureRun* shown = nullptr;
   std::string shown_label;
   for (const RunGroup& group : groups) {
     const RunChoice runs = runs_at_rest(group);
     if (runs.empty()) continue;
     add_group_table(figure, group, runs, columns_of(runs));
-    if (shown != nullptr) continue;
-    shown = runs.front();
-    set_variable(figure, "factors", gnuplot_string(factors_text(*shown)));
+    if (figure.tables.size() == 1)
+      set_variable(figure, "factors", gnuplot_string(factors_text(*runs.front())));
+    const RunChoice files = with_files(runs);
+    if (shown != nullptr || files.empty()) continue;
+    shown = files.front();
     shown_label = group.label;
   }
-  if (shown == nullptr) return std::nullopt;
+  if (figure.tables.empty()) return std::nullopt;
   set_range(figure);
-  figure.caption = caption_of(figure.runs.size(), *shown, shown_label);
-  figure.tables.push_back(flow_trace(*shown));
+  figure.caption = caption_of(figure.runs.size());
+  if (shown != nullptr) add_trace(figure, *shown, shown_label);
   return figure;
 }
 

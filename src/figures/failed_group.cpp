@@ -12,7 +12,8 @@ namespace talus {
 
 std::optional<FailedGroup> first_failed_group(std::span<const RunGroup> groups) {
   for (const RunGroup& group : groups)
-    if (RunChoice runs = failed_runs(group); !runs.empty()) return FailedGroup{&group, std::move(runs)};
+    if (RunChoice runs = with_files(failed_runs(group)); !runs.empty())
+      return FailedGroup{&group, std::move(runs)};
   return std::nullopt;
 }
 
@@ -20,9 +21,7 @@ std::string first_run_text(const FailedGroup& failed) {
   return fmt::format("{}, seed {}", failed.group->label, failed.first().scenario.seed);
 }
 
-std::size_t repose_frame(const FigureRun& run) {
-  return frame_at_repose(run.file.frame_tilts(), theta_c_of(run));
-}
+std::size_t repose_frame(const FigureRun& run) { return frame_at_repose(frame_tilts(run), theta_c_of(run)); }
 
 std::string rounded_text(double value, int decimals) {
   const double ten_to = std::pow(10.0, decimals);

@@ -10,7 +10,7 @@
 
 namespace talus {
 
-/// The failed runs of a group, one at least.
+/// The failed runs of a group whose files are there, one at least.
 struct FailedGroup {
   const RunGroup* group = nullptr;
   RunChoice runs;
@@ -19,7 +19,7 @@ struct FailedGroup {
   const FigureRun& first() const { return *runs.front(); }
 };
 
-/// The first group that has runs whose slope has failed; periodic beds come first (group_runs).
+/// The first group that has such runs; periodic beds come first (group_runs).
 std::optional<FailedGroup> first_failed_group(std::span<const RunGroup> groups);
 
 /// "PBC, L = 200 D, seed 1": the first run.

@@ -101,7 +101,7 @@ std::optional<Figure> force_chains(std::span<const RunGroup> groups) {
   const auto failed = first_failed_group(groups);
   if (!failed) return std::nullopt;
   const FigureRun& run = failed->first();
-  const Frame frame = run.file.frame(repose_frame(run));
+  const Frame frame = run.file->frame(repose_frame(run));
   Figure figure;
   figure.name = "force-chains";
   figure.title = "Force chains just before failure";
@@ -113,7 +113,7 @@ std::optional<Figure> force_chains(std::span<const RunGroup> groups) {
       frame_text(*failed, frame));
   figure.runs = {run.path};
   figure.height_over_width =
-      add_contact_map(figure, {frame, run.file.header().statics}) + legend_height / figure_width;
+      add_contact_map(figure, {frame, run.file->header().statics}) + legend_height / figure_width;
   set_variable(figure, "tilt", frame.tilt);
   return figure;
 }
@@ -122,7 +122,7 @@ std::optional<Figure> critical_contacts_figure(std::span<const RunGroup> groups)
   const auto failed = first_failed_group(groups);
   if (!failed) return std::nullopt;
   const FigureRun& run = failed->first();
-  const Frame frame = run.file.frame(repose_frame(run));
+  const Frame frame = run.file->frame(repose_frame(run));
   Figure figure;
   figure.name = "critical-contacts";
   figure.title = "Contacts with fully mobilised friction";
@@ -136,7 +136,7 @@ std::optional<Figure> critical_contacts_figure(std::span<const RunGroup> groups)
     add_group_table(figure, group, all_runs(group), means_over_runs(all_runs(group), critical_columns()));
   set_more_keys(figure, 0);
   figure.height_over_width =
-      add_contact_map(figure, {frame, run.file.header().statics}) + curves_height / figure_width;
+      add_contact_map(figure, {frame, run.file->header().statics}) + curves_height / figure_width;
   return figure;
 }
 

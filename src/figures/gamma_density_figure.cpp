@@ -58,7 +58,7 @@ std::optional<Figure> gamma_density_figure(std::span<const RunGroup> groups) {
       "stand "
       "at an angle that is shown.";
   for (const RunGroup& group : groups) {
-    const RunChoice runs = runs_with_threshold(group);
+    const RunChoice runs = with_files(runs_with_threshold(group));
     if (!group.periodic() || runs.empty()) continue;
     if (figure.tables.empty()) figure.caption.append(" ").append(reading_caption(*runs.front()));
     add_group_table(figure, group, runs, density_columns(runs));

@@ -64,6 +64,11 @@ RunChoice failed_runs(const RunGroup& group) {
   return choose(group, [](const FigureRun& run) { return !std::isnan(theta_c_of(run)); });
 }
 
+RunChoice with_files(RunChoice runs) {
+  std::erase_if(runs, [](const FigureRun* run) { return !run->file; });
+  return runs;
+}
+
 FramesAtAngle frames_at_angle(const RunChoice& runs, double tilt) {
   FramesAtAngle result;
   for (const FigureRun* run : runs)

@@ -20,6 +20,9 @@ RunChoice all_runs(const RunGroup& group);
 RunChoice runs_with_threshold(const RunGroup& group);
 RunChoice failed_runs(const RunGroup& group);
 
+/// Those of some runs whose files are there: for what values of an ensemble do not tell.
+RunChoice with_files(RunChoice runs);
+
 /// Those of some runs that stand at a tilt (rad), and the frame of each that is nearest to it.
 struct FramesAtAngle {
   RunChoice runs;

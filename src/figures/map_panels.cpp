@@ -46,12 +46,12 @@ MapSettings map_of(const FigureRun& run, MapKind kind, double factor) {
 
 Panels read_panels(const FigureRun& run, std::vector<MapSettings> maps) {
   Panels panels;
-  panels.choice = panel_frames(run.file.frame_tilts(), theta_c_of(run));
-  panels.pictures.run = run.file.header();
+  panels.choice = panel_frames(frame_tilts(run), theta_c_of(run));
+  panels.pictures.run = run.file->header();
   panels.pictures.plan.maps = std::move(maps);
   panels.pictures.extent = bed_extent(panels.pictures.run.statics);
   for (const std::size_t k : panels.choice) {
-    panels.frames.push_back(analysed_frame(run.file, from_facts(run.analysis.parameters), k));
+    panels.frames.push_back(analysed_frame(*run.file, from_facts(run.analysis.parameters), k));
     extend(panels.pictures.extent, {panels.frames.back(), panels.pictures.run.statics});
   }
   return panels;

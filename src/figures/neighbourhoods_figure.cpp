@@ -25,7 +25,7 @@ constexpr double shown_tilt = 10.0;  // deg
 std::size_t shown_frame(const FigureRun& run) {
   const std::size_t repose = repose_frame(run);
   if (radians(shown_tilt) >= theta_c_of(run)) return repose;
-  return std::min(frames_at(run.file.frame_tilts(), {rounded_text(shown_tilt, 0)}, theta_c_of(run)).front(),
+  return std::min(frames_at(frame_tilts(run), {rounded_text(shown_tilt, 0)}, theta_c_of(run)).front(),
                   repose);
 }
 
@@ -116,10 +116,10 @@ std::optional<Figure> neighbourhoods_figure(std::span<const RunGroup> groups) {
   const auto failed = first_failed_group(groups);
   if (!failed) return std::nullopt;
   const FigureRun& run = failed->first();
-  const RunStatics& statics = run.file.header().statics;
+  const RunStatics& statics = run.file->header().statics;
   const double diameter = statics.mean_diameter;
   const std::size_t k = shown_frame(run);
-  const Frame frame = analysed_frame(run.file, from_facts(run.analysis.parameters), k);
+  const Frame frame = analysed_frame(*run.file, from_facts(run.analysis.parameters), k);
   const std::vector<FrameThreshold>& thresholds = run.analysis.frames.at(k).thresholds;
   const BedFrame bed{frame, statics};
   const auto grain = typical_grain(bed, thresholds);

@@ -109,7 +109,7 @@ std::optional<Figure> length_figure(std::span<const RunGroup> groups) {
   double cut = 0.0;
   for (const RunGroup& group : groups)
     for (const FigureRun* run : group.periodic() ? runs_with_threshold(group) : RunChoice{})
-      cut = std::max(cut, run->analysis.lc_cut / run->file.header().statics.mean_diameter);
+      cut = std::max(cut, run->analysis.lc_cut / run->mean_diameter);
   set_variable(figure, "cut", cut);
   figure.tables.push_back(
       {"paper",

@@ -28,11 +28,11 @@ std::vector<double> scales_up_to(double largest) {
 
 /// p_o of a frame at each diameter (D), with the printed threshold.
 std::vector<double> shares_of(const FigureRun& run, std::size_t k, std::vector<double> scales) {
-  const RunStatics& statics = run.file.header().statics;
+  const RunStatics& statics = run.file->header().statics;
   AnalysisParameters parameters = from_facts(run.analysis.parameters);
   parameters.l_min = 0.0;
   for (double& l : scales) l *= statics.mean_diameter;
-  return overloaded_over_scale({analysed_frame(run.file, parameters, k), statics}, run.analysis.gamma_c,
+  return overloaded_over_scale({analysed_frame(*run.file, parameters, k), statics}, run.analysis.gamma_c,
                                scales);
 }
 
@@ -56,7 +56,7 @@ std::vector<Column> mean_shares(const FramesAtAngle& at, std::size_t all, const 
 }
 
 std::vector<Column> scale_columns(const RunChoice& runs) {
-  const RunStatics& statics = runs.front()->file.header().statics;
+  const RunStatics& statics = runs.front()->file->header().statics;
   const std::vector<double> scales = scales_up_to(length_cut(statics, 0.0) / statics.mean_diameter);
   std::vector<Column> columns = {{"l", "D", "diameter of the neighbourhood; 0: the grain alone", scales}};
   const auto add = [&](const FramesAtAngle& at, const std::string& name, const std::string& where) {
@@ -89,7 +89,7 @@ std::optional<Figure> overload_scale_figure(std::span<const RunGroup> groups) {
       "failed, of which at least half stand at an angle that is shown; error bars are standard errors over "
       "the runs, none for a single run.";
   for (const RunGroup& group : groups) {
-    const RunChoice runs = failed_runs(group);
+    const RunChoice runs = with_files(failed_runs(group));
     if (!group.periodic() || runs.empty()) continue;
     add_group_table(figure, group, runs, scale_columns(runs));
   }

@@ -1,23 +1,12 @@
 #pragma once
 /// The runs that figures are made from, those of one scenario together.
 
-#include <span>
 #include <string>
 #include <vector>
 
-#include "analysis/record.h"
-#include "io/run_file.h"
-#include "scenario/scenario.h"
+#include "figures/figure_run.h"
 
 namespace talus {
-
-/// A run that was opened and analysed.
-struct FigureRun {
-  std::string path;
-  RunFile file;
-  Analysis analysis;
-  Scenario scenario;
-};
 
 /// Runs that differ in their seed and in nothing else that shapes the result: an ensemble.
 struct RunGroup {

@@ -13,7 +13,7 @@ constexpr double same_tilt = 1e-6;  // rad; frames of a run are at least 1e-8 de
 
 /// The tilts of a run that failed end at its theta_c.
 std::vector<double> tilts_to_failure(const FigureRun& run) {
-  std::vector<double> tilts = run.file.frame_tilts();
+  std::vector<double> tilts = frame_tilts(run);
   const double theta_c = theta_c_of(run);
   std::erase_if(tilts, [&](double tilt) { return tilt > theta_c; });
   return tilts;
@@ -70,21 +70,20 @@ std::vector<Column> mean_columns(const CommonTilts& common, std::span<const std:
 double theta_c_of(const FigureRun& run) { return run.analysis.theta_c; }
 
 std::size_t frame_nearest(const FigureRun& run, double tilt) {
-  const auto& tilts = run.file.frame_tilts();
+  const std::vector<double> tilts = frame_tilts(run);
   const auto distance = [tilt](double other) { return std::abs(other - tilt); };
   return static_cast<std::size_t>(std::ranges::min_element(tilts, {}, distance) - tilts.begin());
 }
 
 bool stands_at(const FigureRun& run, double tilt) {
   const double theta_c = theta_c_of(run);
-  return std::isnan(theta_c) ? run.file.frame_tilts().back() > tilt - same_tilt : theta_c > tilt;
+  return std::isnan(theta_c) ? run.analysis.frames.back().tilt > tilt - same_tilt : theta_c > tilt;
 }
 
 FrameColumn column_of(const std::string& name, const Quantity& quantity, std::size_t f) {
   return {name, scaled_unit(quantity), quantity.definition,
           [quantity, f](const FigureRun& run, std::size_t frame) {
-            return scaled(quantity, number_of(quantity, run.analysis.frames.at(frame), f),
-                          run.file.header().statics.mean_diameter);
+            return scaled(quantity, number_of(quantity, run.analysis.frames.at(frame), f), run.mean_diameter);
           }};
 }
 

@@ -48,7 +48,7 @@ Column section_column(const FigureRun& run) {
   Column x{"x", "D", "middle of the section, from the upper wall downslope", {}};
   const std::vector<double>& edges = run.analysis.section_edge;
   for (std::size_t s = 0; s + 1 < edges.size(); ++s)
-    x.values.push_back(0.5 * (edges[s] + edges[s + 1]) / run.file.header().statics.mean_diameter);
+    x.values.push_back(0.5 * (edges[s] + edges[s + 1]) / run.mean_diameter);
   return x;
 }
 
@@ -61,7 +61,7 @@ std::vector<Column> section_stresses(const RunChoice& runs, const std::vector<st
     std::vector<double> stresses;
     for (std::size_t r = 0; r < runs.size(); ++r)
       stresses.push_back(runs[r]->analysis.frames.at(frames[r]).section_sigma_xx[s] /
-                         mean_weight(runs[r]->file.header().statics));
+                         mean_weight(runs[r]->file->header().statics));
     const Statistics result = statistics_of(stresses);
     mean.values.push_back(result.mean);
     error.values.push_back(result.error);
@@ -77,7 +77,7 @@ struct WallGroup {
 };
 
 double mean_depth(const FigureRun& run) {
-  const RunStatics& statics = run.file.header().statics;
+  const RunStatics& statics = run.file->header().statics;
   return run.analysis.frames.at(repose_frame(run)).volume / statics.length / statics.mean_diameter;
 }
 
@@ -87,7 +87,7 @@ WallGroup wall_group(const RunChoice& runs, std::vector<WallPoint>& points) {
   const double n = static_cast<double>(runs.size());
   double squares = 0.0;
   for (const FigureRun* run : runs) {
-    const RatioAtFailure ratio = ratio_at_failure(run->file.observables(), theta_c_of(*run), window);
+    const RatioAtFailure ratio = ratio_at_failure(run->file->observables(), theta_c_of(*run), window);
     ratios.push_back(ratio.mean);
     squares += ratio.spread * ratio.spread / n;
     result.depth += mean_depth(*run) / n;
@@ -124,10 +124,10 @@ std::string plus_minus(const WallFit& fit) {
 
 std::optional<Figure> wall_stress_figure(std::span<const RunGroup> groups) {
   const auto shortest = std::ranges::find_if(groups, [](const RunGroup& group) {
-    return !group.periodic() && !failed_runs(group).empty();  // groups come by ascending length
+    return !group.periodic() && !with_files(failed_runs(group)).empty();  // groups come by ascending length
   });
   if (shortest == groups.end()) return std::nullopt;
-  const RunChoice runs = failed_runs(*shortest);
+  const RunChoice runs = with_files(failed_runs(*shortest));
   Figure figure;
   figure.name = "fig06-wall-stress";
   figure.title = "Stress sigma_xx along a bed between walls (paper, Fig. 6)";
@@ -162,7 +162,7 @@ std::optional<Figure> wall_ratio_figure(std::span<const RunGroup> groups) {
   std::vector<WallPoint> points;
   std::vector<double> depths;
   for (const RunGroup& group : groups) {
-    const RunChoice runs = failed_runs(group);
+    const RunChoice runs = with_files(failed_runs(group));
     if (group.periodic() || runs.empty()) continue;
     const WallGroup wall = wall_group(runs, points);
     depths.push_back(wall.depth);

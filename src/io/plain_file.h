@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -30,5 +31,21 @@ struct PlainTexts {
 /// `unit` and `definition`. Throws as write_durably does.
 void write_plain_file(const std::string& path, const std::vector<PlainArray>& arrays,
                       const std::vector<PlainTexts>& texts);
+
+/// What is in such a file.
+struct PlainFile {
+  std::vector<PlainArray> arrays;  ///< all arrays of numbers, without their definitions
+  std::vector<PlainTexts> texts;   ///< the attributes of groups, and of arrays all but unit and definition
+};
+
+/// Reads all that is in such a file. Links to other places are passed over. HDF5 sees the file in a child
+/// process only. Throws Error(missing_input) where it cannot be opened, and Error(bad_data) where it is no
+/// HDF5 file, or an array is not what its hash says.
+PlainFile read_plain_file(const std::string& path);
+
+/// The same to bytes and back. `decode_plain` throws Error(bad_data), naming `path`, for what `encode` never
+/// makes.
+std::vector<std::byte> encode(const PlainFile& file);
+PlainFile decode_plain(std::span<const std::byte> bytes, const std::string& path);
 
 }  // namespace talus

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 
 #include "process.h"
 
@@ -84,6 +85,54 @@ TEST_F(Figures, of_an_ensemble_are_of_its_members_that_are_done) {
   const Outcome none = run_talus({"figures", "e", "-o", "none"}, folder_.path());
   EXPECT_EQ(none.exit_code, 66);
   expect_parts(none.err, {"e: no member of this ensemble is done yet"});
+}
+
+/// The numbers of a table, which stand in lines after its head.
+std::vector<double> numbers_in(const std::string& table) {
+  std::vector<double> numbers;
+  std::istringstream cells(table.substr(table.find('\n')));
+  for (std::string line; std::getline(cells, line);) {
+    std::istringstream row(line);
+    for (std::string cell; std::getline(row, cell, ',');)
+      numbers.push_back(cell == "NaN" ? 0.125 : std::stod(cell));
+  }
+  return numbers;
+}
+
+TEST_F(Figures, of_ensemble_h5_alone_are_those_of_its_runs) {
+  ASSERT_EQ(run_talus({"ensemble", "bed.toml", "--seeds", "1-3", "-o", "e"}, folder_.path()).exit_code, 0);
+  ASSERT_EQ(run_talus({"figures", "e", "-o", "of-runs", "--only", "4,14"}, folder_.path()).exit_code, 0);
+  fs::create_directory(folder_.path("moved"));
+  fs::rename(folder_.path("e/ensemble.h5"), folder_.path("moved/ensemble.h5"));
+  for (const char* seed : {"1", "2", "3"})  // and of members whose runs are gone, by their tables
+    fs::remove(folder_.path() / "e" / ("seed-" + std::string(seed) + ".h5"));
+  for (const auto& [input, output] :
+       {std::pair{"moved/ensemble.h5", "of-file"}, {"moved", "of-folder"}, {"e", "of-tables"}}) {
+    const Outcome alone =
+        run_talus({"figures", input, "-o", output, "--only", "4,14,force-chains"}, folder_.path());
+    ASSERT_EQ(alone.exit_code, 0) << alone.err;
+    EXPECT_EQ(alone.err,
+              "left out: force-chains needs a run that has failed; given are only values of members, without "
+              "their runs\n");
+    for (const char* table : {"fig04-shear-stress-pbc-l-10-d.csv", "fig14-volume-strain-pbc-l-10-d.csv",
+                              "fig14-volume-strain-theta_d-pbc-l-10-d.csv"}) {
+      const std::vector<double> runs = numbers_in(content(folder_.path() / "of-runs" / table)),
+                                values = numbers_in(content(folder_.path() / output / table));
+      ASSERT_EQ(runs.size(), values.size()) << table;
+      ASSERT_GT(runs.size(), 3u);
+      for (std::size_t k = 0; k < runs.size(); ++k)
+        EXPECT_NEAR(runs[k], values[k], 1e-12) << table << " " << k;
+    }
+  }
+  expect_parts(content(folder_.path() / "of-file/fig04-shear-stress.json"),
+               {"\"path\": \"moved/ensemble.h5#seed-3\""});
+  const Outcome twice = run_talus({"figures", "moved", "e", "-o", "out", "--only", "4"}, folder_.path());
+  EXPECT_EQ(twice.exit_code, 65);
+  expect_parts(twice.err, {"moved/ensemble.h5#seed-1 and e/seed-1.csv are the same run"});
+  const Outcome settings =
+      run_talus({"figures", "moved", "-o", "out", "--set", "gamma_c=0.3"}, folder_.path());
+  EXPECT_EQ(settings.exit_code, 64);
+  expect_parts(settings.err, {"--set gamma_c=0.3: moved/ensemble.h5 has the values of an analysis"});
 }
 
 TEST_F(Figures, are_drawn_again_by_their_script) {

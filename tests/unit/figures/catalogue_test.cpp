@@ -50,8 +50,12 @@ TEST(Catalogue, NoFigureIsMadeOfNoRuns) {
 TEST(Catalogue, IsThatOfItsPage) {
   std::ifstream file(std::string(TALUS_SOURCE_DIR) + "/docs/figures.md");
   const std::string page{std::istreambuf_iterator<char>(file), {}};
-  for (const FigureRecipe& recipe : figure_catalogue())
-    EXPECT_NE(page.find("| `" + std::string(recipe.name) + "` |"), std::string::npos) << recipe.name;
+  for (const FigureRecipe& recipe : figure_catalogue()) {
+    const std::size_t row = page.find("| `" + std::string(recipe.name) + "` |");
+    ASSERT_NE(row, std::string::npos) << recipe.name;
+    const bool is_marked = page.substr(row, page.find('\n', row) - row).ends_with(" * |");
+    EXPECT_EQ(is_marked, recipe.material == Material::values) << recipe.name;
+  }
 }
 
 }  // namespace

@@ -17,9 +17,11 @@ constexpr auto density = &FrameRecord::direction_density;
 /// A run that fails at theta_c (deg), with two bins of directions, all of density `level` in its first frame
 /// and of 3 `level` in the others.
 FigureRun run_with(const std::string& folder, double theta_c, double level) {
-  FigureRun run{folder, RunFile::open(folder), {}, {}};
+  FigureRun run = run_of_file(folder, RunFile::open(folder), {});
   run.analysis.theta_c = radians(theta_c);
-  run.analysis.frames.resize(run.file.frame_count());
+  run.analysis.frames.resize(run.file->frame_count());
+  for (std::size_t k = 0; k < run.analysis.frames.size(); ++k)
+    run.analysis.frames[k].tilt = run.file->frame_tilts()[k];
   for (FrameRecord& frame : run.analysis.frames)
     frame.*density = std::vector<double>(bins, &frame == run.analysis.frames.data() ? level : 3.0 * level);
   run.analysis.direction_edge = {0.0, 0.5 * pi, pi};

@@ -81,14 +81,14 @@ TEST_F(Curves, AreOfAnyQuantityOfFrames) {
   const FrameColumn frame_column = column_of("made_up", made_up, 1);
   const RunChoice runs = runs_with_threshold(groups_[0]);
   const Table table = {"", means_over_runs(runs, {&frame_column, 1})};
-  const double diameter = groups_[0].runs[0].file.header().statics.mean_diameter;
+  const double diameter = groups_[0].runs[0].file->header().statics.mean_diameter;
   EXPECT_NEAR(column(table, "made_up")[1], 1.5 / diameter, 1e-9) << "mean of two runs, in D";
   EXPECT_EQ(table.columns[2].unit, "D");
   EXPECT_EQ(table.columns[2].meaning, made_up.definition);
 }
 
 TEST_F(Curves, EndAtTheFailureOfEachRun) {
-  const std::vector<double> tilts = groups_[0].runs[0].file.frame_tilts();
+  const std::vector<double> tilts = groups_[0].runs[0].file->frame_tilts();
   groups_[0].runs[0].analysis.theta_c = 0.5 * (tilts[1] + tilts[2]);
   const auto figure = stress_ratio_figure(groups_);
   EXPECT_EQ(column(figure->tables[0], "n"), (std::vector<double>{3.0, 3.0, 2.0}));
@@ -109,7 +109,7 @@ TEST_F(Curves, OfOverloadedGrainsNeedAThreshold) {
 }
 
 TEST_F(Curves, OfLengthsAreInDiameters) {
-  const double diameter = groups_[0].runs[0].file.header().statics.mean_diameter;
+  const double diameter = groups_[0].runs[0].file->header().statics.mean_diameter;
   fill(&FrameThreshold::lc_mean, 2.0 * diameter, 0.0);
   fill(&FrameThreshold::lc_max, 10.0 * diameter, 0.0);
   fill(&Analysis::lc_cut, 15.0 * diameter, 0.0);
@@ -135,7 +135,7 @@ TEST_F(Curves, OverScaleAreOfFailedRunsAtTheAngles) {
   const Table& table = figure->tables[0];
   const std::vector<double>& scales = column(table, "l");
   EXPECT_EQ(scales.front(), 0.0) << "the grain alone";
-  const RunFile& run = groups_[0].runs[0].file;
+  const RunFile& run = *groups_[0].runs[0].file;
   const RunStatics& statics = run.header().statics;
   for (std::size_t s = 0; s < scales.size(); ++s) {
     const double l = std::max(scales[s], 1e-9) * statics.mean_diameter;  // of 0 the frame says itself
@@ -199,7 +199,7 @@ TEST_F(Curves, OfWallsAreThoseOfTheShortestBed) {
   EXPECT_FALSE(wall_stress_figure(groups_)) << "a periodic bed";
   groups_[0].runs[0].scenario.bed.boundary = BedBoundary::walls;
   fill(&FrameRecord::section_sigma_xx, 100.0, 0.0);
-  const RunStatics& statics = groups_[0].runs[0].file.header().statics;
+  const RunStatics& statics = groups_[0].runs[0].file->header().statics;
   double mass = 0.0;
   for (Index i = 0; i < statics.free_count; ++i) mass += statics.mass[i];
   const auto figure = wall_stress_figure(groups_);

@@ -30,7 +30,7 @@ FigureRun run_with(const std::string& path, double rest, std::uint64_t seed) {
   Checkpoint checkpoint = example::checkpoint(0);
   checkpoint.results = {{"theta_c", radians(19.9)}, {"theta_r", radians(rest)}};
   store.commit(segment, checkpoint);
-  FigureRun run{path, RunFile::open(path), {}, {}};
+  FigureRun run = run_of_file(path, RunFile::open(path), {});
   run.scenario.seed = seed;
   Analysis& analysis = run.analysis;
   analysis.theta_c = radians(19.9);

@@ -14,13 +14,13 @@ namespace talus::example {
 /// Opens the run at `path` (three frames) as one that fails at theta_c, deg; NaN: not at all, and without
 /// thresholds.
 inline FigureRun figure_run(const std::string& path, std::uint64_t seed, double theta_c = std::nan("")) {
-  FigureRun run{path, RunFile::open(path), {}, {}};
+  FigureRun run = run_of_file(path, RunFile::open(path), {});
   run.scenario.seed = seed;
   const std::uint64_t thresholds = std::isnan(theta_c) ? 0 : 2;
   run.analysis = test::blank_analysis(
-      {.frames = run.file.frame_count(), .thresholds = thresholds, .sections = 2, .bins = 2});
-  for (std::size_t k = 0; k < run.file.frame_count(); ++k)
-    run.analysis.frames[k].tilt = run.file.frame_tilts()[k];
+      {.frames = run.file->frame_count(), .thresholds = thresholds, .sections = 2, .bins = 2});
+  for (std::size_t k = 0; k < run.file->frame_count(); ++k)
+    run.analysis.frames[k].tilt = run.file->frame_tilts()[k];
   run.analysis.theta_c = radians(theta_c);
   if (thresholds > 0) {
     run.analysis.thresholds[0].factor = 1.0;

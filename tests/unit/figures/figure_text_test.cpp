@@ -67,7 +67,7 @@ TEST(ProvenanceJson, NamesRunsAndColumns) {
         std::string("\"group\": \"PBC, L = 200 D\""), std::string("\"file\": \"fig04-shear-stress.csv\""),
         std::string("\"file\": \"fig04-shear-stress-paper.csv\""), std::string("\"name\": \"p_o\""),
         std::string("\"meaning\": \"share\""),
-        "\"state_hash\": \"" + hash_text(state_hash(groups[0].runs[0].file.checkpoint().world)) + "\""})
+        "\"state_hash\": \"" + hash_text(state_hash(groups[0].runs[0].file->checkpoint().world)) + "\""})
     EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
   EXPECT_EQ(text.find(unused), std::string::npos) << "the figure is not made from it";
 }

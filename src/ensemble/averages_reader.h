@@ -1,0 +1,43 @@
+#pragma once
+/// The values of the members of an ensemble, read back from its ensemble.h5 (docs/ensembles.md).
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "ensemble/averages.h"
+
+namespace talus {
+
+/// A quantity of all members, as it stands in the file.
+struct StoredQuantity {
+  std::string name;
+  std::string unit;
+  std::vector<double> values;  ///< member by member, in each by point
+};
+
+/// One variant of ensemble.h5.
+struct StoredVariant {
+  std::string name;      ///< empty for the only one
+  std::string scenario;  ///< TOML, every key
+  std::vector<std::uint64_t> seeds;
+  std::vector<std::string> state_hashes;
+  std::vector<StoredQuantity> numbers;
+  std::vector<double> tilts;  ///< deg, of over_tilt
+  std::vector<StoredQuantity> over_tilt;
+  std::vector<double> angles_left;  ///< deg, of before_failure; empty where no slope failed
+  std::vector<StoredQuantity> before_failure;
+};
+
+/// Whether the file at `path` can be one of these rather than a run: it begins as HDF5 files do.
+bool is_averages_file(const std::string& path);
+
+/// Throws as read_plain_file does, and Error(bad_data) where the file is not what write_averages makes.
+std::vector<StoredVariant> read_averages(const std::string& path);
+
+/// What the file knows of member m. Its series have the points of both grids at which it has values: with
+/// those of before_failure they are known up to the last frame before theta_c, and a straight line between
+/// two points is that of the frames.
+MemberResult member_of(const StoredVariant& variant, std::size_t m);
+
+}  // namespace talus
