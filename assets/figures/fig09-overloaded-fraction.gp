@@ -7,7 +7,7 @@ set multiplot
 do for [t = 1:thresholds] {
   eval panel(1, 1, t, thresholds)
   ordinate = "p_o_" . value(sprintf("factor_%d", t))
-  set label 1 sprintf("(%s) ", "abcd"[t:t]) . value(sprintf("threshold_%d", t)) at graph 0.03, graph 0.07
+  set label 1 sprintf("(%s) ", "abcd"[t:t]) . value(sprintf("threshold_%d", t)) at graph 0.03, graph 0.93
   plot @curves, figure . "-paper.csv" using "theta":"p_o" with points linestyle 101 title "paper"
   unset key
 }

@@ -7,8 +7,12 @@ set datafile separator comma
 set datafile columnheaders
 rad = pi / 180
 
-# Of group g: variable data_g, its file; label_g, its name for the key; every_g, the rows from one symbol to the next.
+# Of group g: variable data_g, its file; label_g, its name for the key; every_g, the rows from one symbol to the next; and
+# runs_g, the file of its runs one by one, drawn_g in number, where there are several.
 data(g) = value(sprintf("data_%d", g))
+has_runs(g) = exists(sprintf("runs_%d", g))
+runs(g) = has_runs(g) ? value(sprintf("runs_%d", g)) : data(g)
+if (!exists("spread")) { spread = 0 }  # 1 where any group has several runs
 label(g) = value(sprintf("label_%d", g))
 every(g) = value(sprintf("every_%d", g))
 
@@ -67,17 +71,28 @@ set style line 103 linecolor rgb "#999999" dashtype (6,4) linewidth 1.5
 bar_from(name) = scale * (column(name) - column(name . "_error"))
 bar_length(name) = scale * 2 * column(name . "_error")
 
-# Bands of the spread of runs: mean and standard deviation.
-band_low(name) = scale * (column(name) - column(name . "_deviation"))
-band_high(name) = scale * (column(name) + column(name . "_deviation"))
+# Bands around a mean, for width = "_error" or "_deviation". Thin lines are transparent: many of them are behind it.
+band_low(name, width) = scale * (column(name) - column(name . width))
+band_high(name, width) = scale * (column(name) + column(name . width))
+opacity(g) = has_runs(g) && value(sprintf("drawn_%d", g)) > 14 ? 5.0 / value(sprintf("drawn_%d", g)) : 0.35
+pale(g) = sprintf("#%02x", 255 * (1 - opacity(g))) . ink[g][2:7]
 
 # The curves of all groups, `scale` times column `ordinate` over the expression `abscissa`: plot @curves, ...
-# Bands behind, lines, error bars (neither where the error is NaN), symbols, and all of these in the key.
+# Behind them the bands of the standard deviation, the runs one by one, and the bands of the standard error (none of them
+# where it is NaN); then lines and symbols, and all of these in the key.
 ordinate = "none"
 scale = 1
 abscissa = 'column("theta")'
-curves = 'for [g = 1:groups] data(g) using (@abscissa):(band_low(ordinate)):(band_high(ordinate)) with filledcurves linetype g fillstyle transparent solid 0.15 noborder notitle, ' . \
+key_of_spread = spread ? ', keyentry with lines linecolor rgb "#999999" dashtype solid linewidth 0.5 title "runs", ' . \
+  'keyentry with boxes linecolor rgb ink[1] fillstyle transparent solid 0.4 noborder title "± standard error", ' . \
+  'keyentry with boxes linecolor rgb ink[1] fillstyle transparent solid 0.13 noborder title "± standard deviation"' : ''
+curves = 'for [g = 1:groups] data(g) using (@abscissa):(band_low(ordinate, "_deviation")):(band_high(ordinate, "_deviation")) ' . \
+  'with filledcurves linetype g fillstyle transparent solid 0.13 noborder notitle, ' . \
+  'for [g = 1:groups] for [side = -1:1:2] data(g) using (@abscissa):(scale * (column(ordinate) + side * column(ordinate . "_deviation"))) ' . \
+  'with lines linetype g dashtype solid linewidth 0.5 notitle, ' . \
+  'for [g = 1:groups] runs(g) using (@abscissa):(has_runs(g) ? scale * column(ordinate) : NaN) with lines linecolor rgb pale(g) dashtype solid linewidth 0.5 notitle, ' . \
+  'for [g = 1:groups] data(g) using (@abscissa):(band_low(ordinate, "_error")):(band_high(ordinate, "_error")) ' . \
+  'with filledcurves linetype g fillstyle transparent solid 0.4 noborder notitle, ' . \
   'for [g = 1:groups] data(g) using (@abscissa):(scale * column(ordinate)) with lines linetype g notitle, ' . \
-  'for [g = 1:groups] data(g) using (@abscissa):(bar_from(ordinate)):(0):(bar_length(ordinate)) every every(g) with vectors nohead linetype g dashtype solid linewidth 1 notitle, ' . \
   'for [g = 1:groups] data(g) using (@abscissa):(scale * column(ordinate)) every every(g) with points linetype g notitle, ' . \
-  'for [g = 1:groups] NaN with linespoints linetype g title label(g)'
+  'for [g = 1:groups] NaN with linespoints linetype g title label(g)' . key_of_spread

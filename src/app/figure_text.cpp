@@ -51,12 +51,15 @@ std::string run_json(const FigureRun& run, const std::string& group) {
 std::string csv_text(const Table& table) {
   std::string text = joined(table.columns, ",", &Column::name) + "\n";
   const std::size_t rows = table.columns.empty() ? 0 : table.columns.front().values.size();
-  for (std::size_t r = 0; r < rows; ++r)
+  for (std::size_t r = 0; r < rows; ++r) {
+    const std::vector<double>& first = table.columns.front().values;
+    if (table.in_blocks && r > 0 && first[r] != first[r - 1]) text += '\n';
     for (const Column& column : table.columns) {
       const double value = column.values[r];
       text += std::isnan(value) ? std::string("NaN") : short_text(value);
       text += &column == &table.columns.back() ? '\n' : ',';
     }
+  }
   return text;
 }
 

@@ -10,6 +10,7 @@
 namespace talus {
 
 /// Column names, then a line for each row; the shortest digits that read back as the same number, NaN as NaN.
+/// Between blocks, where the table has them, there is an empty line, which readers of CSV pass over.
 std::string csv_text(const Table& table);
 
 /// What a figure shows and was made from: title, caption, version, command line, runs with seed, state hash,

@@ -9,6 +9,7 @@
 #include "figures/neighbourhoods_figure.h"
 #include "figures/overload_figures.h"
 #include "figures/packing_stress_figures.h"
+#include "figures/quantity_figures.h"
 #include "figures/volume_strain_figure.h"
 #include "figures/wall_figures.h"
 
@@ -47,12 +48,19 @@ std::span<const FigureRecipe> figure_catalogue() {
       {"force-chains", "Force chains just before failure", frames, "a run that has failed", force_chains},
       {"force-distribution", "Distribution of the normal forces", frames, "a run that has failed",
        force_distribution},
-      {"critical-contacts", "Contacts with fully mobilised friction", frames, "a run that has failed",
+      {"critical-contacts", "Contacts with fully mobilised friction", values, "a run that has failed",
        critical_contacts_figure},
       {"correlations", "Correlation of forces and stresses over distance", frames, "a run that has failed",
        correlations},
       {"dynamic-angle", "Angle at rest over theta_c and theta_d", values,
        "a run with tilt.after_failure whose flow has stopped", dynamic_angle_figure},
+      {"over-tilt", "Quantities of the analysis over tilt", values, "a run", quantities_over_tilt},
+      {"before-failure", "Quantities of the analysis over the angle left to failure", values,
+       "a run that has failed", quantities_before_failure},
+      {"difference-over-tilt", "Difference of two groups of runs over tilt", values,
+       "two groups of runs, no more and no fewer", differences_over_tilt},
+      {"difference-before-failure", "Difference of two groups of runs over the angle left to failure", values,
+       "two groups of runs that have failed, no more and no fewer", differences_before_failure},
   };
   return recipes;
 }

@@ -24,6 +24,7 @@ struct Column {
 struct Table {
   std::string name;
   std::vector<Column> columns;
+  bool in_blocks = false;  ///< an empty line wherever the first column changes: gnuplot begins another curve
 };
 
 /// A map that the renderer draws to FIGURE-NAME.png, for the script to place.
@@ -44,6 +45,7 @@ struct Figure {
   bool wide = false;              ///< made for two columns (17.8 cm) rather than one (8.6 cm)
   double height_over_width = 0.75;
   std::vector<Table> tables;
+  std::size_t groups = 0;  ///< groups of runs that have a table
   std::vector<FigureMap> maps;
   /// What the script has to know beside the tables: gnuplot names and values ("gamma_c", "0.23"; texts in
   /// double quotes).

@@ -119,24 +119,33 @@ std::optional<Figure> force_chains(std::span<const RunGroup> groups) {
 }
 
 std::optional<Figure> critical_contacts_figure(std::span<const RunGroup> groups) {
-  const auto failed = first_failed_group(groups);
-  if (!failed) return std::nullopt;
-  const FigureRun& run = failed->first();
-  const Frame frame = run.file->frame(repose_frame(run));
+  if (std::ranges::all_of(groups, [](const RunGroup& group) { return failed_runs(group).empty(); }))
+    return std::nullopt;
   Figure figure;
   figure.name = "critical-contacts";
   figure.title = "Contacts with fully mobilised friction";
-  figure.caption = fmt::format(
-      "Critical contacts, whose friction is fully mobilised. (a) Black: critical contacts, gray: the others; "
-      "{}. (b) Their share of the contacts, (c) contacts in their largest cluster, joined where they share a "
-      "free grain, (d) correlation length of their clusters, over the tilt theta, up to theta_c. ",
-      frame_text(*failed, frame));
-  figure.caption.append(means_caption);
-  for (const RunGroup& group : groups)
-    add_group_table(figure, group, all_runs(group), means_over_runs(all_runs(group), critical_columns()));
+  for (const RunGroup& group : groups) add_group_curves(figure, group, all_runs(group), critical_columns());
   set_more_keys(figure, 0);
-  figure.height_over_width =
-      add_contact_map(figure, {frame, run.file->header().statics}) + curves_height / figure_width;
+  figure.wide = true;
+  const auto mapped = first_failed_group(groups);
+  const std::string letters = mapped ? "bcd" : "abc";
+  set_variable(figure, "letters", gnuplot_string(letters));
+  figure.caption = "Critical contacts, whose friction is fully mobilised.";
+  if (mapped) {
+    const FigureRun& run = mapped->first();
+    const Frame frame = run.file->frame(repose_frame(run));
+    figure.caption +=
+        fmt::format(" (a) Black: critical contacts, gray: the others; {}.", frame_text(*mapped, frame));
+    figure.height_over_width =
+        add_contact_map(figure, {frame, run.file->header().statics}) + curves_height / figure_width;
+  } else {
+    figure.height_over_width = (curves_height - 0.6) / figure_width;
+    set_variable(figure, "map_height", 0.0);
+  }
+  figure.caption += fmt::format(
+      " ({}) Their share of the contacts, ({}) contacts in their largest cluster, joined where they share a "
+      "free grain, ({}) correlation length of their clusters, over the tilt theta, up to theta_c. {}",
+      letters[0], letters[1], letters[2], means_caption);
   return figure;
 }
 

@@ -62,10 +62,10 @@ std::optional<Figure> gamma_density_figure(std::span<const RunGroup> groups) {
     if (!group.periodic() || runs.empty()) continue;
     if (figure.tables.empty()) figure.caption.append(" ").append(reading_caption(*runs.front()));
     add_group_table(figure, group, runs, density_columns(runs));
-    set_variable(figure, fmt::format("gamma_c_{}", figure.tables.size()), mean_gamma_c(runs));
+    set_variable(figure, fmt::format("gamma_c_{}", figure.groups), mean_gamma_c(runs));
   }
   if (figure.tables.empty()) return std::nullopt;
-  figure.height_over_width = 0.7 * static_cast<double>(figure.tables.size());
+  figure.height_over_width = 0.7 * static_cast<double>(figure.groups);
   set_key(figure, std::size(angles), 8);
   return figure;
 }

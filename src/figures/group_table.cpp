@@ -13,6 +13,7 @@ namespace talus {
 namespace {
 
 constexpr std::size_t symbols_of_a_curve = 16;
+constexpr std::size_t keys_of_spread = 3;  ///< two bands, and the runs
 
 template <typename Condition>
 RunChoice choose(const RunGroup& group, const Condition& condition) {
@@ -22,22 +23,11 @@ RunChoice choose(const RunGroup& group, const Condition& condition) {
   return choice;
 }
 
-/// "pbc-l-200-d-deposition.friction-0.15" of "PBC, L = 200 D, deposition.friction = 0.15".
-std::string file_part(std::string_view label) {
-  std::string part;
-  for (const char c : label) {
-    const bool kept = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '.' || c == '_';
-    if (kept) part += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    if (!kept && !part.empty() && part.back() != '-') part += '-';
-  }
-  return part;
-}
-
-/// Of the tables whose first column is one, deg.
+/// Of the tables whose first column is one, or the angle that is left, deg.
 double largest_tilt(const Figure& figure) {
   double largest = 0.0;
   for (const Table& table : figure.tables)
-    if (const Column& first = table.columns.front(); first.name == "theta")
+    if (const Column& first = table.columns.front(); first.name == "theta" || first.name == "angle_left")
       for (const double tilt : first.values) largest = std::max(largest, tilt);
   return largest;
 }
@@ -114,21 +104,46 @@ std::string gnuplot_string(std::string_view text) { return fmt::format("\"{}\"",
 
 std::string runs_text(std::size_t count) { return fmt::format("{} run{}", count, count == 1 ? "" : "s"); }
 
+// "pbc-l-200-d-deposition.friction-0.15" of "PBC, L = 200 D, deposition.friction = 0.15".
+std::string table_name(const RunGroup& group) {
+  std::string part;
+  for (const char c : group.label) {
+    const bool kept = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '.' || c == '_';
+    if (kept) part += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    if (!kept && !part.empty() && part.back() != '-') part += '-';
+  }
+  return part;
+}
+
 void add_group_table(Figure& figure, const RunGroup& group, const RunChoice& runs,
                      std::vector<Column> columns) {
   const std::size_t rows = columns.front().values.size();
-  figure.tables.push_back({file_part(group.label), std::move(columns)});
+  figure.tables.push_back({table_name(group), std::move(columns)});
   for (const FigureRun* run : runs) figure.runs.push_back(run->path);
-  const std::size_t groups = figure.tables.size();
-  const std::string g = std::to_string(groups);
-  set_variable(figure, "groups", static_cast<double>(groups));
+  const std::string g = std::to_string(++figure.groups);
+  set_variable(figure, "groups", static_cast<double>(figure.groups));
   set_variable(figure, "data_" + g, gnuplot_string(file_of(figure, figure.tables.back())));
   set_variable(figure, "label_" + g,
                gnuplot_quoted(fmt::format("{} ({})", group.label, runs_text(runs.size()))));
   set_variable(figure, "every_" + g,
                static_cast<double>(std::max<std::size_t>(1, rows / symbols_of_a_curve)));
   set_variable(figure, "theta_max", largest_tilt(figure));
-  set_key(figure, groups + 1, longest_label(figure));
+  set_key(figure, figure.groups + 1, longest_label(figure));
+}
+
+void add_group_curves(Figure& figure, const RunGroup& group, const RunChoice& runs,
+                      std::span<const FrameColumn> columns, Abscissa abscissa) {
+  add_group_table(figure, group, runs, means_over_runs(runs, columns, abscissa));
+  if (runs.size() > 1) {
+    set_variable(figure, "spread", 1.0);
+    figure.tables.push_back(
+        {fmt::format("{}-runs", table_name(group)), runs_one_by_one(runs, columns, abscissa), true});
+    set_variable(figure, fmt::format("drawn_{}", figure.groups),
+                 static_cast<double>(std::min(runs.size(), most_runs_drawn)));
+    set_variable(figure, fmt::format("runs_{}", figure.groups),
+                 gnuplot_string(file_of(figure, figure.tables.back())));
+  }
+  set_more_keys(figure, 1);
 }
 
 void set_key(Figure& figure, std::size_t entries, std::size_t longest) {
@@ -137,7 +152,10 @@ void set_key(Figure& figure, std::size_t entries, std::size_t longest) {
 }
 
 void set_more_keys(Figure& figure, std::size_t more) {
-  set_key(figure, figure.tables.size() + more, longest_label(figure));
+  const bool spread =
+      std::ranges::find(figure.variables, "spread", &std::pair<std::string, std::string>::first) !=
+      figure.variables.end();
+  set_key(figure, figure.groups + more + (spread ? keys_of_spread : 0), longest_label(figure));
 }
 
 }  // namespace talus

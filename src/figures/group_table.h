@@ -9,6 +9,7 @@
 
 #include "figures/figure.h"
 #include "figures/run_group.h"
+#include "figures/run_means.h"
 
 namespace talus {
 
@@ -33,15 +34,25 @@ FramesAtAngle frames_at_angle(const RunChoice& runs, double tilt);
 /// How the analysis of a run reads gamma, as a sentence for captions: of which neighbourhood of a grain.
 std::string reading_caption(const FigureRun& run);
 
+/// The name of the table of a group: its label as a part of a file name.
+std::string table_name(const RunGroup& group);
+
 /// Adds the table of a group, called after its label, before any other table. The script knows its file as
 /// data_g, with label_g for the key and every_g, rows from one symbol to the next; `groups` is their number,
-/// and theta_max the largest tilt (deg) of their columns "theta". The key has room for the labels and one
-/// entry more.
+/// and theta_max the largest angle (deg) of their columns "theta" or "angle_left". The key has room for the
+/// labels and one entry more.
 void add_group_table(Figure& figure, const RunGroup& group, const RunChoice& runs,
                      std::vector<Column> columns);
 
-/// The key above the panels (style.gp) has the labels of the groups and `more` short entries; or, in place of
-/// these, `entries` of up to `longest` letters.
+/// Adds the means of these columns over the runs of a group, over an angle, as add_group_table does; and,
+/// where there are several runs, the runs themselves, drawn_g in number, in a table that the script knows as
+/// runs_g. `spread` is
+/// 1 where any group has them: then the key has to say what bands and thin lines are.
+void add_group_curves(Figure& figure, const RunGroup& group, const RunChoice& runs,
+                      std::span<const FrameColumn> columns, Abscissa abscissa = Abscissa::tilt);
+
+/// The key above the panels (style.gp) has the labels of the groups, what `spread` adds, and `more` short
+/// entries; or, in place of these, `entries` of up to `longest` letters.
 void set_more_keys(Figure& figure, std::size_t more);
 void set_key(Figure& figure, std::size_t entries, std::size_t longest);
 

@@ -52,7 +52,7 @@ void add_periodic_groups(Figure& figure, std::span<const RunGroup> groups, const
     }
     set_variable(figure, "thresholds", static_cast<double>(factors.size()));
     if (figure.tables.empty()) figure.caption.append(" ").append(reading_caption(*runs.front()));
-    add_group_table(figure, group, runs, means_over_runs(runs, all));
+    add_group_curves(figure, group, runs, all);
   }
 }
 

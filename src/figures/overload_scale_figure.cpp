@@ -94,7 +94,7 @@ std::optional<Figure> overload_scale_figure(std::span<const RunGroup> groups) {
     add_group_table(figure, group, runs, scale_columns(runs));
   }
   if (figure.tables.empty()) return std::nullopt;
-  figure.height_over_width = 0.7 * static_cast<double>(figure.tables.size());
+  figure.height_over_width = 0.7 * static_cast<double>(figure.groups);
   set_key(figure, std::size(angles) + 1, 16);
   return figure;
 }

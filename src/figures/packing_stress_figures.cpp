@@ -12,7 +12,7 @@ std::optional<Figure> over_tilt(Figure figure, std::span<const RunGroup> groups,
   for (const RunGroup& group : groups) {
     const RunChoice runs = all_runs(group);
     const FrameColumn column = column_of("ratio", quantity);
-    add_group_table(figure, group, runs, means_over_runs(runs, {&column, 1}));
+    add_group_curves(figure, group, runs, {&column, 1});
   }
   figure.caption.append(" ").append(means_caption);
   return figure;

@@ -5,6 +5,7 @@
 
 #include "core/statistics.h"
 #include "core/trigonometry.h"
+#include "ensemble/averages.h"
 
 namespace talus {
 namespace {
@@ -17,6 +18,49 @@ std::vector<double> tilts_to_failure(const FigureRun& run) {
   const double theta_c = theta_c_of(run);
   std::erase_if(tilts, [&](double tilt) { return tilt > theta_c; });
   return tilts;
+}
+
+/// What the columns of frames are in one run, up to theta_c.
+struct RunCurve {
+  std::vector<double> angles;               ///< rad, ascending
+  std::vector<std::vector<double>> values;  ///< of each column, at each angle
+};
+
+RunCurve curve_over_tilt(const FigureRun& run, std::span<const FrameColumn> columns) {
+  RunCurve curve{tilts_to_failure(run), {}};
+  for (const FrameColumn& column : columns) {
+    std::vector<double>& values = curve.values.emplace_back();
+    for (std::size_t frame = 0; frame < curve.angles.size(); ++frame)
+      values.push_back(column.value(run, frame));
+  }
+  return curve;
+}
+
+/// At multiples of the spacing of frames below theta_c, between two frames.
+RunCurve curve_before_failure(const FigureRun& run, std::span<const FrameColumn> columns) {
+  const RunCurve over_tilt = curve_over_tilt(run, columns);
+  const double theta_c = run.analysis.theta_c, spacing = radians(run.scenario.output.frame_every);
+  RunCurve curve{{}, std::vector<std::vector<double>>(columns.size())};
+  if (std::isnan(theta_c) || over_tilt.angles.empty()) return curve;
+  for (int k = 0; theta_c - k * spacing > over_tilt.angles.front() - same_tilt; ++k) {
+    std::vector<double> row;
+    for (const std::vector<double>& values : over_tilt.values)
+      row.push_back(interpolated(over_tilt.angles, values, theta_c - k * spacing));
+    if (std::ranges::all_of(row, [](double value) { return std::isnan(value); })) continue;
+    curve.angles.push_back(k * spacing);
+    for (std::size_t c = 0; c < row.size(); ++c) curve.values[c].push_back(row[c]);
+  }
+  return curve;
+}
+
+RunCurve curve_of(const FigureRun& run, std::span<const FrameColumn> columns, Abscissa abscissa) {
+  return abscissa == Abscissa::tilt ? curve_over_tilt(run, columns) : curve_before_failure(run, columns);
+}
+
+void name_angle(Column& angle, Abscissa abscissa) {
+  if (abscissa == Abscissa::tilt) return;
+  angle.name = "angle_left";
+  angle.meaning = "theta_c - theta, theta_c that of each run";
 }
 
 }  // namespace
@@ -88,18 +132,40 @@ FrameColumn column_of(const std::string& name, const Quantity& quantity, std::si
 }
 
 std::vector<Column> means_over_runs(std::span<const FigureRun* const> runs,
-                                    std::span<const FrameColumn> columns_of_frames) {
-  std::vector<std::vector<double>> tilts;
-  for (const FigureRun* run : runs) tilts.push_back(tilts_to_failure(*run));
-  const CommonTilts common = common_tilts(tilts);
+                                    std::span<const FrameColumn> columns_of_frames, Abscissa abscissa) {
+  std::vector<RunCurve> curves;
+  std::vector<std::vector<double>> angles;
+  for (const FigureRun* run : runs) {
+    curves.push_back(curve_of(*run, columns_of_frames, abscissa));
+    angles.push_back(curves.back().angles);
+  }
+  const CommonTilts common = common_tilts(angles);
   std::vector<Column> columns = tilt_columns(common);
-  for (const FrameColumn& column : columns_of_frames) {
-    std::vector<std::vector<double>> rows(runs.size());
-    for (std::size_t r = 0; r < runs.size(); ++r)
-      for (std::size_t frame = 0; frame < tilts[r].size(); ++frame)
-        rows[r].push_back(column.value(*runs[r], frame));
-    for (Column& mean : mean_columns(common, rows, {column.name, column.unit, column.meaning, {}}))
+  name_angle(columns[0], abscissa);
+  for (std::size_t c = 0; c < columns_of_frames.size(); ++c) {
+    std::vector<std::vector<double>> rows;
+    for (const RunCurve& curve : curves) rows.push_back(curve.values[c]);
+    const auto& [name, unit, meaning, value] = columns_of_frames[c];
+    for (Column& mean : mean_columns(common, rows, {name, unit, meaning, {}}))
       columns.push_back(std::move(mean));
+  }
+  return columns;
+}
+
+std::vector<Column> runs_one_by_one(std::span<const FigureRun* const> runs,
+                                    std::span<const FrameColumn> columns_of_frames, Abscissa abscissa) {
+  std::vector<Column> columns = {{"seed", "1", "seed of the run", {}}, {"theta", "deg", "tilt", {}}};
+  name_angle(columns[1], abscissa);
+  for (const FrameColumn& column : columns_of_frames)
+    columns.push_back({column.name, column.unit, column.meaning, {}});
+  for (const FigureRun* run : runs.first(std::min(runs.size(), most_runs_drawn))) {
+    const RunCurve curve = curve_of(*run, columns_of_frames, abscissa);
+    for (std::size_t k = 0; k < curve.angles.size(); ++k) {
+      columns[0].values.push_back(static_cast<double>(run->scenario.seed));
+      columns[1].values.push_back(degrees(curve.angles[k]));
+      for (std::size_t c = 0; c < curve.values.size(); ++c)
+        columns[c + 2].values.push_back(curve.values[c][k]);
+    }
   }
   return columns;
 }

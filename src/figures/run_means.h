@@ -40,8 +40,9 @@ std::vector<Column> mean_columns(const CommonTilts& common, std::span<const std:
 
 /// What captions say of such means.
 inline constexpr const char* means_caption =
-    "Means over the runs of each group at the same tilt, while at least half of them have not failed; error "
-    "bars are standard errors over the runs, and bands their standard deviation; a single run has neither.";
+    "Means over the runs of each group at the same tilt, while at least half of them have not failed. The "
+    "dark band is the standard error of the mean, the light one the standard deviation of the runs; thin "
+    "lines are the runs themselves, the first 100 of them. A single run has none of these.";
 
 /// theta_c of a run, rad; NaN where the slope has not failed.
 double theta_c_of(const FigureRun& run);
@@ -60,8 +61,22 @@ struct FrameColumn {
 /// A quantity of frames, in the unit of tables; at threshold f where it depends on one.
 FrameColumn column_of(const std::string& name, const Quantity& quantity, std::size_t f = 0);
 
-/// theta, n, and the mean and error of each column, over the frames of the runs up to the theta_c of each.
+/// What curves are drawn over: the tilt, or the angle that is left to the theta_c of each run, at multiples
+/// of output.frame_every, between two frames.
+enum class Abscissa { tilt, angle_left };
+
+/// The angle (theta or angle_left), n, and the mean, error and deviation of each column, over the frames of
+/// the runs up to the theta_c of each.
 std::vector<Column> means_over_runs(std::span<const FigureRun* const> runs,
-                                    std::span<const FrameColumn> columns_of_frames);
+                                    std::span<const FrameColumn> columns_of_frames,
+                                    Abscissa abscissa = Abscissa::tilt);
+
+/// The runs that are drawn one by one behind their mean are no more than this.
+inline constexpr std::size_t most_runs_drawn = 100;
+
+/// seed, the angle and each column, run by run, of the first most_runs_drawn.
+std::vector<Column> runs_one_by_one(std::span<const FigureRun* const> runs,
+                                    std::span<const FrameColumn> columns_of_frames,
+                                    Abscissa abscissa = Abscissa::tilt);
 
 }  // namespace talus

@@ -69,27 +69,33 @@ Table theta_d_table(const std::string& name, const RunChoice& runs,
   return {name, {std::move(estimator), std::move(n), std::move(mean), std::move(error)}};
 }
 
-/// Adds the strains of all periodic groups; returns the runs of each.
-std::vector<RunChoice> add_strains(Figure& figure, std::span<const RunGroup> groups) {
+/// The runs of a periodic group.
+struct PeriodicRuns {
+  std::string name;  ///< of its table
+  RunChoice runs;
+};
+
+/// Adds the strains of all periodic groups.
+std::vector<PeriodicRuns> add_strains(Figure& figure, std::span<const RunGroup> groups) {
   const std::vector<FrameColumn> strains = {
       column_of("volume_strain", quantity_of(&FrameRecord::volume_strain)),
       column_of("centre_of_mass_strain", quantity_of(&FrameRecord::centre_of_mass_strain))};
-  std::vector<RunChoice> chosen;
+  std::vector<PeriodicRuns> chosen;
   for (const RunGroup& group : groups) {
     if (!group.periodic()) continue;
-    chosen.push_back(all_runs(group));
-    add_group_table(figure, group, chosen.back(), means_over_runs(chosen.back(), strains));
+    chosen.push_back({table_name(group), all_runs(group)});
+    add_group_curves(figure, group, chosen.back().runs, strains);
   }
   set_more_keys(figure, 0);
   return chosen;
 }
 
 /// A run with thresholds, if there is one: it has all estimators.
-const FigureRun& most_analysed(const std::vector<RunChoice>& chosen) {
-  for (const RunChoice& runs : chosen)
-    for (const FigureRun* run : runs)
+const FigureRun& most_analysed(const std::vector<PeriodicRuns>& chosen) {
+  for (const PeriodicRuns& group : chosen)
+    for (const FigureRun* run : group.runs)
       if (!run->analysis.thresholds.empty()) return *run;
-  return *chosen.front().front();
+  return *chosen.front().runs.front();
 }
 
 }  // namespace
@@ -106,15 +112,14 @@ std::optional<Figure> volume_strain_figure(std::span<const RunGroup> groups) {
       "surface, for each threshold, and onset of dilation by either strain; dashed: the paper's 15 deg.";
   figure.caption.append(" ").append(means_caption);
   figure.height_over_width = 1.35;
-  const std::vector<RunChoice> chosen = add_strains(figure, groups);
+  const std::vector<PeriodicRuns> chosen = add_strains(figure, groups);
   if (chosen.empty()) return std::nullopt;
   const std::vector<Estimator> estimators = estimators_of(most_analysed(chosen));
   set_variable(figure, "estimators", static_cast<double>(estimators.size()));
   for (std::size_t e = 0; e < estimators.size(); ++e)
     set_variable(figure, fmt::format("estimator_{}", e + 1), gnuplot_string(estimators[e].label));
   for (std::size_t g = 0; g < chosen.size(); ++g) {
-    const std::string name = "theta_d-" + figure.tables[g].name;
-    figure.tables.push_back(theta_d_table(name, chosen[g], estimators));
+    figure.tables.push_back(theta_d_table("theta_d-" + chosen[g].name, chosen[g].runs, estimators));
     set_variable(figure, fmt::format("theta_d_{}", g + 1),
                  gnuplot_string(file_of(figure, figure.tables.back())));
   }

@@ -8,9 +8,11 @@
 #include "analysis/coarse_graining.h"
 #include "ensemble/wall_fit.h"
 #include "figures/catalogue.h"
+#include "figures/force_chains.h"
 #include "figures/group_table.h"
 #include "figures/overload_figures.h"
 #include "figures/packing_stress_figures.h"
+#include "figures/quantity_figures.h"
 #include "figures/run_means.h"
 #include "figures/volume_strain_figure.h"
 #include "figures/wall_figures.h"
@@ -24,6 +26,13 @@ const std::vector<double>& column(const Table& table, const std::string& name) {
   for (const Column& each : table.columns)
     if (each.name == name) return each.values;
   throw std::out_of_range(name);
+}
+
+/// The table of a figure whose name begins so.
+const Table& table_called(const Figure& figure, const std::string& beginning) {
+  for (const Table& table : figure.tables)
+    if (table.name.starts_with(beginning)) return table;
+  throw std::out_of_range(beginning);
 }
 
 std::string variable(const Figure& figure, const std::string& name) {
@@ -65,7 +74,7 @@ TEST_F(Curves, OfThePackingAreMeansOverAllRuns) {
   fill(&FrameRecord::stress_ratio, 0.1, 0.01);
   const auto figure = stress_ratio_figure(groups_);
   ASSERT_TRUE(figure);
-  ASSERT_EQ(figure->tables.size(), 1u);
+  ASSERT_EQ(figure->tables.size(), 2u);
   EXPECT_EQ(figure->tables[0].name, "pbc-a_b");
   EXPECT_EQ(figure->runs.size(), 3u);
   EXPECT_EQ(column(figure->tables[0], "n"), (std::vector<double>{3.0, 3.0, 3.0}));
@@ -94,6 +103,105 @@ TEST_F(Curves, EndAtTheFailureOfEachRun) {
   EXPECT_EQ(column(figure->tables[0], "n"), (std::vector<double>{3.0, 3.0, 2.0}));
 }
 
+TEST_F(Curves, HaveTheRunsOneByOneBehindThem) {
+  fill(&FrameRecord::stress_ratio, 0.1, 0.01);
+  const std::vector<double> tilts = groups_[0].runs[0].file->frame_tilts();
+  groups_[0].runs[0].analysis.theta_c = 0.5 * (tilts[1] + tilts[2]);
+  const auto figure = stress_ratio_figure(groups_);
+  const Table& runs = table_called(*figure, "pbc-a_b-runs");
+  EXPECT_TRUE(runs.in_blocks);
+  EXPECT_EQ(column(runs, "seed"), (std::vector<double>{1, 1, 2, 2, 2, 3, 3, 3})) << "each up to its failure";
+  EXPECT_NEAR(column(runs, "theta")[4], degrees(tilts[2]), 1e-12);
+  EXPECT_NEAR(column(runs, "ratio")[4], 0.22, 1e-15);
+  EXPECT_EQ(variable(*figure, "runs_1"), "\"fig05-stress-ratio-pbc-a_b-runs.csv\"");
+  EXPECT_EQ(variable(*figure, "drawn_1"), "3");
+  EXPECT_EQ(variable(*figure, "spread"), "1");
+  EXPECT_EQ(variable(*figure, "key_entries"), "5") << "the group, the line, the runs and two bands";
+  groups_[0].runs.resize(1);
+  const auto single = stress_ratio_figure(groups_);
+  EXPECT_EQ(single->tables.size(), 1u);
+  EXPECT_EQ(variable(*single, "spread"), "not there");
+  EXPECT_EQ(variable(*single, "key_entries"), "2");
+}
+
+TEST_F(Curves, OverTheAngleThatIsLeftAreAtTheSameDistanceFromEachFailure) {
+  fill(&FrameRecord::stress_ratio, 0.0, 0.01);  // of all runs 0, 0.01 and 0.02 in the three frames
+  for (FigureRun& run : groups_[0].runs) {
+    run.scenario.output.frame_every = 0.5;
+    for (std::size_t k = 0; k < 3; ++k) run.analysis.frames[k].tilt = radians(static_cast<double>(k));
+  }
+  groups_[0].runs[0].analysis.theta_c = radians(2.25);
+  groups_[0].runs[1].analysis.theta_c = radians(2.0);
+  const auto figure = quantities_before_failure(groups_);
+  ASSERT_TRUE(figure);
+  const Table& table = figure->tables[0];
+  EXPECT_EQ(figure->runs.size(), 2u) << "those that have failed";
+  const std::vector<double>& left = column(table, "angle_left");
+  ASSERT_EQ(left.size(), 5u);
+  EXPECT_NEAR(left[1], 0.5, 1e-9);
+  EXPECT_EQ(column(table, "n")[0], 1.0) << "at the failure of the second a frame stands";
+  EXPECT_EQ(column(table, "n")[1], 2.0);
+  EXPECT_NEAR(column(table, "packing/stress_ratio")[0], 0.02, 1e-9);
+  EXPECT_NEAR(column(table, "packing/stress_ratio")[1], 0.5 * (0.0175 + 0.015), 1e-9);
+  EXPECT_NEAR(column(table, "packing/stress_ratio_deviation")[1], 0.0025 / std::sqrt(2.0), 1e-9);
+}
+
+TEST_F(Curves, OfAllQuantitiesAreThoseWithATitleAndAValue) {
+  fill(&FrameRecord::stress_ratio, 0.1, 0.01);
+  fill(&FrameThreshold::lc_mean, 0.02, 0.0);
+  const auto figure = quantities_over_tilt(groups_);
+  ASSERT_TRUE(figure);
+  EXPECT_EQ(variable(*figure, "panels"), "2");
+  EXPECT_EQ(variable(*figure, "quantity_1"), "\"packing/stress_ratio\"");
+  EXPECT_EQ(variable(*figure, "quantity_2"), "\"lc/mean\"");
+  EXPECT_EQ(variable(*figure, "title_2"), "\"Mean ℓ_c of the overloaded grains in D\"");
+  EXPECT_EQ(variable(*figure, "rows"), "1");
+  EXPECT_NEAR(column(figure->tables[0], "lc/mean")[0], 0.03 / groups_[0].runs[0].mean_diameter, 1e-9);
+}
+
+TEST_F(Curves, DifferencesAreOfTwoGroupsWithBothErrors) {
+  fill(&FrameRecord::stress_ratio, 0.1, 0.01);
+  EXPECT_FALSE(differences_over_tilt(groups_)) << "one group";
+  groups_.resize(2);
+  groups_[1].label = "other";
+  for (const std::uint64_t seed : {1, 2}) groups_[1].runs.push_back(example::figure_run(path_, seed, 80.0));
+  for (FigureRun& run : groups_[1].runs) {
+    for (std::size_t k = 0; k < 3; ++k)
+      run.analysis.frames[k].stress_ratio = 1.0 + 0.3 * static_cast<double>(run.scenario.seed);
+    run.analysis.frames[1].tilt += radians(0.1);  // and another grid of tilts
+  }
+  const auto figure = differences_over_tilt(groups_);
+  ASSERT_TRUE(figure);
+  EXPECT_EQ(figure->runs.size(), 5u);
+  const Table& table = figure->tables[0];
+  ASSERT_EQ(column(table, "theta").size(), 2u) << "at tilts that both have";
+  EXPECT_NEAR(column(table, "packing/stress_ratio")[0], 1.45 - 0.2, 1e-12) << "the second less the first";
+  EXPECT_NEAR(column(table, "packing/stress_ratio")[1], 1.45 - 0.22, 1e-12);
+  EXPECT_NEAR(column(table, "packing/stress_ratio_error")[0], std::hypot(0.15, 0.1 / std::sqrt(3.0)), 1e-12);
+  EXPECT_EQ(variable(*figure, "label"), "'other − PBC, a\\_b'");
+  EXPECT_EQ(variable(*figure, "panels"), "1");
+  EXPECT_TRUE(differences_before_failure(groups_));
+  groups_.push_back({"third", {}});
+  groups_[2].runs.push_back(example::figure_run(path_, 1, 80.0));
+  EXPECT_FALSE(differences_over_tilt(groups_)) << "three groups";
+}
+
+TEST_F(Curves, OfCriticalContactsNeedNoMap) {
+  const auto mapped = critical_contacts_figure(groups_);
+  ASSERT_TRUE(mapped);
+  EXPECT_EQ(variable(*mapped, "letters"), "\"bcd\"");
+  for (FigureRun& run : groups_[0].runs) run.file.reset();
+  const auto values = critical_contacts_figure(groups_);
+  ASSERT_TRUE(values);
+  EXPECT_EQ(variable(*values, "letters"), "\"abc\"");
+  EXPECT_EQ(variable(*values, "map_height"), "0");
+  EXPECT_LT(values->height_over_width, mapped->height_over_width);
+  for (const FigureRecipe& recipe : figure_catalogue())
+    if (recipe.material == Material::frames) {
+      EXPECT_FALSE(recipe.make(groups_)) << recipe.name << " has no file to be made from";
+    }
+}
+
 TEST_F(Curves, OfOverloadedGrainsNeedAThreshold) {
   fill(&FrameThreshold::overloaded_fraction, 0.2, 0.05);  // elements: frame, threshold
   const auto figure = overloaded_fraction_figure(groups_);
@@ -102,7 +210,8 @@ TEST_F(Curves, OfOverloadedGrainsNeedAThreshold) {
   EXPECT_EQ(variable(*figure, "thresholds"), "2");
   EXPECT_NEAR(column(figure->tables[0], "p_o_1")[1], 0.4, 1e-15) << "mean of 0.3 and 0.5";
   EXPECT_NEAR(column(figure->tables[0], "p_o_2")[1], 0.45, 1e-15);
-  EXPECT_EQ(column(figure->tables[1], "p_o"), (std::vector<double>{0.30, 0.45, 0.60})) << "the paper";
+  EXPECT_EQ(column(table_called(*figure, "paper"), "p_o"), (std::vector<double>{0.30, 0.45, 0.60}))
+      << "the paper";
   groups_[0].runs.erase(groups_[0].runs.begin(), groups_[0].runs.begin() + 2);
   EXPECT_FALSE(overloaded_fraction_figure(groups_));
   EXPECT_FALSE(length_figure(groups_));
@@ -164,8 +273,8 @@ TEST_F(Curves, OfTheVolumeHaveThetaDByEachEstimator) {
   fill(&RunThreshold::lc_jump, radians(10.0), radians(1.0));
   fill(&Analysis::dilation, radians(5.0), 0.0);
   const auto figure = volume_strain_figure(groups_);
-  ASSERT_EQ(figure->tables.size(), 2u);
-  const Table& table = figure->tables[1];
+  ASSERT_EQ(figure->tables.size(), 3u);
+  const Table& table = table_called(*figure, "theta_d-");
   EXPECT_EQ(table.name, "theta_d-pbc-a_b");
   EXPECT_EQ(column(table, "n"), (std::vector<double>{3.0, 3.0, 0.0, 0.0, 2.0, 2.0}));
   EXPECT_NEAR(column(table, "theta_d")[0], 10.0, 1e-12) << "dilation, mean of 5, 10, 15";
@@ -178,7 +287,8 @@ TEST_F(Curves, OfTheVolumeHaveThetaDByEachEstimator) {
 TEST_F(Curves, AreCalledAsInTheCatalogue) {
   for (const std::string_view name :
        {"fig04-shear-stress", "fig05-stress-ratio", "fig08-stress-ratio-density", "fig09-overloaded-fraction",
-        "fig12-coarse-graining-length", "fig14-volume-strain", "overloaded-over-scale"}) {
+        "fig12-coarse-graining-length", "fig14-volume-strain", "overloaded-over-scale", "over-tilt",
+        "before-failure"}) {
     const auto recipe = std::ranges::find(figure_catalogue(), name, &FigureRecipe::name);
     ASSERT_NE(recipe, figure_catalogue().end()) << name;
     const auto figure = recipe->make(groups_);

@@ -28,6 +28,11 @@ TEST(CsvText, HasNamesThenAllDigits) {
   EXPECT_EQ(csv_text(example_figure().tables[1]), "theta\n");
 }
 
+TEST(CsvText, HasAnEmptyLineBetweenBlocks) {
+  const Table table = {"", {{"seed", "1", "", {1, 1, 2, 3}}, {"x", "1", "", {5, 6, 7, 8}}}, true};
+  EXPECT_EQ(csv_text(table), "seed,x\n1,5\n1,6\n\n2,7\n\n3,8\n");
+}
+
 TEST(GnuplotText, HasVariablesThenStyleThenScript) {
   const std::string text = gnuplot_text(example_figure(), 8.6);
   const auto at = [&text](const std::string& part) {

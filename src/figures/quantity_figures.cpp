@@ -1,0 +1,181 @@
+#include "figures/quantity_figures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/core.h>
+
+#include "analysis/quantities.h"
+#include "figures/group_table.h"
+#include "figures/run_means.h"
+
+namespace talus {
+namespace {
+
+constexpr double same_angle = 1e-4;  // deg, far below the spacing of frames
+constexpr double row_height = 4.2 / 17.8;
+constexpr std::size_t panels_in_row = 3;
+
+/// The quantities that are shown, as columns in the unit of curves.
+std::vector<FrameColumn> shown_columns() {
+  std::vector<FrameColumn> columns;
+  for (const Quantity& quantity : quantities()) {
+    if (!is_number_of_frame(quantity) || quantity.display.title.empty()) continue;
+    columns.push_back({quantity.name, quantity.display.percent ? "%" : scaled_unit(quantity),
+                       quantity.definition, [quantity](const FigureRun& run, std::size_t frame) {
+                         return shown(quantity, number_of(quantity, run.analysis.frames.at(frame)),
+                                      run.mean_diameter);
+                       }});
+  }
+  return columns;
+}
+
+std::string title_of(const std::string& name) {
+  return shown_title(*std::ranges::find(quantities(), name, &Quantity::name));
+}
+
+const std::vector<double>* find_values(const std::vector<Column>& columns, const std::string& name) {
+  const auto found = std::ranges::find(columns, name, &Column::name);
+  return found == columns.end() ? nullptr : &found->values;
+}
+
+/// A panel for each quantity that has a value in some table.
+void set_panels(Figure& figure) {
+  std::size_t panels = 0;
+  for (const FrameColumn& column : shown_columns()) {
+    const bool is_known = std::ranges::any_of(figure.tables, [&](const Table& table) {
+      const std::vector<double>* const values = find_values(table.columns, column.name);
+      return values != nullptr &&
+             std::ranges::any_of(*values, [](double value) { return !std::isnan(value); });
+    });
+    if (!is_known) continue;
+    const std::string k = std::to_string(++panels);
+    set_variable(figure, "quantity_" + k, gnuplot_string(column.name));
+    set_variable(figure, "title_" + k, gnuplot_string(title_of(column.name)));
+  }
+  const std::size_t rows = (panels + panels_in_row - 1) / panels_in_row;
+  set_variable(figure, "panels", static_cast<double>(panels));
+  set_variable(figure, "rows", static_cast<double>(rows));
+  figure.wide = true;
+  figure.height_over_width = row_height * static_cast<double>(rows);
+}
+
+/// Runs of a group that can be drawn over an abscissa.
+RunChoice runs_over(const RunGroup& group, Abscissa abscissa) {
+  return abscissa == Abscissa::tilt ? all_runs(group) : failed_runs(group);
+}
+
+const char* angle_text(Abscissa abscissa) {
+  return abscissa == Abscissa::tilt ? "the tilt theta" : "theta_c - theta, the angle that is left to failure";
+}
+
+std::optional<Figure> quantities_over(Figure figure, std::span<const RunGroup> groups, Abscissa abscissa) {
+  const std::vector<FrameColumn> columns = shown_columns();
+  for (const RunGroup& group : groups)
+    if (const RunChoice runs = runs_over(group, abscissa); !runs.empty())
+      add_group_curves(figure, group, runs, columns, abscissa);
+  if (figure.groups == 0) return std::nullopt;
+  set_more_keys(figure, 0);
+  set_panels(figure);
+  figure.caption = fmt::format(
+      "Quantities of the packing, of its overloaded grains and of their clusters over {}; at the "
+      "first threshold where they depend on one. {}",
+      angle_text(abscissa), means_caption);
+  return figure;
+}
+
+/// Rows of two tables at the same angle.
+std::vector<std::pair<std::size_t, std::size_t>> common_rows(const std::vector<double>& first,
+                                                             const std::vector<double>& second) {
+  std::vector<std::pair<std::size_t, std::size_t>> rows;
+  for (std::size_t a = 0, b = 0; a < first.size() && b < second.size();) {
+    if (std::abs(first[a] - second[b]) < same_angle) rows.emplace_back(a, b);
+    if (first[a] < second[b] + same_angle)
+      ++a;
+    else
+      ++b;
+  }
+  return rows;
+}
+
+/// The angle, then for each quantity its difference and the error of that.
+std::vector<Column> difference_columns(const std::vector<Column>& first, const std::vector<Column>& second) {
+  const auto rows = common_rows(first[0].values, second[0].values);
+  std::vector<Column> columns = {{first[0].name, first[0].unit, first[0].meaning, {}}};
+  for (const auto& [a, b] : rows) columns[0].values.push_back(first[0].values[a]);
+  for (const FrameColumn& column : shown_columns()) {
+    Column difference{column.name, column.unit, "mean of the second group less that of the first", {}};
+    Column error{
+        column.name + "_error", column.unit, "root of the sum of the squares of both standard errors", {}};
+    for (const auto& [a, b] : rows) {
+      const auto of = [&](const std::vector<Column>& columns_of, const std::string& name, std::size_t row) {
+        return (*find_values(columns_of, name))[row];
+      };
+      difference.values.push_back(of(second, column.name, b) - of(first, column.name, a));
+      error.values.push_back(std::hypot(of(second, error.name, b), of(first, error.name, a)));
+    }
+    columns.push_back(std::move(difference));
+    columns.push_back(std::move(error));
+  }
+  return columns;
+}
+
+std::optional<Figure> differences_over(Figure figure, std::span<const RunGroup> groups, Abscissa abscissa) {
+  if (groups.size() != 2) return std::nullopt;
+  const std::vector<FrameColumn> columns = shown_columns();
+  std::vector<std::vector<Column>> means;
+  for (const RunGroup& group : groups) {
+    const RunChoice runs = runs_over(group, abscissa);
+    if (runs.empty()) return std::nullopt;
+    means.push_back(means_over_runs(runs, columns, abscissa));
+    for (const FigureRun* run : runs) figure.runs.push_back(run->path);
+  }
+  figure.tables.push_back({"", difference_columns(means[0], means[1])});
+  if (figure.tables[0].columns[0].values.empty()) return std::nullopt;
+  const std::string label = fmt::format("{} − {}", groups[1].label, groups[0].label);
+  set_variable(figure, "label", gnuplot_quoted(label));
+  set_variable(figure, "theta_max", figure.tables[0].columns[0].values.back());
+  set_key(figure, 3, label.size());
+  set_panels(figure);
+  figure.caption = fmt::format(
+      "Difference of the means of two groups of runs over {}, {} less {}, at the angles that both have, "
+      "while at "
+      "least half of the runs of each stand; at the first threshold where they depend on one. The dark band "
+      "is "
+      "the standard error of the difference, the root of the sum of the squares of both standard errors, the "
+      "light one twice that; where a group has a single run there are none.",
+      angle_text(abscissa), groups[1].label, groups[0].label);
+  return figure;
+}
+
+/// A figure with a name and a title.
+Figure titled(const char* name, const char* title) {
+  Figure figure;
+  figure.name = name;
+  figure.title = title;
+  return figure;
+}
+
+}  // namespace
+
+std::optional<Figure> quantities_over_tilt(std::span<const RunGroup> groups) {
+  return quantities_over(titled("over-tilt", "Quantities of the analysis over tilt"), groups, Abscissa::tilt);
+}
+
+std::optional<Figure> quantities_before_failure(std::span<const RunGroup> groups) {
+  return quantities_over(
+      titled("before-failure", "Quantities of the analysis over the angle left to failure"), groups,
+      Abscissa::angle_left);
+}
+
+std::optional<Figure> differences_over_tilt(std::span<const RunGroup> groups) {
+  return differences_over(titled("difference-over-tilt", "Difference of two groups of runs over tilt"),
+                          groups, Abscissa::tilt);
+}
+
+std::optional<Figure> differences_before_failure(std::span<const RunGroup> groups) {
+  return differences_over(
+      titled("difference-before-failure", "Difference of two groups of runs over the angle left to failure"),
+      groups, Abscissa::angle_left);
+}
+
+}  // namespace talus
