@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "figures/angle_figures.h"
 #include "figures/contact_figures.h"
 #include "figures/dynamic_angle.h"
 #include "figures/force_chains.h"
@@ -54,6 +55,10 @@ std::span<const FigureRecipe> figure_catalogue() {
        correlations},
       {"dynamic-angle", "Angle at rest over theta_c and theta_d", values,
        "a run with tilt.after_failure whose flow has stopped", dynamic_angle_figure},
+      {"angle-distributions", "Distribution of theta_c, theta_d and theta_r over the runs", values,
+       "two runs or more of an ensemble that have such an angle", angle_distributions},
+      {"angle-correlations", "Correlation of theta_c, theta_d and theta_r over the runs", values,
+       "two runs or more of an ensemble that have two such angles", angle_correlations},
       {"over-tilt", "Quantities of the analysis over tilt", values, "a run", quantities_over_tilt},
       {"before-failure", "Quantities of the analysis over the angle left to failure", values,
        "a run that has failed", quantities_before_failure},

@@ -8,44 +8,10 @@
 #include "core/trigonometry.h"
 #include "figures/group_table.h"
 #include "figures/run_means.h"
-#include "scenario/text.h"
+#include "figures/theta_d_estimators.h"
 
 namespace talus {
 namespace {
-
-/// An estimator of theta_d, by which strain or threshold, and how it is called.
-struct Estimator {
-  QuantityMember member;
-  std::size_t element;
-  std::string label;    ///< for the axis, in enhanced text
-  std::string meaning;  ///< for the table
-};
-
-std::string times_gamma_c(double factor, const char* gamma_c) {
-  return (factor == 1.0 ? "" : short_text(factor) + " ") + gamma_c;
-}
-
-/// All estimators that a run has, from the bottom of the panel to its top.
-std::vector<Estimator> estimators_of(const FigureRun& run) {
-  std::vector<Estimator> estimators = {
-      {&Analysis::dilation, 1, "{/:Italic ε_y}", "onset of dilation, centre of mass"},
-      {&Analysis::dilation, 0, "{/:Italic ε_V}", "onset of dilation, free surface"}};
-  const std::vector<RunThreshold>& thresholds = run.analysis.thresholds;
-  for (std::size_t f = thresholds.size(); f-- > 0;)
-    estimators.push_back({&RunThreshold::percolation, f,
-                          "span, " + times_gamma_c(thresholds[f].factor, "Γ_c"),
-                          "percolation at " + times_gamma_c(thresholds[f].factor, "Gamma_c")});
-  for (std::size_t f = thresholds.size(); f-- > 0;)
-    estimators.push_back({&RunThreshold::lc_jump, f,
-                          "{/:Italic ℓ_c}, " + times_gamma_c(thresholds[f].factor, "Γ_c"),
-                          "jump of the largest l_c at " + times_gamma_c(thresholds[f].factor, "Gamma_c")});
-  return estimators;
-}
-
-/// deg; NaN where the run has none.
-double theta_d_of(const FigureRun& run, const Estimator& estimator) {
-  return degrees(number_of(quantity_of(estimator.member), run.analysis, estimator.element));
-}
 
 /// A row for each estimator: theta_d as a mean over the runs that have one.
 Table theta_d_table(const std::string& name, const RunChoice& runs,
@@ -90,14 +56,6 @@ std::vector<PeriodicRuns> add_strains(Figure& figure, std::span<const RunGroup> 
   return chosen;
 }
 
-/// A run with thresholds, if there is one: it has all estimators.
-const FigureRun& most_analysed(const std::vector<PeriodicRuns>& chosen) {
-  for (const PeriodicRuns& group : chosen)
-    for (const FigureRun* run : group.runs)
-      if (!run->analysis.thresholds.empty()) return *run;
-  return *chosen.front().runs.front();
-}
-
 }  // namespace
 
 std::optional<Figure> volume_strain_figure(std::span<const RunGroup> groups) {
@@ -114,7 +72,9 @@ std::optional<Figure> volume_strain_figure(std::span<const RunGroup> groups) {
   figure.height_over_width = 1.35;
   const std::vector<PeriodicRuns> chosen = add_strains(figure, groups);
   if (chosen.empty()) return std::nullopt;
-  const std::vector<Estimator> estimators = estimators_of(most_analysed(chosen));
+  RunChoice all;
+  for (const PeriodicRuns& group : chosen) all.insert(all.end(), group.runs.begin(), group.runs.end());
+  const std::vector<Estimator> estimators = estimators_of(most_analysed(all));
   set_variable(figure, "estimators", static_cast<double>(estimators.size()));
   for (std::size_t e = 0; e < estimators.size(); ++e)
     set_variable(figure, fmt::format("estimator_{}", e + 1), gnuplot_string(estimators[e].label));
