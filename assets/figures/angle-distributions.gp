@@ -1,5 +1,5 @@
 # A panel for each angle: its histogram, the mean of each group as a line, and what there is to say of it above.
-panel_top = 0.2 + 0.32 * groups
+panel_top = 0.28 + 0.32 * groups
 panel_bottom = 1.05
 panel_left = 1.5
 set tics font ",7"
@@ -15,7 +15,7 @@ do for [k = 1:panels] {
   set label 20 sprintf("(%s)", "abcdefghijkl"[k:k]) at graph 0.04, graph 0.92 left
   panel_cm = (height - key_height) / rows - panel_top - panel_bottom
   do for [g = 1:groups] {
-    set label g value(sprintf("summary_%d_%d", k, g)) at graph -0.12, graph 1 + (0.17 + 0.32 * (groups - g)) / panel_cm left font ",6" textcolor rgb ink[g]
+    set label g value(sprintf("summary_%d_%d", k, g)) at graph -0.12, graph 1 + (0.25 + 0.32 * (groups - g)) / panel_cm left font ",6" textcolor rgb ink[g]
     mean = value(sprintf("mean_%d_%d", k, g))
     unset arrow g
     if (mean == mean) { set arrow g from first mean, graph 0 to first mean, graph 1 nohead linetype g linewidth 1 front }

@@ -21,6 +21,7 @@
 #include "app/wall_time.h"
 #include "core/errors.h"
 #include "core/text.h"
+#include "ensemble/kept_runs.h"
 #include "ensemble/member_series.h"
 #include "ensemble/pool.h"
 #include "ensemble/reproduction_values.h"
@@ -41,6 +42,7 @@ struct EnsembleArguments {
   std::vector<std::string> axes;
   std::vector<std::string> settings;
   std::string until;
+  std::string keep;
   std::string max_wall;  ///< HH:MM; empty: no limit
   ClaimTimes times;
   int jobs = default_jobs();
@@ -52,8 +54,13 @@ void run_ensemble(const EnsembleArguments& arguments) {
     throw Error(ExitCode::usage,
                 "expected a scenario and a folder: talus ensemble SCENARIO --seeds 1-50 -o FOLDER");
   if (!arguments.until.empty()) parse_precision(arguments.until);
-  const EnsembleManifest wanted{"", parse_seeds(arguments.seeds), arguments.until,
-                                plan_variants(arguments.scenario, arguments.settings, arguments.axes)};
+  check_keep(arguments.keep);
+  const EnsembleManifest wanted{"",
+                                parse_seeds(arguments.seeds),
+                                arguments.until,
+                                plan_variants(arguments.scenario, arguments.settings, arguments.axes),
+                                PlainTask{},
+                                arguments.keep};
   const EnsembleView view = compute_ensemble(
       wanted, {arguments.folder, arguments.times, arguments.max_wall, arguments.jobs}, {arguments.scenario});
   std::printf("%s", (arguments.json ? ensemble_json(view) + "\n" : ensemble_text(view)).c_str());
@@ -61,7 +68,7 @@ void run_ensemble(const EnsembleArguments& arguments) {
 }
 
 /// Runs or resumes a member, analyses it, does what the task of the ensemble asks besides, and leaves its
-/// numbers beside it: the last of which makes it done.
+/// numbers beside it: the last of which makes it done. Then the run goes, unless it is to be kept.
 void compute_member(const EnsembleArguments& arguments) {
   const EnsembleManifest manifest = read_ensemble(arguments.folder);
   const EnsemblePlan plan = plan_of(manifest, arguments.folder);
@@ -98,6 +105,8 @@ void compute_member(const EnsembleArguments& arguments) {
   if (std::holds_alternative<ReadingsTask>(manifest.task)) make_readings(*member);
   const MemberNumbers numbers = member_numbers(RunFile::open(member->path), analysed.analysis);
   write_text(numbers_path(member->path), numbers_csv(numbers));
+  // From here on the member is done. A kill leaves the run, and the next worker removes it.
+  if (!keeps_run(manifest, member->seed)) drop_run(*member);
   std::printf("%s is done: state %s\n", member->name.c_str(), numbers.state_hash.c_str());
 }
 
@@ -110,6 +119,7 @@ void work(const EnsembleArguments& arguments) {
                           std::fflush(stdout);
                         }};
   if (!arguments.max_wall.empty()) options.max_wall = parse_wall_time("--max-wall", arguments.max_wall);
+  drop_old_runs(arguments.folder);
   const WorkerEnd end = work_on_ensemble(options);
   std::printf("%zu done and %zu failed here; %zu are under way elsewhere%s\n", end.done, end.failed,
               end.elsewhere, end.enough ? "; the precision that was asked for is reached" : "");
@@ -202,6 +212,9 @@ void add_ensemble_command(CLI::App& app) {
       "--until", arguments->until,
       "Begin no more members once the standard error of a mean is this small, e.g. theta_c:0.2");
   add_jobs_option(*command, arguments->jobs);
+  command->add_option("--keep", arguments->keep,
+                      "What stays of a member that is done: all (the default), analysis (its tables, and not "
+                      "its run), or the runs of so many seeds, the lowest ones, and the tables of all");
   command->add_flag("--json", arguments->json, "Print the result as JSON");
   add_time_options(*command, arguments);
   add_subcommands(*command, arguments);

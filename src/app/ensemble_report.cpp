@@ -118,6 +118,22 @@ std::string member_json(const EnsembleView& view, std::size_t m) {
   return json::object(members, 2);
 }
 
+std::size_t count_runs(const EnsembleView& view) {
+  return static_cast<std::size_t>(std::ranges::count_if(view.states, [](const MemberState& state) {
+    return state.stage == MemberStage::done && state.has_run;
+  }));
+}
+
+/// "kept: the tables of all that are done, and 10 runs"; empty where the ensemble keeps all runs, and has
+/// them.
+std::string kept_text(const EnsembleView& view) {
+  const std::size_t runs = count_runs(view), done = count_of(view.states, MemberStage::done);
+  const bool keeps_all = view.manifest.keep.empty() || view.manifest.keep == "all";
+  if (done == 0 || (keeps_all && runs == done)) return "";
+  return fmt::format("kept: the tables of all members that are done, and {} run{}\n",
+                     runs == 0 ? "no" : std::to_string(runs), runs == 1 ? "" : "s");
+}
+
 }  // namespace
 
 EnsembleView view_of_ensemble(const std::string& folder) {
@@ -146,8 +162,8 @@ std::string count_text(const EnsembleView& view) {
 std::string ensemble_text(const EnsembleView& view, const EnsembleJobs& jobs) {
   const std::string until =
       view.manifest.until.empty() ? "" : fmt::format(", until {}", visible(view.manifest.until));
-  return fmt::format("{}: {}{}\n{}{}{}", visible(view.folder), count_text(view), until, jobs_text(jobs),
-                     members_text(view), means_text(view));
+  return fmt::format("{}: {}{}\n{}{}{}{}", visible(view.folder), count_text(view), until, kept_text(view),
+                     jobs_text(jobs), members_text(view), means_text(view));
 }
 
 std::string ensemble_json(const EnsembleView& view, const EnsembleJobs& jobs) {
@@ -159,6 +175,8 @@ std::string ensemble_json(const EnsembleView& view, const EnsembleJobs& jobs) {
   return json::object({{"folder", json::quoted(view.folder)},
                        {"version", json::quoted(view.manifest.version)},
                        {"until", json::quoted(view.manifest.until)},
+                       {"keep", json::quoted(view.manifest.keep.empty() ? "all" : view.manifest.keep)},
+                       {"runs", json::number(count_runs(view))},
                        {"members_in_all", json::number(view.states.size())},
                        {"done", json::number(count_of(view.states, MemberStage::done))},
                        {"claimed", json::number(count_of(view.states, MemberStage::claimed))},

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
+#include <cstdio>
 #include <filesystem>
 #include <fmt/core.h>
 #include <optional>
@@ -15,7 +16,9 @@
 #include "app/status_line.h"
 #include "core/errors.h"
 #include "core/output_file.h"
+#include "core/visible_text.h"
 #include "ensemble/ensemble_manifest.h"
+#include "ensemble/kept_runs.h"
 #include "ensemble/member_state.h"
 #include "ensemble/pool.h"
 #include "ensemble/worker.h"
@@ -136,6 +139,15 @@ void compute_members(const EnsembleWorkers& workers) {
     std::this_thread::sleep_for(std::chrono::seconds(1));
   }
 }
+
+void drop_old_runs(const std::string& folder) {
+  const EnsembleManifest manifest = read_ensemble(folder);
+  if (const std::size_t dropped = drop_runs(manifest, plan_of(manifest, folder)); dropped > 0)
+    std::fprintf(stderr,
+                 "talus: note: %zu run%s of members that are done removed (--keep %s); their tables stay\n",
+                 dropped, dropped == 1 ? "" : "s", visible_word(manifest.keep).c_str());
+}
+
 void begin_ensemble(const std::string& folder, const EnsembleManifest& wanted,
                     const std::vector<std::string>& inputs) {
   if (!is_ensemble(folder))
@@ -144,12 +156,14 @@ void begin_ensemble(const std::string& folder, const EnsembleManifest& wanted,
   for (const char* name : {"members.csv", "averages.csv", "ensemble.h5"})
     output_target((std::filesystem::path(folder) / name).string(), {true, inputs});
   extend_ensemble(folder, wanted);
+  drop_old_runs(folder);
 }
 
 EnsembleView compute_ensemble(const EnsembleManifest& wanted, const EnsembleWorkers& workers,
                               const std::vector<std::string>& inputs) {
   begin_ensemble(workers.folder, wanted, inputs);
   if (workers.jobs > 0) compute_members(workers);
+  drop_old_runs(workers.folder);
   return write_averages(workers.folder);
 }
 

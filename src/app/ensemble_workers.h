@@ -22,6 +22,10 @@ struct EnsembleWorkers {
 /// the Error of a worker that ended with one, and as read_ensemble does.
 void compute_members(const EnsembleWorkers& workers);
 
+/// Removes runs that the ensemble does not keep: those of workers that were killed before they did, and of
+/// members that were done before it was told to keep less. Says on stderr how many there were.
+void drop_old_runs(const std::string& folder);
+
 /// Begins an ensemble in the folder, or adds to the one that is there what it lacks. `inputs`: files that are
 /// read, and never replaced. Throws as extend_ensemble does, and Error(bad_data), before an ensemble is
 /// begun, where a run of another scenario has the name of a member.

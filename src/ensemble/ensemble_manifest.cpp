@@ -54,6 +54,7 @@ std::string text_of(const EnsembleManifest& manifest) {
   if (!manifest.until.empty()) text += fmt::format("until {}\n", manifest.until);
   if (const std::string task = task_text(manifest.task); !task.empty())
     text += fmt::format("task {}\n", task);
+  if (!manifest.keep.empty()) text += fmt::format("keep {}\n", manifest.keep);
   for (const Variant& variant : manifest.variants)
     text += fmt::format("variant {} {}\n", hash_of(read_text(variant.scenario_file)), variant.name);
   return fmt::format("{}hash {}\n", text, hash_of(text));
@@ -92,6 +93,7 @@ void take_line(EnsembleManifest& manifest, const std::string& folder, const std:
   if (kind == "seeds") manifest.seeds = parse_seeds(rest);
   if (kind == "until") manifest.until = rest;
   if (kind == "task") manifest.task = parse_task(rest, manifest_path(folder));
+  if (kind == "keep") manifest.keep = rest;
   if (kind != "variant") return;
   const std::size_t end = std::min(rest.find(' '), rest.size());
   const std::string name = rest.substr(std::min(end + 1, rest.size()));
@@ -221,6 +223,7 @@ EnsembleManifest extend_ensemble(const std::string& folder, const EnsembleManife
     all.version = found.version;
     all.seeds.insert(all.seeds.end(), found.seeds.begin(), found.seeds.end());
     if (wanted.until.empty()) all.until = found.until;
+    if (wanted.keep.empty()) all.keep = found.keep;
     all.variants = found.variants;
   }
   all.seeds = parse_seeds(seeds_text(sorted(all.seeds)));  // refuses too many of them

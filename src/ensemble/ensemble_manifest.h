@@ -17,6 +17,7 @@ struct EnsembleManifest {
   std::string until = {};                 ///< "theta_c:0.2": no more members from then on; empty: all of them
   std::vector<Variant> variants = {};     ///< their scenario files lie in the folder
   MemberTask task = {};
+  std::string keep = {};  ///< which runs stay once they are done (keeps_run); empty: all
 };
 
 /// DIR/ensemble.manifest.
@@ -40,10 +41,10 @@ std::vector<Variant> plan_variants(const std::string& scenario_file, const std::
                                    const std::vector<std::string>& axes);
 
 /// Begins an ensemble in the folder, or adds to the one that is there what it lacks: seeds and variants.
-/// `until` replaces the one before, unless it is empty. The manifest is written last, whole or not at all.
-/// Returns what is there then. Throws Error(bad_data) where a variant of the same name has another scenario
-/// there, where none of the variants is there yet, or where the members have another task; otherwise as
-/// write_text does.
+/// `until` and `keep` replace those before, unless they are empty. The manifest is written last, whole or not
+/// at all. Returns what is there then. Throws Error(bad_data) where a variant of the same name has another
+/// scenario there, where none of the variants is there yet, or where the members have another task; otherwise
+/// as write_text does.
 EnsembleManifest extend_ensemble(const std::string& folder, const EnsembleManifest& wanted);
 
 }  // namespace talus

@@ -45,8 +45,10 @@ double result(const Figures& figures, const std::string& name) {
 }  // namespace
 
 void refuse_table(const std::string& path) {
-  throw Error(ExitCode::bad_data,
-              path + " is not what talus wrote; remove it, and the member is analysed again");
+  throw Error(ExitCode::bad_data, path +
+                                      " is not what talus wrote; remove it and the member is analysed again, "
+                                      "or computed again if its run "
+                                      "was not kept");
 }
 
 double parse_cell(const std::string& text, const std::string& path) {

@@ -18,6 +18,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* numbers_ending = ".csv";
 constexpr const char* failure_ending = ".failed";
+constexpr const char* run_ending = ".h5";
 
 /// What one folder tells of its members, by the names of their runs without ending.
 struct FolderNames {
@@ -33,7 +34,8 @@ FolderNames names_in(const fs::path& folder) {
     if (const std::optional<ClaimName> claim = parse_claim_name(file)) {
       int& highest = names.claims.try_emplace(claim->run, claim->number).first->second;
       highest = std::max(highest, claim->number);
-    } else if (file.ends_with(numbers_ending) || file.ends_with(failure_ending)) {
+    } else if (file.ends_with(numbers_ending) || file.ends_with(failure_ending) ||
+               file.ends_with(run_ending)) {
       names.files.insert(file);
     }
   }
@@ -42,6 +44,7 @@ FolderNames names_in(const fs::path& folder) {
 
 MemberState state_of(const FolderNames& names, const std::string& run) {
   MemberState state;
+  state.has_run = names.files.contains(run + run_ending);
   if (const auto claim = names.claims.find(run); claim != names.claims.end()) state.claim = claim->second;
   if (names.files.contains(run + numbers_ending))
     state.stage = MemberStage::done;

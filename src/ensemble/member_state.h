@@ -20,6 +20,7 @@ enum class MemberStage {
 struct MemberState {
   MemberStage stage = MemberStage::waiting;
   std::optional<int> claim;  ///< the highest claim there is, whatever the stage
+  bool has_run = false;      ///< the file of its run is there
 };
 
 /// Of all members, in the order of the plan, with one look at each folder.

@@ -144,6 +144,75 @@ TEST_P(InterruptedEnsemble, goes_on_to_the_same_bits) {
         << member;
 }
 
+TEST_P(InterruptedEnsemble, that_keeps_no_runs_ends_with_the_tables_of_all) {
+  const TemporaryFolder folder;
+  write_file(folder, "bed.toml", tiny_bed);
+  ASSERT_EQ(run_talus(ensemble_of("whole"), folder.path()).exit_code, 0);
+  std::vector<std::string> words = ensemble_of("parts");
+  words.insert(words.end(), {"--keep", "analysis"});
+  int code = -1;
+  for (int attempt = 0; attempt < 40 && code != 0; ++attempt) {
+    const pid_t process = start_talus(words, folder.path());
+    pause_before(attempt, 50);
+    kill(process, GetParam());
+    code = wait_for(process);
+  }
+  EXPECT_EQ(code, 0);
+  EXPECT_EQ(text_of(folder.path("parts/averages.csv")), text_of(folder.path("whole/averages.csv")));
+  for (const char* seed : {"1", "2", "3", "4"}) {
+    const std::string member = folder.path(std::string("parts/seed-") + seed);
+    EXPECT_FALSE(std::filesystem::exists(member + ".h5")) << member;
+    EXPECT_FALSE(std::filesystem::exists(member + ".h5.run")) << member;
+    EXPECT_TRUE(std::filesystem::exists(member + ".series.csv")) << member;
+  }
+}
+
+TEST(Ensemble, that_keeps_less_goes_on_from_what_is_there) {
+  const TemporaryFolder folder;
+  write_file(folder, "bed.toml", tiny_bed);
+  ASSERT_EQ(run_talus(ensemble_of("e", "1-3"), folder.path()).exit_code, 0);
+  const std::string before = text_of(folder.path("e/averages.csv"));
+  const auto has_run = [&](int seed) {
+    return std::filesystem::exists(folder.path("e/seed-" + std::to_string(seed) + ".h5"));
+  };
+  std::vector<std::string> words = ensemble_of("e", "1-3");
+  words.insert(words.end(), {"--keep", "1"});
+  const Outcome less = run_talus(words, folder.path());
+  ASSERT_EQ(less.exit_code, 0) << less.err;
+  EXPECT_NE(less.err.find("2 runs of members that are done removed (--keep 1)"), std::string::npos)
+      << less.err;
+  EXPECT_TRUE(has_run(1) && !has_run(2) && !has_run(3));
+  EXPECT_EQ(text_of(folder.path("e/averages.csv")), before);
+  // As where a worker was killed after the tables of a member, and before its run went.
+  std::filesystem::copy_file(folder.path("e/seed-1.h5"), folder.path("e/seed-2.h5"));
+  EXPECT_EQ(run_talus({"ensemble", "work", "e"}, folder.path()).exit_code, 0);
+  EXPECT_FALSE(has_run(2));
+  EXPECT_EQ(run_talus(ensemble_of("e", "4"), folder.path()).exit_code, 0)
+      << "the folder remembers what it keeps";
+  EXPECT_FALSE(has_run(4));
+  const Outcome status = run_talus({"ensemble", "status", "e"}, folder.path());
+  EXPECT_NE(status.out.find(
+                "e: 4 of 4 done, 0 under way\nkept: the tables of all members that are done, and 1 run\n"),
+            std::string::npos)
+      << status.out;
+  const Outcome json = run_talus({"ensemble", "status", "e", "--json"}, folder.path());
+  EXPECT_EQ(json_value(json.out, "keep"), "1");
+  EXPECT_EQ(json_value(json.out, "runs"), "1");
+  EXPECT_EQ(run_talus({"ensemble", "average", "e"}, folder.path()).exit_code, 0);
+  // A table that is lost cannot be made again, and the message says what to do.
+  std::filesystem::remove(folder.path("e/seed-2.series.csv"));
+  const Outcome lost = run_talus({"ensemble", "average", "e"}, folder.path());
+  EXPECT_EQ(lost.exit_code, 66);
+  EXPECT_NE(lost.err.find("remove e/seed-2.csv, and the next worker computes the member again"),
+            std::string::npos)
+      << lost.err;
+  std::filesystem::remove(folder.path("e/seed-2.csv"));
+  EXPECT_EQ(run_talus({"ensemble", "work", "e"}, folder.path()).exit_code, 0);
+  EXPECT_TRUE(std::filesystem::exists(folder.path("e/seed-2.series.csv")) && !has_run(2));
+  words.back() = "none";
+  EXPECT_EQ(run_talus(words, folder.path()).exit_code, 64);
+}
+
 INSTANTIATE_TEST_SUITE_P(Signals, InterruptedEnsemble, testing::Values(SIGINT, SIGTERM, SIGKILL));
 
 TEST(Ensemble, is_shared_by_workers_which_begin_each_member_once) {

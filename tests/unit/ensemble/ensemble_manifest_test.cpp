@@ -49,6 +49,20 @@ TEST_F(EnsembleManifestTest, is_read_back) {
   EXPECT_NE(text_of(manifest_path(ensemble)).find("seeds 2-4,9\n"), std::string::npos);
 }
 
+TEST_F(EnsembleManifestTest, remembers_which_runs_stay_until_it_is_told_otherwise) {
+  EnsembleManifest asked = wanted({1, 2});
+  extend_ensemble(ensemble, asked);
+  EXPECT_EQ(read_ensemble(ensemble).keep, "");
+  EXPECT_EQ(text_of(manifest_path(ensemble)).find("keep"), std::string::npos)
+      << "as before there was a choice";
+  for (const auto& [given, expected] :
+       {std::pair{"analysis", "analysis"}, {"", "analysis"}, {"3", "3"}, {"all", "all"}}) {
+    asked.keep = given;
+    EXPECT_EQ(extend_ensemble(ensemble, asked).keep, expected);
+    EXPECT_EQ(read_ensemble(ensemble).keep, expected);
+  }
+}
+
 TEST_F(EnsembleManifestTest, takes_more_seeds_and_values) {
   extend_ensemble(ensemble, wanted({1, 2}, {"contact.friction=0.3"}));
   extend_ensemble(ensemble, wanted({2, 5}, {"contact.friction=0.3,0.7"}));

@@ -33,6 +33,8 @@ TEST(MemberState, follows_from_the_files_beside_the_run) {
   EXPECT_EQ(states[6].stage, MemberStage::waiting);
   EXPECT_EQ(states[1].stage, MemberStage::waiting) << "folder b is not there yet";
   EXPECT_EQ(count_of(states, MemberStage::waiting), 5u);
+  EXPECT_TRUE(states[6].has_run);
+  EXPECT_FALSE(states[0].has_run) << "done, and its run is gone";
 }
 
 TEST(MemberFailure, is_read_back_and_harmless) {

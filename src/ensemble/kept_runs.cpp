@@ -1,0 +1,63 @@
+#include "ensemble/kept_runs.h"
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <fmt/core.h>
+#include <optional>
+
+#include "core/errors.h"
+#include "core/visible_text.h"
+#include "ensemble/member_series.h"
+#include "io/durable_file.h"
+#include "io/run_store.h"
+
+namespace talus {
+namespace {
+
+/// How many runs stay; nothing: all.
+std::optional<std::size_t> number_kept(const std::string& keep) {
+  if (keep.empty() || keep == "all") return std::nullopt;
+  if (keep == "analysis") return 0;
+  std::size_t number = 0;
+  const char* const last = keep.data() + keep.size();
+  const auto [end, error] = std::from_chars(keep.data(), last, number);
+  if (error == std::errc() && end == last) return number;
+  throw Error(ExitCode::usage,
+              fmt::format("--keep {}: expected all, analysis, or the number of seeds whose runs are kept",
+                          visible_word(keep)));
+}
+
+}  // namespace
+
+void check_keep(const std::string& keep) { number_kept(keep); }
+
+bool keeps_run(const EnsembleManifest& manifest, std::uint64_t seed) {
+  const std::optional<std::size_t> kept = number_kept(manifest.keep);
+  if (!kept) return true;
+  const auto before = std::ranges::lower_bound(manifest.seeds, seed) - manifest.seeds.begin();
+  return static_cast<std::size_t>(before) < *kept;
+}
+
+void drop_run(const Member& member) {
+  discard_folder(member.path);  // while its file is there: without it, it would be taken for a run under way
+  remove_file(member.path);
+}
+
+std::size_t drop_runs(const EnsembleManifest& manifest, const EnsemblePlan& plan) {
+  if (!number_kept(manifest.keep)) return 0;
+  const std::vector<MemberState> states = look_at_members(plan);
+  std::size_t dropped = 0;
+  for (std::size_t m = 0; m < states.size(); ++m) {
+    const Member& member = plan.members[m];
+    if (states[m].stage != MemberStage::done || !states[m].has_run || keeps_run(manifest, member.seed))
+      continue;
+    std::error_code unknown;
+    if (!std::filesystem::exists(series_path(member.path), unknown)) continue;
+    drop_run(member);
+    ++dropped;
+  }
+  return dropped;
+}
+
+}  // namespace talus

@@ -1,0 +1,30 @@
+#pragma once
+/// Which runs of an ensemble stay on the disk once their members are done. The tables of a member stay in any
+/// case: they are what status, averages and figures of values are made from.
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "ensemble/ensemble_manifest.h"
+#include "ensemble/member_state.h"
+
+namespace talus {
+
+/// Throws Error(usage), naming --keep, unless the text is "all", "analysis" or a number.
+void check_keep(const std::string& keep);
+
+/// Whether the run of a seed stays: with "all" or nothing each does, with "analysis" none, and with a number
+/// those of so many seeds, the lowest ones of the ensemble.
+bool keeps_run(const EnsembleManifest& manifest, std::uint64_t seed);
+
+/// Removes the run of a member that is done, with a folder that a kill has left of it.
+void drop_run(const Member& member);
+
+/// Removes the runs of all members that are done and do not keep theirs: what is left where a worker was
+/// killed after it had written the tables of a member, and what was done before the ensemble was told to keep
+/// less. A run whose tables are not both there stays. Returns how many were removed.
+std::size_t drop_runs(const EnsembleManifest& manifest, const EnsemblePlan& plan);
+
+}  // namespace talus
