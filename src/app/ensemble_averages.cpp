@@ -53,7 +53,7 @@ void write_files(const std::filesystem::path& folder, const EnsembleView& view) 
     variants.push_back(averages_of_variant(view, v));
   write_text((folder / "members.csv").string(), members_csv(view));
   write_text((folder / "averages.csv").string(), averages_csv(variants));
-  write_averages((folder / "ensemble.h5").string(), variants, view.manifest.version);
+  write_averages((folder / "ensemble.h5").string(), std::move(variants), view.manifest.version);
 }
 
 }  // namespace

@@ -66,18 +66,23 @@ void show(StatusLine& line, const EnsemblePlan& plan, const EnsemblePace& pace) 
 struct AveragesOnTheWay {
   std::size_t members = 0;
   std::chrono::steady_clock::time_point made = std::chrono::steady_clock::now();
+  std::chrono::steady_clock::duration interval = std::chrono::minutes(1);
 };
 
-/// Makes them anew once a minute, where more members are done than before.
+/// Makes them anew once a minute, where more members are done than before; for many members less often, so
+/// that it takes a twentieth of the time of this process at most.
 void renew(AveragesOnTheWay& averages, const std::string& folder) {
   const auto now = std::chrono::steady_clock::now();
-  if (now - averages.made < std::chrono::minutes(1)) return;
+  if (now - averages.made < averages.interval) return;
   averages.made = now;
   const std::size_t done =
       count_of(look_at_members(plan_of(read_ensemble(folder), folder)), MemberStage::done);
   if (done == averages.members) return;
   averages.members = done;
   write_averages(folder);
+  averages.made = std::chrono::steady_clock::now();
+  averages.interval =
+      std::max<std::chrono::steady_clock::duration>(std::chrono::minutes(1), 20 * (averages.made - now));
 }
 
 std::vector<std::string> worker_words(const EnsembleWorkers& workers) {

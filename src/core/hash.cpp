@@ -2,6 +2,7 @@
 
 #include <xxhash.h>
 
+#include <charconv>
 #include <cstdio>
 #include <fmt/core.h>
 #include <new>
@@ -24,5 +25,11 @@ std::uint64_t Hasher::value() const { return XXH3_64bits_digest(state_); }
 std::uint64_t hash_bytes(std::span<const std::byte> bytes) { return XXH3_64bits(bytes.data(), bytes.size()); }
 
 std::string hash_text(std::uint64_t hash) { return fmt::format("{:016x}", hash); }
+
+std::uint64_t parse_hash(const std::string& text) {
+  std::uint64_t hash = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), hash, 16);
+  return text.size() == 16 && error == std::errc() && end == text.data() + text.size() ? hash : 0;
+}
 
 }  // namespace talus

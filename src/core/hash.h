@@ -42,4 +42,7 @@ std::uint64_t hash_bytes(std::span<const std::byte> bytes);
 /// 16 lower-case hexadecimal digits.
 std::string hash_text(std::uint64_t hash);
 
+/// The hash of such a text; 0 for another one.
+std::uint64_t parse_hash(const std::string& text);
+
 }  // namespace talus

@@ -25,7 +25,7 @@ const Resamples& resamples_for(const std::vector<double>& values, ResamplesByCou
 void summarise(AveragedQuantity& quantity, std::size_t points, ResamplesByCount& resamples) {
   for (std::size_t point = 0; point < points; ++point) {
     std::vector<double> values;
-    for (const std::vector<double>& of_member : quantity.values) values.push_back(of_member[point]);
+    for (std::size_t k = point; k < quantity.values.size(); k += points) values.push_back(quantity.values[k]);
     quantity.summaries.push_back(summary_of(values, resamples_for(values, resamples)));
   }
 }
@@ -50,7 +50,7 @@ std::vector<AveragedQuantity> averaged_numbers(const std::vector<MemberResult>& 
       [](const MemberResult& member) -> const std::vector<NamedNumber>& { return member.numbers.numbers; });
   for (AveragedQuantity& quantity : all) {
     for (const MemberResult& member : members)
-      quantity.values.push_back({number_called(member.numbers, quantity.name)});
+      quantity.values.push_back(number_called(member.numbers, quantity.name));
     summarise(quantity, 1, resamples);
   }
   return all;
@@ -71,17 +71,18 @@ AveragedCurves averaged_curves(const std::vector<MemberResult>& members, std::ve
   curves.quantities = all_quantities<NamedSeries>(
       members,
       [](const MemberResult& member) -> const std::vector<NamedSeries>& { return member.series.series; });
+  const std::size_t points = curves.angles.size();
   for (AveragedQuantity& quantity : curves.quantities) {
-    for (const MemberResult& member : members) {
-      std::vector<double> values(curves.angles.size(), std::nan(""));
+    quantity.values.assign(members.size() * points, std::nan(""));
+    for (std::size_t m = 0; m < members.size(); ++m) {
+      const MemberResult& member = members[m];
       const auto series = std::ranges::find(member.series.series, quantity.name, &NamedSeries::name);
       if (series != member.series.series.end())
-        for (std::size_t point = 0; point < values.size(); ++point)
-          values[point] =
+        for (std::size_t point = 0; point < points; ++point)
+          quantity.values[m * points + point] =
               interpolated(member.series.theta, series->values, tilt_at(member, curves.angles[point]));
-      quantity.values.push_back(std::move(values));
     }
-    summarise(quantity, curves.angles.size(), resamples);
+    summarise(quantity, points, resamples);
   }
   return curves;
 }
@@ -123,8 +124,7 @@ AngleCorrelations correlations_of(const std::vector<AveragedQuantity>& numbers) 
   for (const AveragedQuantity& quantity : numbers) {
     if (!is_event(quantity.name)) continue;
     found.names.push_back(quantity.name);
-    angles.emplace_back();
-    for (const std::vector<double>& of_member : quantity.values) angles.back().push_back(of_member.front());
+    angles.push_back(quantity.values);
   }
   for (const std::vector<double>& left : angles)
     for (const std::vector<double>& right : angles) found.pairs.push_back(correlation_of(left, right));

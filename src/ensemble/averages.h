@@ -24,8 +24,8 @@ struct MemberResult {
 struct AveragedQuantity {
   std::string name;  ///< as in the tables of the members
   std::string unit;
-  std::vector<std::vector<double>> values;  ///< by member, then by point; NaN where it has none
-  std::vector<Summary> summaries;           ///< of the members, at each point
+  std::vector<double> values;      ///< member by member, in each by point; NaN where it has none
+  std::vector<Summary> summaries;  ///< of the members, at each point
 };
 
 /// Quantities on a common grid.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fmt/core.h>
 
+#include "core/hash.h"
 #include "core/text.h"
 #include "io/plain_file.h"
 
@@ -33,17 +34,16 @@ struct Content {
   std::vector<PlainTexts> texts;
 };
 
-void add_quantity(Content& content, const std::string& group, const AveragedQuantity& quantity) {
+/// Takes the values of the members out of the quantity.
+void add_quantity(Content& content, const std::string& group, AveragedQuantity& quantity) {
   const std::string path = group + "/" + quantity.name;
   const std::size_t points = quantity.summaries.size();
   PlainArray values{path + "/values",
-                    {quantity.values.size(), points},
+                    {points == 0 ? 0 : quantity.values.size() / points, points},
                     quantity.unit,
                     "of each member, in the order of the seeds, at each point of the grid",
-                    {},
+                    std::move(quantity.values),
                     {}};
-  for (const std::vector<double>& of_member : quantity.values)
-    values.values.insert(values.values.end(), of_member.begin(), of_member.end());
   PlainArray summary{path + "/summary",
                      {points, summary_columns.size()},
                      quantity.unit,
@@ -59,11 +59,11 @@ void add_quantity(Content& content, const std::string& group, const AveragedQuan
   content.arrays.push_back(std::move(summary));
 }
 
-void add_curves(Content& content, const std::string& group, const AveragedCurves& curves,
-                const std::string& angle, const std::string& definition) {
+void add_curves(Content& content, const std::string& group, AveragedCurves& curves, const std::string& angle,
+                const std::string& definition) {
   content.arrays.push_back(
       {group + "/" + angle, {curves.angles.size()}, "deg", definition, curves.angles, {}});
-  for (const AveragedQuantity& quantity : curves.quantities) add_quantity(content, group, quantity);
+  for (AveragedQuantity& quantity : curves.quantities) add_quantity(content, group, quantity);
 }
 
 void add_correlations(Content& content, const std::string& group, const AngleCorrelations& correlations) {
@@ -84,19 +84,25 @@ void add_correlations(Content& content, const std::string& group, const AngleCor
   content.arrays.push_back(std::move(count));
 }
 
-void add_variant(Content& content, const std::string& group, const NamedAverages& variant) {
-  const Averages& averages = variant.averages;
+void add_variant(Content& content, const std::string& group, NamedAverages& variant) {
+  Averages& averages = variant.averages;
   content.texts.push_back({group, "name", {variant.name}, false});
   content.texts.push_back({group, "scenario", {variant.scenario}, false});
-  content.texts.push_back({group, "state_hash", averages.state_hashes, true});
   content.arrays.push_back({group + "/seed",
                             {averages.seeds.size()},
                             "1",
                             "of the members that are done, ascending",
                             {},
                             averages.seeds});
-  for (const AveragedQuantity& quantity : averages.numbers)
-    add_quantity(content, group + "/numbers", quantity);
+  content.arrays.push_back({group + "/state_hash",
+                            {averages.seeds.size()},
+                            "1",
+                            "of the last state of each member; members.csv has it in hexadecimal digits",
+                            {},
+                            {}});
+  for (const std::string& hash : averages.state_hashes)
+    content.arrays.back().integers.push_back(parse_hash(hash));
+  for (AveragedQuantity& quantity : averages.numbers) add_quantity(content, group + "/numbers", quantity);
   add_correlations(content, group + "/correlations", averages.correlations);
   add_curves(content, group + "/over_tilt", averages.over_tilt, "theta", "tilt");
   if (!averages.before_failure.quantities.empty())
@@ -122,7 +128,7 @@ std::string csv_rows(const std::string& variant, const char* grid, const std::ve
 
 }  // namespace
 
-void write_averages(const std::string& path, const std::vector<NamedAverages>& variants,
+void write_averages(const std::string& path, std::vector<NamedAverages> variants,
                     const std::string& version) {
   Content content;
   content.texts.push_back({"/", "version", {version}, false});

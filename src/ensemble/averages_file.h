@@ -16,9 +16,8 @@ struct NamedAverages {
   Averages averages;
 };
 
-/// Throws as write_durably does.
-void write_averages(const std::string& path, const std::vector<NamedAverages>& variants,
-                    const std::string& version);
+/// Takes the values out of `variants` as it goes, since there may be many. Throws as write_durably does.
+void write_averages(const std::string& path, std::vector<NamedAverages> variants, const std::string& version);
 
 /// A row for each quantity at each angle: variant, grid, angle, quantity, unit, n, mean, standard deviation,
 /// standard error, interval of 95 % for the mean, quartiles.

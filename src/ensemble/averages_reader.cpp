@@ -4,8 +4,10 @@
 #include <cmath>
 #include <fmt/core.h>
 #include <fstream>
+#include <iterator>
 
 #include "core/errors.h"
+#include "core/hash.h"
 #include "io/plain_file.h"
 
 namespace talus {
@@ -48,30 +50,33 @@ std::vector<double> grid_at(const Source& source, const std::string& item) {
   return grid->values;
 }
 
-/// All quantities of a group, each with so many members and points.
-std::vector<StoredQuantity> quantities_at(const Source& source, const std::string& group, std::size_t members,
+/// All quantities of a group, each with so many members and points, taken out of the file.
+std::vector<StoredQuantity> quantities_at(Source& source, const std::string& group, std::size_t members,
                                           std::size_t points) {
   constexpr std::string_view ending = "/values";
   std::vector<StoredQuantity> found;
-  for (const PlainArray& array : source.file.arrays) {
+  for (PlainArray& array : source.file.arrays) {
     if (!array.path.starts_with(group + "/") || !array.path.ends_with(ending)) continue;
     if (array.shape != std::vector<std::size_t>{members, points} || array.values.size() != members * points)
       refuse(source, array.path + " is of another size than its grid and the seeds");
     const std::size_t begin = group.size() + 1;
-    found.push_back(
-        {array.path.substr(begin, array.path.size() - ending.size() - begin), array.unit, array.values});
+    found.push_back({array.path.substr(begin, array.path.size() - ending.size() - begin), array.unit,
+                     std::move(array.values)});
   }
   return found;
 }
 
-StoredVariant variant_at(const Source& source, const std::string& group) {
+StoredVariant variant_at(Source& source, const std::string& group) {
   StoredVariant variant;
   variant.name = texts_at(source, group, "name").front();
   variant.scenario = texts_at(source, group, "scenario").front();
   if (const PlainArray* const seeds = find_array(source, group + "/seed")) variant.seeds = seeds->integers;
   const std::size_t members = variant.seeds.size();
   if (members == 0) return variant;  // none is done yet
-  variant.state_hashes = texts_at(source, group, "state_hash");
+  if (const PlainArray* const hashes = find_array(source, group + "/state_hash"))
+    std::ranges::transform(hashes->integers, std::back_inserter(variant.state_hashes), hash_text);
+  else
+    variant.state_hashes = texts_at(source, group, "state_hash");  // as files had them that came first
   if (variant.state_hashes.size() != members) refuse(source, group + " has not one hash for each seed");
   variant.numbers = quantities_at(source, group + "/numbers", members, 1);
   variant.tilts = grid_at(source, group + "/over_tilt/theta");
@@ -131,7 +136,7 @@ bool is_averages_file(const std::string& path) {
 }
 
 std::vector<StoredVariant> read_averages(const std::string& path) {
-  const Source source{path, read_plain_file(path)};
+  Source source{path, read_plain_file(path)};
   std::vector<StoredVariant> variants;
   const auto is_there = [&](const std::string& group) {
     return std::ranges::find(source.file.texts, group, &PlainTexts::path) != source.file.texts.end();

@@ -79,6 +79,7 @@ MemberSeries parse_series(const std::string& text, const std::string& path) {
     for (std::size_t c = 1; c < cells.size(); ++c)
       found.series[c - 1].values.push_back(parse_cell(cells[c], path));
   }
+  for (NamedSeries& series : found.series) series.values.shrink_to_fit();  // there may be many members
   return found;
 }
 

@@ -8,7 +8,7 @@ import numpy as np
 with h5py.File(sys.argv[1]) as file:
     variant = file["variants/0"]
     members = len(variant["seed"])
-    assert len(variant.attrs["state_hash"]) == members
+    assert variant["state_hash"].shape == (members,) and variant["state_hash"].dtype == np.uint64
     assert b"[bed]" in np.bytes_(variant.attrs["scenario"])
     grid = variant["over_tilt/theta"]
     assert grid.attrs["unit"] in (b"deg", "deg")

@@ -104,6 +104,9 @@ TEST(StateHash, is_that_of_the_value_not_of_the_object) {
 
 TEST(Hash, agrees_with_xxh3_and_with_itself_in_pieces) {
   EXPECT_EQ(hash_text(hash_bytes({})), "2d06800538d394c2");  // XXH3_64bits of nothing, xxHash specification
+  EXPECT_EQ(parse_hash("2d06800538d394c2"), 0x2d06800538d394c2u);
+  for (const char* bad : {"", "2d06800538d394c", "2d06800538d394cx", "2d06800538d394c20"})
+    EXPECT_EQ(parse_hash(bad), 0u);
   const std::string text = "granular slope";
   Hasher pieces;
   pieces.add_bytes(text.data(), 8);

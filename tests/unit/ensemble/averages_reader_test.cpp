@@ -23,7 +23,7 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 /// A member with frames at 0, 1, 2 ... deg, and one 0.25 deg before theta_c.
 MemberResult member(std::uint64_t seed, double theta_c) {
-  MemberResult result{seed, {"hash", "0.1.0", 1.0, {{"theta_c", "deg", theta_c}}}, {}};
+  MemberResult result{seed, {"00000000000000ab", "0.1.0", 1.0, {{"theta_c", "deg", theta_c}}}, {}};
   for (int k = 0; k < theta_c - 0.25; ++k) result.series.theta.push_back(k);
   result.series.theta.push_back(theta_c - 0.25);
   result.series.series = {{"contacts/coordination_number", "1", {}}, {"gamma/mean", "1", {}}};
@@ -48,7 +48,7 @@ TEST(ReadAverages, gives_members_back_at_the_points_of_both_grids) {
   EXPECT_EQ(variant.scenario, "seed = 1\n");
   const MemberResult second = member_of(variant, 1);
   EXPECT_EQ(second.seed, 2u);
-  EXPECT_EQ(second.numbers.state_hash, "hash");
+  EXPECT_EQ(second.numbers.state_hash, "00000000000000ab");
   EXPECT_EQ(number_called(second.numbers, "theta_c"), 4.5);
   // No point of a grid is at 4.25 deg: at 4 deg the last value is known, at 4.5 deg none.
   EXPECT_EQ(second.series.theta, (std::vector{0.0, 0.5, 1.0, 1.5, 2.0, 2.5, 3.0, 3.5, 4.0}));
@@ -74,6 +74,17 @@ TEST(ReadAverages, of_values_that_were_averaged_again_are_the_same) {
       EXPECT_TRUE(once.over_tilt[q].values[k] == twice.over_tilt[q].values[k] ||
                   std::isnan(once.over_tilt[q].values[k]))
           << once.over_tilt[q].name << " " << k;
+}
+
+TEST(ReadAverages, has_room_for_thousands_of_members) {
+  std::vector<MemberResult> members;
+  for (std::uint64_t seed = 1; seed <= 5000; ++seed)
+    members.push_back(
+        {seed, {"00000000000000ab", "", 0.0, {{"theta_c", "deg", static_cast<double>(seed)}}}, {}});
+  const StoredVariant variant = written_and_read(members);
+  ASSERT_EQ(variant.state_hashes.size(), 5000u) << "more than an attribute of HDF5 can hold";
+  EXPECT_EQ(variant.state_hashes.back(), "00000000000000ab");
+  EXPECT_EQ(number_called(member_of(variant, 4999).numbers, "theta_c"), 5000.0);
 }
 
 TEST(ReadAverages, of_slopes_that_stand_has_no_angle_left) {
