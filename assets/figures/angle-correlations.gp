@@ -5,7 +5,7 @@ below = 1.2
 cell_width = (width - left - 0.25) / size
 cell_height = (height - key_height - below) / size
 gap = 0.25
-above = 0.12 + 0.28 * groups
+above = 0.12 + 0.28 * lines
 set tics font ",6.5"
 set multiplot
 do for [second = 2:angles] {
@@ -23,7 +23,7 @@ do for [second = 2:angles] {
     if (second == angles) { set xlabel value(sprintf("title_%d", first)) . "  (deg)" font ",7" offset 0, 0.3; set format x "%g" } else { unset xlabel; set format x "" }
     if (first == 1) { set ylabel value(sprintf("title_%d", second)) . "  (deg)" font ",7" offset 0.5, 0; set format y "%g" } else { unset ylabel; set format y "" }
     do for [g = 1:groups] {
-      set label g value(sprintf("r_%d_%d_%d", first, second, g)) at graph 0, graph 1 + (0.15 + 0.28 * (groups - g)) / (cell_height - above) left font ",6.5" textcolor rgb ink[g]
+      set label g value(sprintf("r_%d_%d_%d", first, second, g)) at graph 0, graph 1 + (0.15 + 0.28 * (lines - value(sprintf("line_%d", g)))) / (cell_height - above) left font ",6.5" textcolor rgb colour(g)
     }
     plot for [g = 1:groups] data(g) using (column(horizontal)):(column(vertical)) with points linetype g linewidth 1 pointsize 0.3 * symbol notitle, \
       for [g = 1:groups] NaN with points linetype g linewidth 1 pointsize 0.45 * symbol title label(g)

@@ -12,10 +12,10 @@ do for [k = 1:panels] {
   eval panel((k - 1) / 3 + 1, rows, (k - 1) % 3 + 1, 3)
   set xlabel value(sprintf("title_%d", k)) . "  (deg)" offset 0, 0.3
   if (k % 3 == 1) { set ylabel "share of the runs" offset 0.6, 0 } else { unset ylabel }
-  set label 20 sprintf("(%s)", "abcdefghijkl"[k:k]) at graph 0.04, graph 0.92 left
+  set label 100 sprintf("(%s)", "abcdefghijkl"[k:k]) at graph 0.04, graph 0.92 left
   panel_cm = (height - key_height) / rows - panel_top - panel_bottom
   do for [g = 1:groups] {
-    set label g value(sprintf("summary_%d_%d", k, g)) at graph -0.12, graph 1 + (0.25 + 0.32 * (groups - g)) / panel_cm left font ",6" textcolor rgb ink[g]
+    set label g value(sprintf("summary_%d_%d", k, g)) at graph -0.12, graph 1 + (0.25 + 0.32 * (groups - g)) / panel_cm left font ",6" textcolor rgb colour(g)
     mean = value(sprintf("mean_%d_%d", k, g))
     unset arrow g
     if (mean == mean) { set arrow g from first mean, graph 0 to first mean, graph 1 nohead linetype g linewidth 1 front }

@@ -8,7 +8,7 @@ second_of = sprintf("theta_c lc_jump_%s percolation_%s dilation_centre", last, l
 array filled[8] = [7, 5, 9, 13, 11, 15, 7, 5]
 array open[8] = [6, 4, 8, 12, 10, 14, 6, 4]
 
-set xrange [0:24]
+set xrange [0:theta_end]
 set yrange [lowest:highest]
 set xtics 5
 set mxtics 5
@@ -35,9 +35,9 @@ do for [panel = 1:4] {
   high(name) = panel == 1 ? column(name) : column(name . "_high")
   plot sample [lowest:highest] x with lines linestyle 103 notitle, \
     for [g = 1:groups] data(g) using (column(one)):"theta_r":(low(one)):(high(one)) \
-      with xerrorbars linetype g dashtype solid linewidth 1 pointtype filled[g] pointsize 0.4 title label(g), \
+      with xerrorbars linetype g dashtype solid linewidth 1 pointtype filled[int((g - 1) % 8) + 1] pointsize 0.4 title label(g), \
     for [g = 1:groups] data(g) using (column(two)):"theta_r":(low(two)):(high(two)) \
-      with xerrorbars linetype g dashtype solid linewidth 1 pointtype open[g] pointsize 0.55 notitle
+      with xerrorbars linetype g dashtype solid linewidth 1 pointtype open[int((g - 1) % 8) + 1] pointsize 0.55 notitle
 }
 
 if (flow) {

@@ -62,6 +62,7 @@ do for [k = 1:8] {
   eval sprintf('set linetype %d linecolor rgb "%s" dashtype %s linewidth 2 pointtype %d pointsize %g', k, ink[k], dash[k], mark[k], 0.45 * symbol)
 }
 set linetype cycle 8
+colour(g) = ink[int((g - 1) % 8) + 1]
 # Marks of the paper's values, laws and thresholds, and helping lines.
 set style line 101 linecolor rgb "#000000" dashtype solid linewidth 2 pointtype 2 pointsize 0.8 * symbol
 set style line 102 linecolor rgb "#555555" dashtype (1,3) linewidth 2
@@ -75,7 +76,7 @@ bar_length(name) = scale * 2 * column(name . "_error")
 band_low(name, width) = scale * (column(name) - column(name . width))
 band_high(name, width) = scale * (column(name) + column(name . width))
 opacity(g) = has_runs(g) && value(sprintf("drawn_%d", g)) > 14 ? 5.0 / value(sprintf("drawn_%d", g)) : 0.35
-pale(g) = sprintf("#%02x", 255 * (1 - opacity(g))) . ink[g][2:7]
+pale(g) = sprintf("#%02x", 255 * (1 - opacity(g))) . colour(g)[2:7]
 
 # The curves of all groups, `scale` times column `ordinate` over the expression `abscissa`: plot @curves, ...
 # Behind them the bands of the standard deviation, the runs one by one, and the bands of the standard error (none of them

@@ -4,26 +4,12 @@
 
 #include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "figures/figure.h"
-#include "figures/group_table.h"
-#include "figures/run_group.h"
+#include "figures/run_angles.h"
 
 namespace talus {
-
-/// An angle that there is one of in a run: theta_c, the first slide, theta_r, or theta_d by an estimator.
-struct RunAngle {
-  std::string name;     ///< "theta_d/lc_jump[1]", as in members.csv
-  std::string label;    ///< for an axis, in enhanced text
-  std::string meaning;  ///< for a table
-  std::vector<std::vector<double>>
-      values;  ///< of each group, of each of its runs, deg; NaN where it has none
-};
-
-/// All angles that at least two runs of a group have. `choices`: the runs of each group.
-std::vector<RunAngle> run_angles(const std::vector<RunChoice>& choices);
 
 /// Bins of equal width, and where the first of them begins.
 struct HistogramBins {

@@ -98,14 +98,17 @@ void add_trace(Figure& figure, const FigureRun& run, const std::string& label) {
   figure.tables.push_back(flow_trace(run));
 }
 
-/// Whole degrees, a degree and more beside all angles at rest.
+/// Whole degrees, a degree and more beside all angles at rest; and the end of the other axis, beyond all
+/// theta_c.
 void set_range(Figure& figure) {
-  double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
+  double lowest = std::numeric_limits<double>::infinity(), highest = -lowest, end = 24.0;
   for (const Table& table : figure.tables) {
+    for (const double theta_c : table.columns[2].values) end = std::max(end, std::ceil(theta_c) + 1.0);
     const auto [low, high] = std::ranges::minmax(table.columns[1].values);
     lowest = std::min(lowest, low);
     highest = std::max(highest, high);
   }
+  set_variable(figure, "theta_end", end);
   set_variable(figure, "lowest", std::floor(lowest) - 1.0);
   set_variable(figure, "highest", std::ceil(highest) + 1.0);
 }
