@@ -180,6 +180,21 @@ Analysis begin_analysis(const RunStatics& statics, const AnalysisParameters& par
   return analysis;
 }
 
+std::vector<FrameThreshold> analyse_thresholds(const BedFrame& bed, const AnalysisParameters& parameters,
+                                               const Analysis& analysis, double volume) {
+  std::vector<FrameThreshold> records;
+  if (analysis.thresholds.empty()) return records;
+  const ClusterGround ground = {links_of(bed, parameters.joining), bed_edges(bed)};
+  for (const RunThreshold& threshold : analysis.thresholds)
+    records.push_back(analyse_threshold(bed,
+                                        {.threshold = threshold.gamma,
+                                         .end_ratio = threshold.end_ratio,
+                                         .l_min = parameters.l_min * bed.statics.mean_diameter,
+                                         .cut = analysis.lc_cut},
+                                        ground, volume / bed.statics.length));
+  return records;
+}
+
 FrameRecord analyse_frame(const BedFrame& bed, const AnalysisParameters& parameters,
                           const Analysis& analysis) {
   FrameRecord record;
@@ -189,15 +204,7 @@ FrameRecord analyse_frame(const BedFrame& bed, const AnalysisParameters& paramet
   take_directions(bed.frame, parameters.bins, record);
   take_contacts(bed, parameters.bins, record);
   take_correlations(bed, parameters.bins, record);
-  if (analysis.thresholds.empty()) return record;
-  const ClusterGround ground = {links_of(bed, parameters.joining), bed_edges(bed)};
-  for (const RunThreshold& threshold : analysis.thresholds)
-    record.thresholds.push_back(analyse_threshold(bed,
-                                                  {.threshold = threshold.gamma,
-                                                   .end_ratio = threshold.end_ratio,
-                                                   .l_min = parameters.l_min * bed.statics.mean_diameter,
-                                                   .cut = analysis.lc_cut},
-                                                  ground, record.volume / bed.statics.length));
+  record.thresholds = analyse_thresholds(bed, parameters, analysis, record.volume);
   return record;
 }
 

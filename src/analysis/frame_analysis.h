@@ -33,6 +33,11 @@ void take_clusters(const Clusters& clusters, const BedEdges& edges, FrameThresho
 /// NaN where the slope has not failed; without it and without gamma_c there are no thresholds.
 Analysis begin_analysis(const RunStatics& statics, const AnalysisParameters& parameters, double theta_c);
 
+/// What a frame tells at each threshold of `analysis`: overloaded grains, their l_c and clusters. `frame` and
+/// `analysis` as for analyse_frame, `volume` of the bed as of frame_volume, m^2.
+std::vector<FrameThreshold> analyse_thresholds(const BedFrame& bed, const AnalysisParameters& parameters,
+                                               const Analysis& analysis, double volume);
+
 /// All that a frame tells by itself. `frame` is one of with_analysed_gamma, `analysis` one of begin_analysis,
 /// made with the same parameters. What comes from the observables of a run is left open.
 FrameRecord analyse_frame(const BedFrame& bed, const AnalysisParameters& parameters,

@@ -13,6 +13,7 @@ void add_analyze_command(CLI::App& app);
 void add_render_command(CLI::App& app);
 void add_animate_command(CLI::App& app);
 void add_panel_command(CLI::App& app);
+void add_export_command(CLI::App& app);
 void add_dump_command(CLI::App& app);
 void add_solve_command(CLI::App& app);
 void add_forces_command(CLI::App& app);

@@ -58,6 +58,7 @@ void run(int argc, char** argv, CLI::App& app) {
   talus::add_render_command(app);
   talus::add_animate_command(app);
   talus::add_panel_command(app);
+  talus::add_export_command(app);
   talus::add_dump_command(app);
   talus::add_solve_command(app);
   talus::add_forces_command(app);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <fmt/core.h>
+#include <utility>
 
 #include "core/errors.h"
 #include "core/trigonometry.h"
@@ -33,6 +34,20 @@ std::size_t frame_at_angle(const std::vector<double>& tilts, const std::string& 
                                                 entry, tilts.size(), degrees(tilts.front()),
                                                 degrees(tilts.back()), degrees(frame_spacing(tilts))));
   return *frame;
+}
+
+/// First and last frame of "0-10", or of "7".
+std::pair<std::size_t, std::size_t> range_of(const std::string& entry) {
+  std::size_t first = 0, last = 0;
+  const char* const end = entry.data() + entry.size();
+  auto parsed = std::from_chars(entry.data(), end, first);
+  last = first;
+  if (parsed.ec == std::errc() && parsed.ptr != end && *parsed.ptr == '-')
+    parsed = std::from_chars(parsed.ptr + 1, end, last);
+  if (parsed.ec != std::errc() || parsed.ptr != end || last < first)
+    throw Error(ExitCode::usage,
+                fmt::format("--frames {}: expected numbers of frames as in --frames 0-10,20", entry));
+  return {first, last};
 }
 
 FrameChoice sorted(FrameChoice choice) {
@@ -70,6 +85,19 @@ FrameChoice frames_at(const std::vector<double>& tilts, const std::vector<std::s
                   "--at repose: the angle of repose is not known, as the slope has not failed in "
                   "this run; give it with --theta-c DEG");
     choice.push_back(entry == "repose" ? frame_at_repose(tilts, theta_c) : frame_at_angle(tilts, entry));
+  }
+  return sorted(choice);
+}
+
+FrameChoice frames_listed(const std::vector<std::string>& entries, std::size_t count) {
+  FrameChoice choice;
+  for (const std::string& entry : entries) {
+    const auto [first, last] = range_of(entry);
+    if (last >= count)
+      throw Error(ExitCode::bad_data,
+                  fmt::format("--frames {}: the run has {} frames, 0 to {}; there is no frame {}", entry,
+                              count, count - 1, last));
+    for (std::size_t k = first; k <= last; ++k) choice.push_back(k);
   }
   return sorted(choice);
 }

@@ -17,6 +17,10 @@ using FrameChoice = std::vector<std::size_t>;
 FrameChoice frames_at(const std::vector<double>& tilts, const std::vector<std::string>& entries,
                       double theta_c);
 
+/// The frames with the numbers listed, of `count`: "7", or "0-10" for a range. Throws Error(usage) where an
+/// entry is neither, Error(bad_data) where there is no such frame.
+FrameChoice frames_listed(const std::vector<std::string>& entries, std::size_t count);
+
 /// The frame nearest to a tilt (rad; NaN: none), however far away. Here the tilts need not ascend.
 std::optional<std::size_t> nearest_frame(const std::vector<double>& tilts, double tilt);
 

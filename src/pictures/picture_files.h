@@ -1,10 +1,10 @@
 #pragma once
 /// Maps of a run as PNG files in a folder.
 
-#include <functional>
 #include <string>
 #include <vector>
 
+#include "core/watch.h"
 #include "pictures/frame_choice.h"
 #include "pictures/picture_marks.h"
 
@@ -36,12 +36,6 @@ PictureFile picture_file(const PictureSeries& series, const std::string& command
 /// frame. Fits the ranges of motion to them. Throws as is_drawn does.
 std::vector<PictureFile> files_to_draw(DrawnRun& run, const FrameChoice& choice, const std::string& folder,
                                        bool overwrite);
-
-/// Who watches a long drawing.
-struct Watch {
-  CountDone progress;             ///< may be empty
-  std::function<bool()> stopped;  ///< whether to stop; asked before each picture
-};
 
 /// Draws them, and makes the folder where it is missing once there is something to put there. Throws
 /// Error(stopped) where it was stopped, with the pictures so far whole.

@@ -2,12 +2,12 @@
 /// The pictures of a run: what all of them have in common, and what each needs of the frames before it.
 
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "core/watch.h"
 #include "io/run_file.h"
 #include "pictures/cluster_colours.h"
 #include "pictures/map_plan.h"
@@ -75,9 +75,6 @@ struct DrawnRun {
   /// rad; NaN where it is not known.
   double theta_c() const { return series.plan.maps[0].theta_c; }
 };
-
-/// Called with how many are done, and how many there are in all; may be empty.
-using CountDone = std::function<void(std::size_t done, std::size_t count)>;
 
 /// Opens a run and goes once through all of its frames, those of a flow after failure included, so that all
 /// pictures of them have one size, and a cluster has its colour whichever of them are drawn. Throws

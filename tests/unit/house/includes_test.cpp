@@ -33,14 +33,15 @@ const std::map<std::string, std::vector<std::string>> rooms = {
     {"figures",
      {"analysis/", "core/", "ensemble/", "io/", "pictures/", "render/frame_view.h", "scenario/", "session/",
       "stress/"}},
+    {"export", {"analysis/", "core/", "io/", "session/", "stress/"}},
     {"view",
      {"analysis/", "core/", "io/", "pictures/", "render/colour_map.h", "render/frame_view.h", "scenario/",
       "session/", "stress/"}},
     {"gui", {"core/", "pictures/", "render/", "view/"}},
     {"render", {"core/child_program.h", "core/errors.h", "core/output_file.h"}},
     {"app",
-     {"analysis/", "core/", "ensemble/", "figures/", "gui/", "io/", "pictures/", "problems/", "render/",
-      "scenario/", "session/"}},
+     {"analysis/", "core/", "ensemble/", "export/", "figures/", "gui/", "io/", "pictures/", "problems/",
+      "render/", "scenario/", "session/"}},
 };
 
 /// Headers of other projects, and the only places that include them.

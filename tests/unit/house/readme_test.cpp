@@ -99,6 +99,11 @@ TEST(ForcesPage, commands_and_options_exist) {
   EXPECT_GT(check_page("docs/admissible_forces.md", {"forces_command"}), 3);
 }
 
+TEST(ExportPage, commands_and_options_exist) {
+  ASSERT_GT(commands("docs/export.md").size(), 0u);
+  EXPECT_GT(check_page("docs/export.md", {"export_command", "frame_options"}), 7);
+}
+
 TEST(ViewPage, lists_the_keys_of_the_window) {
   const std::string page = text_of("docs/view.md"), keys = text_of("src/gui/keys.cpp");
   const std::string table = page.substr(page.find("| key |"));

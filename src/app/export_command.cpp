@@ -1,0 +1,103 @@
+/// `talus export`: runs for other programs.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <fmt/core.h>
+#include <memory>
+
+#include "analysis/record.h"
+#include "app/commands.h"
+#include "app/count_progress.h"
+#include "app/frame_options.h"
+#include "app/output_files.h"
+#include "app/stop_signals.h"
+#include "core/errors.h"
+#include "core/text.h"
+#include "core/visible_text.h"
+#include "export/export_files.h"
+#include "scenario/suggestion.h"
+#include "session/analysis_parameters.h"
+
+namespace talus {
+namespace {
+
+struct ExportArguments {
+  std::string run;
+  std::string format;
+  std::string output;
+  FrameOptions frames;
+  std::vector<std::string> settings;
+  bool overwrite = false;
+  bool quiet = false;
+};
+
+ExportFormat format_of(const std::string& name) {
+  if (const auto format = export_format(name)) return *format;
+  const auto distance = [&](const FormatEntry& entry) {
+    return edit_distance(name.substr(0, 60), entry.name);
+  };
+  const FormatEntry& nearest = *std::ranges::min_element(export_formats(), {}, distance);
+  const std::string names = joined(export_formats(), ", ", &FormatEntry::name);
+  throw Error(
+      ExitCode::usage,
+      distance(nearest) <= 2
+          ? fmt::format("--to {}: no such format; did you mean '{}'?", visible_word(name), nearest.name)
+          : fmt::format("--to {}: no such format; expected one of {}", visible_word(name), names));
+}
+
+/// Without a threshold no grain is overloaded, and none is not.
+void tell_what_is_left_out(const RunFile& run, const ExportPlan& plan) {
+  const double theta_c = find_value(run.checkpoint().results, "theta_c").value_or(not_known);
+  if (!std::isnan(theta_c) || plan.parameters.gamma_c) return;
+  std::printf(
+      "Overloaded grains, their lengths and clusters are left out: the slope has not failed in this run, so "
+      "its "
+      "angle of repose is not known; --set gamma_c=0.3 gives a threshold.\n");
+}
+
+void export_run(const ExportArguments& arguments) {
+  ExportPlan plan = {
+      format_of(arguments.format), arguments.output, {}, parse_analysis_settings(arguments.settings)};
+  const RunFile run = RunFile::open(arguments.run);
+  plan.frames = chosen_frames(run, arguments.run, arguments.frames);
+  for (const std::string& file : files_of(plan))
+    output_target(file, output_of_run(arguments.run, arguments.overwrite));
+  export_files(run, plan, {count_shown("exporting", arguments.quiet), asked_to_stop});
+  if (arguments.quiet) return;
+  tell_what_is_left_out(run, plan);
+  std::printf("%s: %zu frame%s for %s\n", arguments.output.c_str(), plan.frames.size(),
+              plan.frames.size() == 1 ? "" : "s", std::string(entry_of(plan.format).program).c_str());
+}
+
+}  // namespace
+
+void add_export_command(CLI::App& app) {
+  auto arguments = std::make_shared<ExportArguments>();
+  CLI::App* command = app.add_subcommand(
+      "export", "Write a run for other programs: " + joined(export_formats(), ", ", &FormatEntry::program));
+  command
+      ->add_option("RUN", arguments->run,
+                   "Run to export: RUN.h5, or the folder RUN.h5.run of one that is under way")
+      ->required();
+  command->add_option("--to", arguments->format, "Format. " + list_of_formats())->required();
+  command
+      ->add_option("-o,--output", arguments->output,
+                   "File or folder to write, as the format has it; folders are made where they are missing")
+      ->required();
+  command
+      ->add_option(
+          "--set", arguments->settings,
+          "Change a parameter of the analysis by which grains are overloaded, e.g. --set l_min=0 (see "
+          "docs/analysis.md)")
+      ->allow_extra_args(false);
+  command->add_flag("--overwrite", arguments->overwrite, "Replace existing files");
+  command->add_flag("-q,--quiet", arguments->quiet, "Print errors and warnings only");
+  add_frame_options(*command, arguments->frames);
+  command->footer(
+      "docs/export.md lists what is written, in which units. The contact problem of a step is "
+      "written by `talus dump` (FCLIB).");
+  command->callback([arguments] { export_run(*arguments); });
+}
+
+}  // namespace talus

@@ -1,0 +1,75 @@
+#include "app/frame_options.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "core/errors.h"
+
+namespace talus {
+namespace {
+
+FrameChoice frames_of_tilt(const RunFile& run, const std::string& path, const FrameOptions& options) {
+  const std::vector<double>& tilts = run.frame_tilts();
+  const double theta_c =
+      find_value(run.checkpoint().results, "theta_c").value_or(std::numeric_limits<double>::quiet_NaN());
+  if (!options.numbers.empty()) return frames_listed(options.numbers, run.all_frame_tilts().size());
+  if (std::ranges::count(options.at, "repose") > 0 && !std::isfinite(theta_c))
+    throw Error(ExitCode::bad_data, path +
+                                        ": the slope has not failed, so --at repose has no meaning; give an "
+                                        "angle, or --frames K");
+  if (!options.at.empty()) return frames_at(tilts, options.at, theta_c);
+  FrameChoice choice;
+  if (options.every) {
+    choice = frames_every(tilts, *options.every);
+    if (std::isfinite(theta_c)) choice.push_back(frame_at_repose(tilts, theta_c));
+    return choice;
+  }
+  choice.resize(tilts.size());
+  std::iota(choice.begin(), choice.end(), std::size_t{0});
+  return choice;
+}
+
+}  // namespace
+
+void add_frame_options(CLI::App& command, FrameOptions& options) {
+  CLI::Option* const numbers =
+      command
+          .add_option("--frames", options.numbers,
+                      "Frames by their numbers, counted from 0: --frames 0-10,20 [all of the tilt]")
+          ->delimiter(',')
+          ->allow_extra_args(false);
+  CLI::Option* const at =
+      command
+          .add_option("--at", options.at,
+                      "Frames by angles in degrees, and repose for the last one before failure, with commas: "
+                      "--at 0,5,10,15,repose")
+          ->delimiter(',')
+          ->allow_extra_args(false)
+          ->excludes(numbers);
+  command
+      .add_option("--every", options.every, "Degrees between frames; the last frame before failure is added")
+      ->check(CLI::Range(1e-6, 90.0))
+      ->excludes(numbers)
+      ->excludes(at);
+  command.add_flag("--flow", options.flow,
+                   "Also all frames of the flow after failure, where the run has followed it");
+}
+
+FrameChoice chosen_frames(const RunFile& run, const std::string& path, const FrameOptions& options) {
+  const std::size_t count = run.all_frame_tilts().size();
+  if (count == 0)
+    throw Error(ExitCode::bad_data, path + " has no frames yet: the first is that of the bed at rest");
+  if (options.flow && count == run.frame_count())
+    throw Error(ExitCode::bad_data, path +
+                                        ": --flow: nothing was followed after failure in this run; "
+                                        "tilt.after_failure = \"lower\" or \"hold\" does");
+  FrameChoice choice = frames_of_tilt(run, path, options);
+  for (std::size_t k = run.frame_count(); options.flow && k < count; ++k) choice.push_back(k);
+  std::ranges::sort(choice);
+  choice.erase(std::unique(choice.begin(), choice.end()), choice.end());
+  return choice;
+}
+
+}  // namespace talus

@@ -1,0 +1,29 @@
+#pragma once
+/// The options by which a command takes some of the frames of a run.
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/run_file.h"
+#include "pictures/frame_choice.h"
+
+namespace talus {
+
+struct FrameOptions {
+  std::vector<std::string> numbers;  ///< as in frames_listed
+  std::vector<std::string> at;       ///< as in frames_at
+  std::optional<double> every;       ///< deg; the last frame before failure is added
+  bool flow = false;                 ///< also all frames after failure
+};
+
+/// --frames, --at, --every, of which one can be given, and --flow.
+void add_frame_options(CLI::App& command, FrameOptions& options);
+
+/// Ascending; all frames of the tilt where nothing is asked for. `path` is that of the run, for messages.
+/// Throws as frames_listed and frames_at do, and Error(bad_data) where the run has no frames, or no flow that
+/// is asked for.
+FrameChoice chosen_frames(const RunFile& run, const std::string& path, const FrameOptions& options);
+
+}  // namespace talus

@@ -1,0 +1,13 @@
+#pragma once
+/// Bytes as text.
+
+#include <cstddef>
+#include <span>
+#include <string>
+
+namespace talus {
+
+/// RFC 4648, with padding.
+std::string base64(std::span<const std::byte> bytes);
+
+}  // namespace talus

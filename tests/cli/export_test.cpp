@@ -1,0 +1,131 @@
+/// Runs exported for other programs: options, messages, exit codes, what is replaced, stops. What the
+/// programs read is tested in tests/python.
+
+#include <gtest/gtest.h>
+
+#include <csignal>
+
+#include "pictures.h"
+#include "process.h"
+
+namespace talus::test {
+namespace {
+
+using Words = std::vector<std::string>;
+
+/// A bed of 40 grains that stands, with frames 0 to 3 at 0, 0.5, 1 and 1.5 deg.
+class Export : public testing::Test {
+ protected:
+  void SetUp() override {
+    write_file(folder_, "bed.toml",
+               "seed = 3\n[bed]\nlength = 10\ndepth = 4\n[tilt]\nstep = 0.01\nend_angle = 1.5\n[output]\n"
+               "frame_every = 0.5\n");
+    ASSERT_EQ(talus({"run", "bed.toml", "-o", "bed.h5"}).exit_code, 0);
+  }
+  Outcome talus(const Words& arguments) { return run_talus(arguments, folder_.path()); }
+  Outcome exported(const Words& more) {
+    Words words = {"export", "bed.h5"};
+    words.insert(words.end(), more.begin(), more.end());
+    return talus(words);
+  }
+  std::set<std::string> files(const char* name) { return names_in(folder_.path() / name); }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(Export, writes_the_frames_that_are_asked_for) {
+  const std::vector<std::pair<Words, std::set<std::string>>> cases = {
+      {{}, {"0000", "0001", "0002", "0003"}},      {{"--frames", "0-1,3"}, {"0000", "0001", "0003"}},
+      {{"--frames", "2,2,1-2"}, {"0001", "0002"}}, {{"--at", "1.5,0"}, {"0000", "0003"}},
+      {{"--every", "1"}, {"0000", "0002"}},
+  };
+  for (std::size_t k = 0; k < cases.size(); ++k) {
+    const std::string folder = "out" + std::to_string(k);
+    Words words = {"--to", "paraview", "-o", folder};
+    words.insert(words.end(), cases[k].first.begin(), cases[k].first.end());
+    const Outcome outcome = exported(words);
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    std::set<std::string> expected;
+    for (const std::string& number : cases[k].second) {
+      expected.insert("grains_" + number + ".vtp");
+      expected.insert("contacts_" + number + ".vtp");
+    }
+    EXPECT_EQ(files((folder + "/frames").c_str()), expected) << folder;
+    EXPECT_NE(
+        outcome.out.find(folder + ": " + std::to_string(cases[k].second.size()) + " frames for ParaView"),
+        std::string::npos)
+        << outcome.out;
+    EXPECT_NE(outcome.out.find("Overloaded grains, their lengths and clusters are left out"),
+              std::string::npos);
+  }
+}
+
+TEST_F(Export, refuses_what_makes_no_sense) {
+  const std::vector<std::tuple<Words, int, std::string>> cases = {
+      {{"--to", "paravew", "-o", "x"}, 64, "did you mean 'paraview'?"},
+      {{"--to", "stl", "-o", "x"}, 64, "expected one of paraview"},
+      {{"--to", "paraview"}, 64, "--output"},
+      {{"-o", "x"}, 64, "--to"},
+      {{"--to", "paraview", "-o", "x", "--frames", "1-"}, 64, "--frames 0-10,20"},
+      {{"--to", "paraview", "-o", "x", "--frames", "2-1"}, 64, "--frames 0-10,20"},
+      {{"--to", "paraview", "-o", "x", "--frames", "-1"}, 64, "--frames 0-10,20"},
+      {{"--to", "paraview", "-o", "x", "--frames", "1.5"}, 64, "--frames 0-10,20"},
+      {{"--to", "paraview", "-o", "x", "--frames", "99999999999999999999"}, 64, "--frames 0-10,20"},
+      {{"--to", "paraview", "-o", "x", "--frames", "2-4"}, 65, "the run has 4 frames, 0 to 3"},
+      {{"--to", "paraview", "-o", "x", "--at", "30"}, 65, "no frame there"},
+      {{"--to", "paraview", "-o", "x", "--at", "repose"}, 65, "has not failed"},
+      {{"--to", "paraview", "-o", "x", "--flow"}, 65, "after failure"},
+      {{"--to", "paraview", "-o", "x", "--at", "1", "--frames", "1"}, 64, "--frames"},
+      {{"--to", "paraview", "-o", "x", "--every", "0"}, 64, "--every"},
+      {{"--to", "paraview", "-o", "x", "--set", "lmin=0"}, 65, "l_min"},
+      {{"--to", "paraview", "-o", ""}, 64, "empty"},
+  };
+  for (const auto& [words, code, part] : cases) {
+    const Outcome outcome = exported(words);
+    EXPECT_EQ(outcome.exit_code, code) << part << ": " << outcome.err;
+    EXPECT_NE((outcome.err + outcome.out).find(part), std::string::npos) << part << ": " << outcome.err;
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder_.path("x")));
+  EXPECT_EQ(talus({"export", "none.h5", "--to", "paraview", "-o", "x"}).exit_code, 66);
+  write_file(folder_, "text.h5", "no HDF5");
+  EXPECT_EQ(talus({"export", "text.h5", "--to", "paraview", "-o", "x"}).exit_code, 65);
+}
+
+TEST_F(Export, replaces_files_only_when_told_and_never_the_run) {
+  const Words words = {"--to", "paraview", "--frames", "1", "-o", "out", "--quiet"};
+  const Outcome first = exported(words);
+  EXPECT_EQ(first.exit_code, 0);
+  EXPECT_EQ(first.out + first.err, "");
+  const Outcome again = exported(words);
+  EXPECT_EQ(again.exit_code, 73);
+  EXPECT_NE(again.err.find("out/grains.pvd exists; give --overwrite"), std::string::npos) << again.err;
+  Words over = words;
+  over.emplace_back("--overwrite");
+  EXPECT_EQ(exported(over).exit_code, 0);
+  EXPECT_EQ(exported({"--to", "paraview", "-o", "bed.h5"}).exit_code, 73) << "a file is no folder";
+}
+
+TEST_F(Export, leaves_whole_files_where_it_is_stopped) {
+  // The bed is tilted by so little between frames that there are many of them.
+  write_file(folder_, "long.toml",
+             "seed = 3\n[bed]\nlength = 10\ndepth = 4\n[tilt]\nstep = 0.01\nend_angle = 5\n[output]\n"
+             "frame_every = 0.01\n");
+  ASSERT_EQ(talus({"run", "long.toml", "-o", "long.h5"}).exit_code, 0);
+  const pid_t process = start_talus({"export", "long.h5", "--to", "paraview", "-o", "out"}, folder_.path());
+  while (!has_ended(process) && files("out/frames").size() < 20) usleep(1000);
+  kill(process, SIGINT);
+  ASSERT_EQ(wait_for(process), 75) << errors_in(folder_.path());
+  EXPECT_FALSE(std::filesystem::exists(folder_.path("out/grains.pvd")))
+      << "it would name files that are missing";
+  for (const std::string& name : files("out/frames"))
+    EXPECT_TRUE(name.ends_with(".talus.part") ||
+                text_of(folder_.path() / "out/frames" / name).ends_with("</VTKFile>\n"))
+        << name;
+  ASSERT_EQ(
+      talus({"export", "long.h5", "--to", "paraview", "--frames", "0", "-o", "out", "--overwrite"}).exit_code,
+      0);
+  for (const std::string& name : files("out/frames")) EXPECT_FALSE(name.ends_with(".talus.part")) << name;
+}
+
+}  // namespace
+}  // namespace talus::test

@@ -1,0 +1,74 @@
+/// docs/export.md has the tables of the program.
+
+#include <gtest/gtest.h>
+
+#include <fmt/core.h>
+#include <fstream>
+#include <sstream>
+
+#include "export/fields.h"
+#include "export/formats.h"
+
+namespace talus::test {
+namespace {
+
+std::string page() {
+  std::ifstream file(TALUS_SOURCE_DIR "/docs/export.md");
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+const char* text_of(ExportOutput output) {
+  switch (output) {
+    case ExportOutput::folder:
+      return "a folder";
+    case ExportOutput::file:
+      return "a file";
+    case ExportOutput::file_per_frame:
+      break;
+  }
+  return "a file, or a folder for several frames";
+}
+
+const char* text_of(FieldNumber number) {
+  switch (number) {
+    case FieldNumber::integer:
+      return "integer";
+    case FieldNumber::single:
+      return "single";
+    case FieldNumber::real:
+      break;
+  }
+  return "double";
+}
+
+std::string rows_of(std::span<const Field> fields) {
+  std::string rows;
+  for (const Field& field : fields)
+    rows += fmt::format("| `{}{}` | {} | {} | {} | {} |\n", field.name, field.by_threshold ? "_FACTOR" : "",
+                        field.shape == FieldShape::scalar   ? "1"
+                        : field.shape == FieldShape::vector ? "x, y"
+                                                            : "xx, xy, yx, yy",
+                        text_of(field.number), field.unit, field.definition);
+  return rows;
+}
+
+TEST(ExportPage, lists_the_formats) {
+  std::string rows;
+  for (const FormatEntry& entry : export_formats())
+    rows += fmt::format("| `{}` | {}{} | {} | {} |\n", entry.name, text_of(entry.output),
+                        entry.ending.empty() ? "" : fmt::format(", `{}`", entry.ending), entry.program,
+                        entry.help);
+  EXPECT_NE(page().find("|---|---|---|---|\n" + rows + "\n"), std::string::npos) << rows;
+}
+
+TEST(ExportPage, lists_the_fields) {
+  const std::string head = "|---|---|---|---|---|\n";
+  EXPECT_NE(page().find(head + rows_of(grain_fields()) + "\n"), std::string::npos) << rows_of(grain_fields());
+  EXPECT_NE(page().find(head + rows_of(contact_fields()) + "\n"), std::string::npos)
+      << rows_of(contact_fields());
+}
+
+}  // namespace
+}  // namespace talus::test
