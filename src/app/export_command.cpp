@@ -56,18 +56,42 @@ void tell_what_is_left_out(const RunFile& run, const ExportPlan& plan) {
       "angle of repose is not known; --set gamma_c=0.3 gives a threshold.\n");
 }
 
+bool asks_for_frames(const FrameOptions& frames) {
+  return !frames.numbers.empty() || !frames.at.empty() || frames.every;
+}
+
+ExportPlan plan_export(const ExportArguments& arguments) {
+  ExportPlan plan;
+  plan.format = format_of(arguments.format);
+  plan.output = arguments.output;
+  plan.flow = arguments.frames.flow;
+  plan.parameters = parse_analysis_settings(arguments.settings);
+  check_output_name(plan.format, plan.output);
+  if (!entry_of(plan.format).has_frames && asks_for_frames(arguments.frames))
+    throw Error(
+        ExitCode::usage,
+        fmt::format("--to {} writes all rows of the run; --frames, --at and --every have no meaning for "
+                    "it",
+                    arguments.format));
+  return plan;
+}
+
 void export_run(const ExportArguments& arguments) {
-  ExportPlan plan = {
-      format_of(arguments.format), arguments.output, {}, parse_analysis_settings(arguments.settings)};
+  ExportPlan plan = plan_export(arguments);
+  const FormatEntry& format = entry_of(plan.format);
   const RunFile run = RunFile::open(arguments.run);
-  plan.frames = chosen_frames(run, arguments.run, arguments.frames);
+  if (format.has_frames)
+    plan.frames = chosen_frames(run, arguments.run, arguments.frames);
+  else
+    require_flow(run, arguments.run, arguments.frames);
   for (const std::string& file : files_of(plan))
     output_target(file, output_of_run(arguments.run, arguments.overwrite));
-  export_files(run, plan, {count_shown("exporting", arguments.quiet), asked_to_stop});
+  const std::size_t count =
+      export_files(run, plan, {count_shown("exporting", arguments.quiet), asked_to_stop});
   if (arguments.quiet) return;
-  tell_what_is_left_out(run, plan);
-  std::printf("%s: %zu frame%s for %s\n", arguments.output.c_str(), plan.frames.size(),
-              plan.frames.size() == 1 ? "" : "s", std::string(entry_of(plan.format).program).c_str());
+  if (format.has_frames) tell_what_is_left_out(run, plan);
+  std::printf("%s: %zu %s%s for %s\n", arguments.output.c_str(), count, format.has_frames ? "frame" : "row",
+              count == 1 ? "" : "s", std::string(format.program).c_str());
 }
 
 }  // namespace

@@ -57,14 +57,18 @@ void add_frame_options(CLI::App& command, FrameOptions& options) {
                    "Also all frames of the flow after failure, where the run has followed it");
 }
 
+void require_flow(const RunFile& run, const std::string& path, const FrameOptions& options) {
+  if (options.flow && run.all_frame_tilts().size() == run.frame_count())
+    throw Error(ExitCode::bad_data, path +
+                                        ": --flow: nothing was followed after failure in this run; "
+                                        "tilt.after_failure = \"lower\" or \"hold\" does");
+}
+
 FrameChoice chosen_frames(const RunFile& run, const std::string& path, const FrameOptions& options) {
   const std::size_t count = run.all_frame_tilts().size();
   if (count == 0)
     throw Error(ExitCode::bad_data, path + " has no frames yet: the first is that of the bed at rest");
-  if (options.flow && count == run.frame_count())
-    throw Error(ExitCode::bad_data, path +
-                                        ": --flow: nothing was followed after failure in this run; "
-                                        "tilt.after_failure = \"lower\" or \"hold\" does");
+  require_flow(run, path, options);
   FrameChoice choice = frames_of_tilt(run, path, options);
   for (std::size_t k = run.frame_count(); options.flow && k < count; ++k) choice.push_back(k);
   std::ranges::sort(choice);

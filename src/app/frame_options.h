@@ -21,9 +21,12 @@ struct FrameOptions {
 /// --frames, --at, --every, of which one can be given, and --flow.
 void add_frame_options(CLI::App& command, FrameOptions& options);
 
-/// Ascending; all frames of the tilt where nothing is asked for. `path` is that of the run, for messages.
-/// Throws as frames_listed and frames_at do, and Error(bad_data) where the run has no frames, or no flow that
-/// is asked for.
+/// Throws Error(bad_data) where --flow is asked for in a run that has none. `path` is that of the run, for
+/// messages.
+void require_flow(const RunFile& run, const std::string& path, const FrameOptions& options);
+
+/// Ascending; all frames of the tilt where nothing is asked for. Throws as frames_listed and frames_at do, and
+/// Error(bad_data) where the run has no frames, or no flow that is asked for.
 FrameChoice chosen_frames(const RunFile& run, const std::string& path, const FrameOptions& options);
 
 }  // namespace talus

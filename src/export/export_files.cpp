@@ -3,11 +3,16 @@
 #include <filesystem>
 #include <fmt/core.h>
 #include <functional>
+#include <span>
 
 #include "core/errors.h"
 #include "core/output_file.h"
+#include "export/csv.h"
 #include "export/exported_frame.h"
+#include "export/graphml.h"
+#include "export/lammps_dump.h"
 #include "export/vtp.h"
+#include "export/xyz.h"
 #include "io/durable_file.h"
 
 namespace talus {
@@ -36,6 +41,8 @@ void for_each_frame(const RunFile& run, const ExportPlan& plan, const Watch& wat
   }
 }
 
+void write(OutputFile& file, const std::string& text) { file.write(std::as_bytes(std::span(text))); }
+
 /// The .pvd are written last: they name files that are there.
 void export_paraview(const RunFile& run, const ExportPlan& plan, const Watch& watch) {
   prepare_folder(path_in(plan, "frames"));
@@ -50,21 +57,121 @@ void export_paraview(const RunFile& run, const ExportPlan& plan, const Watch& wa
   write_text(path_in(plan, "contacts.pvd"), pvd_text(contacts));
 }
 
-}  // namespace
-
-std::vector<std::string> files_of(const ExportPlan& plan) {
-  std::vector<std::string> files = {path_in(plan, "grains.pvd"), path_in(plan, "contacts.pvd")};
-  for (const std::size_t number : plan.frames)
-    for (const char* what : {"frames/grains", "frames/contacts"})
-      files.push_back(path_in(plan, frame_name(what, number, ".vtp")));
-  return files;
+/// All frames one after the other in one file.
+void export_series(const RunFile& run, const ExportPlan& plan, const Watch& watch,
+                   std::string (*text_of)(const ExportedFrame&)) {
+  prepare_folder_of(plan.output);
+  OutputFile file(plan.output);
+  for_each_frame(run, plan, watch, [&](const ExportedFrame& frame) { write(file, text_of(frame)); });
+  file.commit();
 }
 
-void export_files(const RunFile& run, const ExportPlan& plan, const Watch& watch) {
+/// Whether the output is the name of a file, rather than of a folder.
+bool is_file_name(const ExportPlan& plan) { return plan.output.ends_with(entry_of(plan.format).ending); }
+
+std::string network_path(const ExportPlan& plan, std::size_t number) {
+  return is_file_name(plan) ? plan.output : path_in(plan, frame_name("network", number, ".graphml"));
+}
+
+void export_networks(const RunFile& run, const ExportPlan& plan, const Watch& watch) {
+  prepare_folder_of(network_path(plan, 0));
+  for_each_frame(run, plan, watch, [&](const ExportedFrame& frame) {
+    write_text(network_path(plan, frame.number), graphml_text(frame));
+  });
+}
+
+/// A table in a file, the first line from the first frame.
+class CsvFile {
+ public:
+  explicit CsvFile(const std::string& path) : file_(path) {}
+  void add(const CsvRows& csv) {
+    if (!begun_) write(file_, csv.head);
+    begun_ = true;
+    write(file_, csv.rows);
+  }
+  void commit() { file_.commit(); }
+
+ private:
+  OutputFile file_;
+  bool begun_ = false;
+};
+
+void export_tables(const RunFile& run, const ExportPlan& plan, const Watch& watch) {
+  prepare_folder(plan.output);
+  CsvFile frames(path_in(plan, "frames.csv")), grains(path_in(plan, "grains.csv")),
+      contacts(path_in(plan, "contacts.csv"));
+  for_each_frame(run, plan, watch, [&](const ExportedFrame& frame) {
+    frames.add(frame_csv(frame));
+    grains.add(grains_csv(frame));
+    contacts.add(contacts_csv(frame));
+  });
+  for (CsvFile* file : {&frames, &grains, &contacts}) file->commit();
+}
+
+std::size_t export_observables(const RunFile& run, const ExportPlan& plan) {
+  const std::vector<ObservableRow> rows = plan.flow ? run.all_observables() : run.observables();
+  prepare_folder_of(plan.output);
+  write_text(plan.output, observables_csv(rows));
+  return rows.size();
+}
+
+}  // namespace
+
+void check_output_name(ExportFormat format, const std::string& output) {
+  const FormatEntry& entry = entry_of(format);
+  if (entry.output == ExportOutput::file && !output.ends_with(entry.ending))
+    throw Error(ExitCode::usage, fmt::format("{}: expected a name that ends in {}", output, entry.ending));
+}
+
+std::vector<std::string> files_of(const ExportPlan& plan) {
+  std::vector<std::string> files;
   switch (plan.format) {
     case ExportFormat::paraview:
-      return export_paraview(run, plan, watch);
+      files = {path_in(plan, "grains.pvd"), path_in(plan, "contacts.pvd")};
+      for (const std::size_t number : plan.frames)
+        for (const char* what : {"frames/grains", "frames/contacts"})
+          files.push_back(path_in(plan, frame_name(what, number, ".vtp")));
+      return files;
+    case ExportFormat::csv:
+      return {path_in(plan, "frames.csv"), path_in(plan, "grains.csv"), path_in(plan, "contacts.csv")};
+    case ExportFormat::graphml:
+      if (is_file_name(plan) && plan.frames.size() > 1)
+        throw Error(
+            ExitCode::usage,
+            fmt::format("{}: there are {} frames, each in a file of its own; give the name of a folder "
+                        "with -o, or one frame with --frames or --at",
+                        plan.output, plan.frames.size()));
+      for (const std::size_t number : plan.frames) files.push_back(network_path(plan, number));
+      return files;
+    case ExportFormat::xyz:
+    case ExportFormat::lammps:
+    case ExportFormat::observables:
+      break;
   }
+  return {plan.output};
+}
+
+std::size_t export_files(const RunFile& run, const ExportPlan& plan, const Watch& watch) {
+  switch (plan.format) {
+    case ExportFormat::paraview:
+      export_paraview(run, plan, watch);
+      break;
+    case ExportFormat::xyz:
+      export_series(run, plan, watch, xyz_text);
+      break;
+    case ExportFormat::lammps:
+      export_series(run, plan, watch, lammps_dump_text);
+      break;
+    case ExportFormat::graphml:
+      export_networks(run, plan, watch);
+      break;
+    case ExportFormat::csv:
+      export_tables(run, plan, watch);
+      break;
+    case ExportFormat::observables:
+      return export_observables(run, plan);
+  }
+  return plan.frames.size();
 }
 
 }  // namespace talus

@@ -15,16 +15,21 @@ namespace talus {
 struct ExportPlan {
   ExportFormat format = ExportFormat::paraview;
   std::string output;               ///< file or folder
-  std::vector<std::size_t> frames;  ///< numbers in the run, ascending
+  std::vector<std::size_t> frames;  ///< numbers in the run, ascending; none where the format has no frames
+  bool flow = false;                ///< where it has none: also what was observed after failure
   AnalysisParameters parameters;    ///< of overloaded grains, their lengths and clusters
 };
 
-/// The files that a plan writes. Throws Error(usage) where the name of the output does not fit the format.
+/// Throws Error(usage) where a format that writes one file has another ending than the name of the output.
+void check_output_name(ExportFormat format, const std::string& output);
+
+/// The files that a plan writes. Throws Error(usage) where there are several frames, each in a file of its
+/// own, and the output is the name of one file.
 std::vector<std::string> files_of(const ExportPlan& plan);
 
 /// Writes them, each whole or not at all, and makes the folder where it is missing. Frames are read one by
-/// one. Throws Error(stopped) where it was stopped, Error(bad_data) where the run has no frames, and as
-/// RunFile::frame and write_text do.
-void export_files(const RunFile& run, const ExportPlan& plan, const Watch& watch);
+/// one. Returns how many frames there are, or rows of observables. Throws Error(stopped) where it was
+/// stopped, Error(bad_data) where the run has no frames, and as RunFile::frame and write_text do.
+std::size_t export_files(const RunFile& run, const ExportPlan& plan, const Watch& watch);
 
 }  // namespace talus

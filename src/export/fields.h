@@ -47,6 +47,9 @@ struct FieldColumn {
   std::string name() const { return std::string(field.name) + ending; }
 };
 
+/// In tables these columns of grains, id and type, come before the centre.
+inline constexpr std::size_t columns_before_centre = 2;
+
 /// Of all grains, floor included, in the order of their ids.
 std::vector<FieldColumn> grain_columns(const ExportedFrame& frame);
 /// Of all contacts, in the order of their keys.

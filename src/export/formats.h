@@ -8,7 +8,7 @@
 
 namespace talus {
 
-enum class ExportFormat { paraview };
+enum class ExportFormat { paraview, xyz, lammps, graphml, csv, observables };
 
 /// What the output of a format is called.
 enum class ExportOutput {
@@ -24,6 +24,7 @@ struct FormatEntry {
   ExportOutput output;
   std::string_view ending;  ///< of the name of a file; empty for a folder
   std::string_view help;    ///< a line for users: what is written
+  bool has_frames = true;
 };
 
 /// All of them, in the order in which they are listed to users.

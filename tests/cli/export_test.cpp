@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <csignal>
+#include <fstream>
+#include <iterator>
+#include <sstream>
 
 #include "pictures.h"
 #include "process.h"
@@ -63,7 +66,12 @@ TEST_F(Export, writes_the_frames_that_are_asked_for) {
 TEST_F(Export, refuses_what_makes_no_sense) {
   const std::vector<std::tuple<Words, int, std::string>> cases = {
       {{"--to", "paravew", "-o", "x"}, 64, "did you mean 'paraview'?"},
-      {{"--to", "stl", "-o", "x"}, 64, "expected one of paraview"},
+      {{"--to", "stl", "-o", "x"}, 64, "expected one of paraview, xyz, "},
+      {{"--to", "xyz", "-o", "x"}, 64, "x: expected a name that ends in .xyz"},
+      {{"--to", "lammps", "-o", "x.xyz"}, 64, "ends in .dump"},
+      {{"--to", "graphml", "-o", "x.graphml"}, 64, "there are 4 frames, each in a file of its own"},
+      {{"--to", "observables", "-o", "x.csv", "--at", "1"}, 64, "have no meaning for it"},
+      {{"--to", "observables", "-o", "x.csv", "--flow"}, 65, "after failure"},
       {{"--to", "paraview"}, 64, "--output"},
       {{"-o", "x"}, 64, "--to"},
       {{"--to", "paraview", "-o", "x", "--frames", "1-"}, 64, "--frames 0-10,20"},
@@ -85,7 +93,8 @@ TEST_F(Export, refuses_what_makes_no_sense) {
     EXPECT_EQ(outcome.exit_code, code) << part << ": " << outcome.err;
     EXPECT_NE((outcome.err + outcome.out).find(part), std::string::npos) << part << ": " << outcome.err;
   }
-  EXPECT_FALSE(std::filesystem::exists(folder_.path("x")));
+  for (const char* name : {"x", "x.xyz", "x.graphml", "x.csv"})
+    EXPECT_FALSE(std::filesystem::exists(folder_.path(name))) << name;
   EXPECT_EQ(talus({"export", "none.h5", "--to", "paraview", "-o", "x"}).exit_code, 66);
   write_file(folder_, "text.h5", "no HDF5");
   EXPECT_EQ(talus({"export", "text.h5", "--to", "paraview", "-o", "x"}).exit_code, 65);
@@ -103,6 +112,20 @@ TEST_F(Export, replaces_files_only_when_told_and_never_the_run) {
   over.emplace_back("--overwrite");
   EXPECT_EQ(exported(over).exit_code, 0);
   EXPECT_EQ(exported({"--to", "paraview", "-o", "bed.h5"}).exit_code, 73) << "a file is no folder";
+  for (const char* format : {"xyz", "lammps", "graphml", "observables"}) {
+    const std::string ending = format == std::string("lammps")        ? ".dump"
+                               : format == std::string("observables") ? ".csv"
+                                                                      : "." + std::string(format);
+    Words one = {"--to", format, "-o", "one" + ending};
+    if (format != std::string("observables")) one.insert(one.end(), {"--frames", "2"});
+    EXPECT_EQ(exported(one).exit_code, 0) << format;
+    const std::string made = text_of(folder_.path() / ("one" + ending));
+    EXPECT_GT(made.size(), 1000U) << format;
+    EXPECT_EQ(exported(one).exit_code, 73) << format;
+    one.emplace_back("--overwrite");
+    EXPECT_EQ(exported(one).exit_code, 0) << format;
+    EXPECT_EQ(text_of(folder_.path() / ("one" + ending)), made) << format << ": the same each time";
+  }
 }
 
 TEST_F(Export, leaves_whole_files_where_it_is_stopped) {
@@ -125,6 +148,37 @@ TEST_F(Export, leaves_whole_files_where_it_is_stopped) {
       talus({"export", "long.h5", "--to", "paraview", "--frames", "0", "-o", "out", "--overwrite"}).exit_code,
       0);
   for (const std::string& name : files("out/frames")) EXPECT_FALSE(name.ends_with(".talus.part")) << name;
+}
+
+/// The commands of a page that export, in words.
+std::vector<Words> export_commands(const std::string& page) {
+  std::ifstream file(std::string(TALUS_SOURCE_DIR "/") + page);
+  std::vector<Words> found;
+  for (std::string line; std::getline(file, line);) {
+    std::istringstream text(line.substr(0, line.find('#')));
+    std::string program;
+    text >> program;
+    const Words words{std::istream_iterator<std::string>(text), {}};
+    if (program.ends_with("/talus") && !words.empty() && words[0] == "export") found.push_back(words);
+  }
+  return found;
+}
+
+TEST(ExportExamples, of_the_documents_are_carried_out) {
+  const TemporaryFolder folder;
+  write_file(folder, "bed.toml",
+             "seed = 1\n[bed]\nlength = 12\ndepth = 5\n[tilt]\nstep = 0.01\n[output]\nframe_every = 1\n");
+  ASSERT_EQ(run_talus({"run", "bed.toml", "-o", "RUN.h5"}, folder.path()).exit_code, 0);
+  std::filesystem::create_directory(folder.path("runs"));
+  std::filesystem::copy(folder.path("RUN.h5"), folder.path("runs/paper.h5"));
+  EXPECT_GE(export_commands("README.md").size(), 1U);
+  EXPECT_GE(export_commands("docs/export.md").size(), 6U);
+  for (const char* page : {"README.md", "docs/export.md"})
+    for (const Words& command : export_commands(page)) {
+      const Outcome outcome = run_talus(command, folder.path());
+      EXPECT_EQ(outcome.exit_code, 0) << page << ": " << outcome.err;
+      EXPECT_NE(outcome.out.find(" for "), std::string::npos) << outcome.out;
+    }
 }
 
 }  // namespace

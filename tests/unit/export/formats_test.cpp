@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "export/export_files.h"
 #include "support/exit_code.h"
 
@@ -18,12 +20,33 @@ TEST(Formats, are_known_by_their_names) {
   EXPECT_FALSE(export_format("paravie").has_value());
 }
 
+TEST(Formats, of_one_file_have_its_ending) {
+  EXPECT_EQ(exit_code_of([] { check_output_name(ExportFormat::xyz, "a.dump"); }), ExitCode::usage);
+  EXPECT_EQ(exit_code_of([] { check_output_name(ExportFormat::lammps, "a.dump"); }), ExitCode::done);
+  EXPECT_EQ(exit_code_of([] { check_output_name(ExportFormat::paraview, "a.dump"); }), ExitCode::done);
+}
+
 TEST(Formats, name_their_files_by_the_numbers_of_frames) {
-  const std::vector<std::string> files = files_of({ExportFormat::paraview, "out", {3, 12345}, {}});
-  EXPECT_EQ(files,
-            (std::vector<std::string>{"out/grains.pvd", "out/contacts.pvd", "out/frames/grains_0003.vtp",
-                                      "out/frames/contacts_0003.vtp", "out/frames/grains_12345.vtp",
-                                      "out/frames/contacts_12345.vtp"}));
+  using Files = std::vector<std::string>;
+  const auto files = [](ExportFormat format, const std::string& output, std::vector<std::size_t> frames) {
+    ExportPlan plan;
+    plan.format = format;
+    plan.output = output;
+    plan.frames = std::move(frames);
+    return files_of(plan);
+  };
+  EXPECT_EQ(files(ExportFormat::graphml, "one.graphml", {3}), Files{"one.graphml"});
+  EXPECT_EQ(files(ExportFormat::graphml, "out", {3}), Files{"out/network_0003.graphml"});
+  EXPECT_EQ(files(ExportFormat::graphml, "out/", {0, 3}),
+            (Files{"out/network_0000.graphml", "out/network_0003.graphml"}));
+  EXPECT_EQ(exit_code_of([&] { files(ExportFormat::graphml, "one.graphml", {0, 3}); }), ExitCode::usage);
+  EXPECT_EQ(files(ExportFormat::csv, "out", {0, 3}),
+            (Files{"out/frames.csv", "out/grains.csv", "out/contacts.csv"}));
+  EXPECT_EQ(files(ExportFormat::xyz, "a.xyz", {0, 3}), Files{"a.xyz"});
+  EXPECT_EQ(files(ExportFormat::paraview, "out", {3, 12345}),
+            (Files{"out/grains.pvd", "out/contacts.pvd", "out/frames/grains_0003.vtp",
+                   "out/frames/contacts_0003.vtp", "out/frames/grains_12345.vtp",
+                   "out/frames/contacts_12345.vtp"}));
 }
 
 }  // namespace

@@ -1,0 +1,14 @@
+#pragma once
+/// The contact network of a frame as GraphML, for networkx and the like.
+
+#include <string>
+
+#include "export/exported_frame.h"
+
+namespace talus {
+
+/// An undirected graph: grains, and planes that something touches, are nodes with their ids; contacts are
+/// edges, from a to b. Two grains of a short periodic bed may touch twice.
+std::string graphml_text(const ExportedFrame& frame);
+
+}  // namespace talus

@@ -1,0 +1,61 @@
+#include "export/lammps_dump.h"
+
+#include <fmt/core.h>
+#include <span>
+#include <vector>
+
+#include "core/text.h"
+#include "export/bounds.h"
+#include "export/fields.h"
+#include "export/number_text.h"
+
+namespace talus {
+namespace {
+
+std::string names_of(const FieldColumn& column) {
+  return column.field.lammps.empty() ? joined(component_names(column), " ")
+                                     : std::string(column.field.lammps);
+}
+
+void append_column(std::string& text, const FieldColumn& column, std::size_t row) {
+  const std::size_t width = components(column.field);
+  for (std::size_t c = 0; c < width; ++c) {
+    append_number(text, column.values[row * width + c], column.field.number);
+    text += ' ';
+  }
+}
+
+void append_centre(std::string& text, const Frame& frame, std::size_t i) {
+  for (const double coordinate : {frame.x[i], frame.y[i]}) {
+    append_number(text, coordinate, FieldNumber::single);
+    text += ' ';
+  }
+}
+
+std::string head(const ExportedFrame& of, std::span<const FieldColumn> columns) {
+  const BedBounds bounds = bed_bounds(of);
+  return fmt::format(
+      "ITEM: UNITS\nsi\nITEM: TIME\n{}\nITEM: TIMESTEP\n{}\nITEM: NUMBER OF ATOMS\n{}\n"
+      "ITEM: BOX BOUNDS {} ff ff\n{} {}\n{} {}\n{} {}\nITEM: ATOMS {} x y {}\n",
+      of.frame.time, of.frame.step, of.frame.grain_count(), of.run.statics.periodic ? "pp" : "ff",
+      bounds.x_low, bounds.x_high, bounds.y_low, bounds.y_high, bounds.z_low, bounds.z_high,
+      joined(columns.first(columns_before_centre), " ", names_of),
+      joined(columns.subspan(columns_before_centre), " ", names_of));
+}
+
+}  // namespace
+
+std::string lammps_dump_text(const ExportedFrame& of) {
+  const std::vector<FieldColumn> columns = grain_columns(of);
+  std::string text = head(of, columns);
+  for (std::size_t i = 0; i < of.frame.x.size(); ++i) {
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      if (k == columns_before_centre) append_centre(text, of.frame, i);
+      append_column(text, columns[k], i);
+    }
+    text.back() = '\n';
+  }
+  return text;
+}
+
+}  // namespace talus

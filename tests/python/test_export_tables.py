@@ -1,0 +1,119 @@
+"""What `talus export --to graphml`, `--to csv` and `--to observables` write, read by networkx and pandas."""
+
+import csv
+
+import numpy as np
+import pytest
+
+import talus
+from conftest import run_talus
+from exported import compare, contacts, grains
+
+COMPONENTS = {1: [""], 2: ["_x", "_y"], 4: ["_xx", "_xy", "_yx", "_yy"]}
+
+
+def joined(columns, expected):
+    """Fields from columns of their components, by the names in `expected`; takes these columns away."""
+    found = {}
+    for name, values in expected.items():
+        width = 1 if np.ndim(values) == 1 else np.shape(values)[1]
+        parts = [np.asarray(columns.pop(name + component)) for component in COMPONENTS[width]]
+        found[name] = np.stack(parts, axis=1).reshape(np.shape(values))
+    return found
+
+
+@pytest.fixture(scope="module")
+def networkx():
+    return pytest.importorskip("networkx", reason="networkx is not installed: python3-networkx")
+
+
+def attributes(items):
+    """One column for each attribute of nodes or edges."""
+    return {name: [values[name] for values in items] for name in items[0]}
+
+
+@pytest.mark.parametrize("boundary", ["analysed", "walls"])
+def test_network_is_that_of_the_frame(networkx, boundary, request, tmp_path):
+    path, k = request.getfixturevalue(boundary), 9
+    run_talus("export", path, "--to", "graphml", "--frames", k, "-o", tmp_path / "made" / "network.graphml")
+    graph = networkx.read_graphml(tmp_path / "made" / "network.graphml", node_type=int, force_multigraph=True)
+    with talus.open(path) as run:
+        frame = run.frames[k]
+        expected = frame.to_networkx()
+        assert set(graph.nodes) == set(expected.nodes) and not graph.is_directed()
+        assert sorted(map(sorted, graph.edges())) == sorted(map(sorted, expected.edges()))
+        assert {n: kind for n, kind in graph.nodes(data="kind")} == {n: kind for n, kind in expected.nodes(data="kind")}
+        assert (boundary == "walls") == ("plane" in dict(graph.nodes(data="kind")).values())
+        whole = graph.graph
+        assert (whole["frame"], whole["step"], whole["time"], whole["tilt"]) == (k, frame.step, frame.time, frame.tilt)
+        assert whole["period"] == (run.length if run.periodic else 0)
+        nodes = attributes([graph.nodes[i] for i in range(len(run.id))])
+        np.testing.assert_array_equal(np.float32([nodes.pop("x"), nodes.pop("y")]), np.float32(frame.position.T))
+        nodes.pop("kind")
+        compare(joined(nodes, grains(run, k)), grains(run, k))
+        assert len(nodes) == (0 if boundary == "analysed" else 6)
+        edges = {edge: values for _, _, edge, values in graph.edges(keys=True, data=True)}
+        edges = attributes([edges[c] for c in range(len(frame.contacts))])
+        compare(joined(edges, contacts(run, k)), contacts(run, k))
+        assert not edges
+        np.testing.assert_array_equal(np.float32([values["normal_force"] for *_, values in graph.edges(data=True)]).sum(),
+                                      np.float32(frame.contacts.force[:, 0]).sum())
+
+
+def test_networks_of_several_frames_are_files_of_a_folder(networkx, analysed, run, tmp_path):
+    run_talus("export", analysed, "--to", "graphml", "--frames", "0-2", "-o", tmp_path / "networks")
+    files = sorted((tmp_path / "networks").iterdir())
+    assert [file.name for file in files] == [f"network_{k:04}.graphml" for k in range(3)]
+    for k, file in enumerate(files):
+        assert networkx.read_graphml(file).graph["tilt"] == run.frames[k].tilt
+
+
+@pytest.fixture(scope="module")
+def pandas():
+    return pytest.importorskip("pandas", reason="pandas is not installed: python3-pandas")
+
+
+def without_units(table):
+    return {name.split(" (")[0]: values for name, values in table.items()}
+
+
+@pytest.mark.parametrize("boundary", ["analysed", "walls"])
+def test_tables_have_a_row_for_each_frame_grain_and_contact(pandas, boundary, request, tmp_path):
+    path, chosen = request.getfixturevalue(boundary), [0, 9]
+    run_talus("export", path, "--to", "csv", "--frames", "0,9", "-o", tmp_path / "made" / "tables")
+    read = {name: pandas.read_csv(tmp_path / "made" / "tables" / f"{name}.csv", float_precision="round_trip")
+            for name in ("frames", "grains", "contacts")}
+    assert {"radius (m)", "internal_moment_xy (J/m)", "gamma"} < set(read["grains"])
+    with talus.open(path) as run:
+        assert read["frames"].values.tolist() == [[k, run.frames[k].step, run.frames[k].time, run.frames[k].tilt]
+                                                  for k in chosen]
+        assert list(read["frames"]) == ["frame", "step", "time (s)", "tilt (rad)"]
+        for name, fields in (("grains", grains), ("contacts", contacts)):
+            assert len(read[name]) == sum(len(next(iter(fields(run, k).values()))) for k in chosen)
+            for k in chosen:
+                table = without_units(read[name][read[name]["frame"] == k])
+                expected = fields(run, k)
+                found = joined(table, expected)
+                compare(found, expected)
+                assert set(table) - {"frame", "x", "y"} == (set() if boundary == "analysed" or name == "contacts" else
+                    {f"{what}_{f}" for what in ("overloaded", "lc", "cluster") for f in (1, 2)})
+                if name == "grains":
+                    np.testing.assert_array_equal(np.float32([table["x"], table["y"]]).T, run.frames[k].position)
+                    np.testing.assert_array_equal(np.float32(found["velocity"]), run.frames[k].velocity)
+                    np.testing.assert_array_equal(found["radius"], run.radius)
+
+
+@pytest.mark.parametrize("flow", [False, True])
+def test_observables_are_those_of_the_run_to_the_last_bit(walls, tmp_path, flow):
+    run_talus("export", walls, "--to", "observables", *(["--flow"] if flow else []), "-o", tmp_path / "observables.csv")
+    with open(tmp_path / "observables.csv", newline="") as file:
+        head, *rows = csv.reader(file)
+    with talus.open(walls) as run:
+        tilt = run.observables["tilt"]
+        count = len(tilt) if flow else np.argmax(tilt) + 1
+        assert count == len(rows) and (count < len(tilt)) != flow
+        for name, column in zip(head, zip(*rows)):
+            name, _, unit = name.partition(" (")
+            assert unit in ("", run.unit(f"observables/{name}") + ")") and (unit != "") == (run.unit(f"observables/{name}") != "1")
+            values = [float(text) if text else np.nan for text in column]
+            np.testing.assert_array_equal(values, run.observables[name][:count], err_msg=name)
