@@ -25,8 +25,8 @@ void add_frame_options(CLI::App& command, FrameOptions& options);
 /// messages.
 void require_flow(const RunFile& run, const std::string& path, const FrameOptions& options);
 
-/// Ascending; all frames of the tilt where nothing is asked for. Throws as frames_listed and frames_at do, and
-/// Error(bad_data) where the run has no frames, or no flow that is asked for.
+/// Ascending; all frames of the tilt where nothing is asked for. Throws as frames_listed and frames_at do,
+/// and Error(bad_data) where the run has no frames, or no flow that is asked for.
 FrameChoice chosen_frames(const RunFile& run, const std::string& path, const FrameOptions& options);
 
 }  // namespace talus

@@ -131,11 +131,11 @@ TEST_F(Export, replaces_files_only_when_told_and_never_the_run) {
 TEST_F(Export, leaves_whole_files_where_it_is_stopped) {
   // The bed is tilted by so little between frames that there are many of them.
   write_file(folder_, "long.toml",
-             "seed = 3\n[bed]\nlength = 10\ndepth = 4\n[tilt]\nstep = 0.01\nend_angle = 5\n[output]\n"
+             "seed = 3\n[bed]\nlength = 10\ndepth = 4\n[tilt]\nstep = 0.01\nend_angle = 2\n[output]\n"
              "frame_every = 0.01\n");
   ASSERT_EQ(talus({"run", "long.toml", "-o", "long.h5"}).exit_code, 0);
   const pid_t process = start_talus({"export", "long.h5", "--to", "paraview", "-o", "out"}, folder_.path());
-  while (!has_ended(process) && files("out/frames").size() < 20) usleep(1000);
+  while (!has_ended(process) && files("out/frames").size() < 6) usleep(1000);
   kill(process, SIGINT);
   ASSERT_EQ(wait_for(process), 75) << errors_in(folder_.path());
   EXPECT_FALSE(std::filesystem::exists(folder_.path("out/grains.pvd")))

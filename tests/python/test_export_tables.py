@@ -117,3 +117,23 @@ def test_observables_are_those_of_the_run_to_the_last_bit(walls, tmp_path, flow)
             assert unit in ("", run.unit(f"observables/{name}") + ")") and (unit != "") == (run.unit(f"observables/{name}") != "1")
             values = [float(text) if text else np.nan for text in column]
             np.testing.assert_array_equal(values, run.observables[name][:count], err_msg=name)
+
+
+def test_moments_are_averaged_as_the_analysis_is_told_to(pandas, copied, walls, tmp_path):
+    def grains_of(path, folder, *options):
+        run_talus("export", path, "--to", "csv", *options, "-o", tmp_path / folder)
+        return pandas.read_csv(tmp_path / folder / "grains.csv")
+
+    run_talus("analyze", copied, "--set", "averaging=1")
+    read = grains_of(copied, "averaged", "--frames", "9", "--set", "averaging=1")
+    plain = grains_of(copied, "plain", "--frames", "9")
+    with talus.open(copied) as run:
+        np.testing.assert_array_equal(read["cluster_1"], run.analysis["clusters/label"][9, 0])
+        np.testing.assert_array_equal(np.float32(read["lc_2 (m)"]), np.float32(run.analysis["lc/length"][9, 1]))
+    assert (read["gamma_neighbourhood"] != plain["gamma_neighbourhood"]).any()
+    assert read["gamma"].equals(plain["gamma"]), "what is stored stays what it is"
+    with talus.open(walls) as run:
+        last = len(run.frames) - 1
+        assert last >= run.frames_of_tilt
+    read = grains_of(walls, "flow", "--frames", last, "--set", "averaging=1")
+    assert read.equals(grains_of(walls, "plain-flow", "--frames", last)), "a flow has no frames to average over"
