@@ -23,6 +23,7 @@ void add_perturb_command(CLI::App& app);
 void add_figures_command(CLI::App& app);
 void add_reproduce_command(CLI::App& app);
 void add_view_command(CLI::App& app);
+extern const bool has_window;  ///< whether `talus view` is built in
 void add_replay_command(CLI::App& app);
 void add_repair_command(CLI::App& app);
 

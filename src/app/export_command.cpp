@@ -99,12 +99,15 @@ void export_run(const ExportArguments& arguments) {
 void add_export_command(CLI::App& app) {
   auto arguments = std::make_shared<ExportArguments>();
   CLI::App* command = app.add_subcommand(
-      "export", "Write a run for other programs: " + joined(export_formats(), ", ", &FormatEntry::program));
+      "export", "Write frames of a run for other programs: ParaView, OVITO, networkx, tables");
   command
       ->add_option("RUN", arguments->run,
                    "Run to export: RUN.h5, or the folder RUN.h5.run of one that is under way")
       ->required();
-  command->add_option("--to", arguments->format, "Format. " + list_of_formats())->required();
+  // A name that is none is refused with the nearest, by format_of; the parser shows them.
+  command->add_option("--to", arguments->format, "Format. " + list_of_formats())
+      ->required()
+      ->type_name(fmt::format("FORMAT:{{{}}}", joined(export_formats(), ",", &FormatEntry::name)));
   command
       ->add_option("-o,--output", arguments->output,
                    "File or folder to write, as the format has it; folders are made where they are missing")

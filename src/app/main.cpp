@@ -8,9 +8,9 @@
 
 #include "app/commands.h"
 #include "app/program_end.h"
+#include "app/program_help.h"
 #include "app/stop_signals.h"
 #include "core/errors.h"
-#include "core/version.h"
 #include "core/visible_text.h"
 #include "scenario/suggestion.h"
 
@@ -45,7 +45,7 @@ void refuse_empty_words(CLI::App& app) {
 }
 
 void run(int argc, char** argv, CLI::App& app) {
-  app.set_version_flag("--version", talus::version_text());
+  app.set_version_flag("--version", talus::version_report());
   app.require_subcommand(1);
   app.footer(
       "Exit codes: 0 done, 64 usage, 65 bad scenario, run or problem, 66 missing input,\n"
@@ -70,6 +70,7 @@ void run(int argc, char** argv, CLI::App& app) {
   talus::add_view_command(app);
   talus::add_replay_command(app);
   talus::add_repair_command(app);
+  talus::add_program_help_command(app);
   refuse_empty_words(app);
   if (argc > 1) refuse_unknown_command(app, argv[1]);
   app.parse(argc, argv);

@@ -192,6 +192,8 @@ void view(const ViewArguments& arguments) {
 
 }  // namespace
 
+const bool has_window = true;
+
 void add_view_command(CLI::App& app) {
   auto arguments = std::make_shared<ViewArguments>();
   auto seed = std::make_shared<std::string>();

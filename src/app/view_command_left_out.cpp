@@ -5,6 +5,8 @@
 
 namespace talus {
 
+const bool has_window = false;
+
 void add_view_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("view", "Show a run in a window (left out of this build)");
   command->allow_extras();

@@ -11,13 +11,13 @@ TEST(CommandLine, help_names_every_subcommand) {
   const TemporaryFolder folder;
   const Outcome outcome = run_talus({"--help"}, folder.path());
   EXPECT_EQ(outcome.exit_code, 0);
-  for (const char* command : {"run", "check", "info", "render", "animate", "panel", "study"})
+  for (const char* command : {"run", "check", "info", "render", "animate", "panel", "study", "export"})
     EXPECT_NE(outcome.out.find(std::string("\n  ") + command), std::string::npos) << command;
 }
 
 TEST(CommandLine, help_of_each_subcommand_ends_well) {
   const TemporaryFolder folder;
-  for (const char* command : {"run", "check", "info", "render", "animate", "panel", "study"})
+  for (const char* command : {"run", "check", "info", "render", "animate", "panel", "study", "export"})
     EXPECT_EQ(run_talus({command, "--help"}, folder.path()).exit_code, 0) << command;
 }
 
@@ -26,6 +26,9 @@ TEST(CommandLine, version_is_told) {
   const Outcome outcome = run_talus({"--version"}, folder.path());
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_EQ(outcome.out.rfind("talus ", 0), 0u);
+  for (const char* part : {"\ncompiler      ", "\nwindow        ", "\nrun files     schema version 4\n",
+                           "\nanalyses      version "})
+    EXPECT_NE(outcome.out.find(part), std::string::npos) << outcome.out;
 }
 
 TEST(CommandLine, wrong_usage_leaves_with_64) {
