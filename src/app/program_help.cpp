@@ -49,7 +49,9 @@ void add_program_help_command(CLI::App& app) {
     const CommandPage program = command_tree(app, app.get_name());
     for (const auto& [name, text] : man_pages(program)) write_below(*folder, "man/man1/" + name, text);
     write_below(*folder, "bash-completion/completions/talus", bash_completion(program));
-    write_below(*folder, "zsh/vendor-completions/_talus", zsh_completion(program));
+    // Debian's zsh looks into the one below /usr, and into the other below /usr/local.
+    for (const char* place : {"zsh/vendor-completions/_talus", "zsh/site-functions/_talus"})
+      write_below(*folder, place, zsh_completion(program));
     write_below(*folder, "fish/vendor_completions.d/talus.fish", fish_completion(program));
   });
 }

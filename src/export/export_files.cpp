@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 #include <functional>
 #include <span>
+#include <string_view>
 
 #include "core/errors.h"
 #include "core/output_file.h"
@@ -41,7 +42,7 @@ void for_each_frame(const RunFile& run, const ExportPlan& plan, const Watch& wat
   }
 }
 
-void write(OutputFile& file, const std::string& text) { file.write(std::as_bytes(std::span(text))); }
+void write(OutputFile& file, std::string_view text) { file.write(std::as_bytes(std::span(text))); }
 
 /// The .pvd are written last: they name files that are there.
 void export_paraview(const RunFile& run, const ExportPlan& plan, const Watch& watch) {
@@ -57,11 +58,12 @@ void export_paraview(const RunFile& run, const ExportPlan& plan, const Watch& wa
   write_text(path_in(plan, "contacts.pvd"), pvd_text(contacts));
 }
 
-/// All frames one after the other in one file.
-void export_series(const RunFile& run, const ExportPlan& plan, const Watch& watch,
+/// All frames one after the other in one file, below a head.
+void export_series(const RunFile& run, const ExportPlan& plan, const Watch& watch, std::string_view head,
                    std::string (*text_of)(const ExportedFrame&)) {
   prepare_folder_of(plan.output);
   OutputFile file(plan.output);
+  write(file, head);
   for_each_frame(run, plan, watch, [&](const ExportedFrame& frame) { write(file, text_of(frame)); });
   file.commit();
 }
@@ -157,10 +159,10 @@ std::size_t export_files(const RunFile& run, const ExportPlan& plan, const Watch
       export_paraview(run, plan, watch);
       break;
     case ExportFormat::xyz:
-      export_series(run, plan, watch, xyz_text);
+      export_series(run, plan, watch, "", xyz_text);
       break;
     case ExportFormat::lammps:
-      export_series(run, plan, watch, lammps_dump_text);
+      export_series(run, plan, watch, lammps_dump_head, lammps_dump_text);
       break;
     case ExportFormat::graphml:
       export_networks(run, plan, watch);

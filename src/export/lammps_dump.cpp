@@ -35,7 +35,7 @@ void append_centre(std::string& text, const Frame& frame, std::size_t i) {
 std::string head(const ExportedFrame& of, std::span<const FieldColumn> columns) {
   const BedBounds bounds = bed_bounds(of);
   return fmt::format(
-      "ITEM: UNITS\nsi\nITEM: TIME\n{}\nITEM: TIMESTEP\n{}\nITEM: NUMBER OF ATOMS\n{}\n"
+      "ITEM: TIME\n{}\nITEM: TIMESTEP\n{}\nITEM: NUMBER OF ATOMS\n{}\n"
       "ITEM: BOX BOUNDS {} ff ff\n{} {}\n{} {}\n{} {}\nITEM: ATOMS {} x y {}\n",
       of.frame.time, of.frame.step, of.frame.grain_count(), of.run.statics.periodic ? "pp" : "ff",
       bounds.x_low, bounds.x_high, bounds.y_low, bounds.y_high, bounds.z_low, bounds.z_high,

@@ -18,7 +18,7 @@ class CommandTree : public testing::Test {
     go->add_option("-n,--number", number_, ".5 times: as often")->capture_default_str();
     go->add_option("--to", text_, "Where to")->required()->check(CLI::IsMember({"north", "south"}));
     go->add_option("WHERE", text_, "The place")->required();
-    go->add_option_group("how")->add_option("--by", text_, "By what");
+    go->add_option_group("how")->add_option("--by", text_, "By what:who]");
     go->add_subcommand("near", "Not far");
     app_.add_subcommand("hidden", "Nobody sees this")->group("");
     tree_ = command_tree(app_, "tool");
@@ -71,6 +71,8 @@ TEST_F(CommandTree, is_quoted_in_completions_as_shells_want_it) {
             std::string::npos)
       << bash_completion(tree_);
   EXPECT_NE(zsh_completion(tree_).find("'--to[Where to]:TEXT:(north south)'"), std::string::npos);
+  EXPECT_NE(zsh_completion(tree_).find("'--by[By what\\:who\\]]:TEXT:_files'"), std::string::npos)
+      << zsh_completion(tree_);
   EXPECT_NE(fish_completion(tree_).find("-l to -x -a 'north south' -d 'Where to'"), std::string::npos);
   EXPECT_EQ(first_clause("Go there: 'at once'"), "Go there");
   EXPECT_EQ(first_clause("In haste [not]"), "In haste");

@@ -65,10 +65,8 @@ TEST(Xyz, has_a_box_and_lengths_in_mean_diameters) {
 TEST(LammpsDump, has_the_items_of_a_frame) {
   const ExportedRun run = example_run();
   const std::vector<std::string> lines = lines_of(lammps_dump_text(example_frame(run)));
-  ASSERT_EQ(lines.size(), 16U);
-  const std::vector<std::string> head = {"ITEM: UNITS",
-                                         "si",
-                                         "ITEM: TIME",
+  ASSERT_EQ(lines.size(), 14U);
+  const std::vector<std::string> head = {"ITEM: TIME",
                                          "0.1",
                                          "ITEM: TIMESTEP",
                                          "1200",
@@ -76,15 +74,15 @@ TEST(LammpsDump, has_the_items_of_a_frame) {
                                          "3",
                                          "ITEM: BOX BOUNDS pp ff ff",
                                          "0 1"};
-  EXPECT_EQ(std::vector(lines.begin(), lines.begin() + 10), head);
-  EXPECT_EQ(lines[11], "-0.0625 0.0625");
-  EXPECT_EQ(lines[12].find(
+  EXPECT_EQ(std::vector(lines.begin(), lines.begin() + 8), head);
+  EXPECT_EQ(lines[9], "-0.0625 0.0625");
+  EXPECT_EQ(lines[10].find(
                 "ITEM: ATOMS id type x y radius mass ix iy vx vy angle omegaz displacementx displacementy "
                 "internal_moment_xx "),
             0U)
-      << lines[12];
-  EXPECT_EQ(lines[13].find("0 1 0.9375 0.1875 0.05 1 -1 0 0.5 -1 0 2 -"), 0U) << lines[13];
-  EXPECT_EQ(lines[14].substr(lines[14].size() - 6), " -1 -1");
+      << lines[10];
+  EXPECT_EQ(lines[11].find("0 1 0.9375 0.1875 0.05 1 -1 0 0.5 -1 0 2 -"), 0U) << lines[11];
+  EXPECT_EQ(lines[12].substr(lines[12].size() - 6), " -1 -1");
 }
 
 TEST(Graphml, has_nodes_for_grains_and_for_planes_that_something_touches) {
