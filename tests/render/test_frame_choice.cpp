@@ -56,6 +56,24 @@ TEST(FrameChoice, RefusesWhatIsNotThere) {
     EXPECT_EQ(code(entry, nan), ExitCode::usage);
 }
 
+TEST(FrameChoice, TakesFramesByTheirNumbers) {
+  EXPECT_EQ(frames_listed({"7", "2-4", "3"}, 8), (FrameChoice{2, 3, 4, 7}));
+  EXPECT_EQ(frames_listed({"0"}, 1), FrameChoice{0});
+  for (const char* entry : {"", "-1", "1-", "4-2", "1.5", "1-2-3", " 1", "a", "99999999999999999999"}) try {
+      frames_listed({entry}, 8);
+      ADD_FAILURE() << entry;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::usage) << entry;
+    }
+  try {
+    frames_listed({"6-8"}, 8);
+    ADD_FAILURE() << "there is no frame 8";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::bad_data);
+    EXPECT_STREQ(error.what(), "--frames 6-8: the run has 8 frames, 0 to 7; there is no frame 8");
+  }
+}
+
 TEST(FrameChoice, ReposeIsTheLastFrameNotAboveThetaC) {
   EXPECT_EQ(frame_at_repose(run_tilts(), radians(17.0)), 68u);
   EXPECT_EQ(frame_at_repose(run_tilts(), radians(17.24)), 68u);
