@@ -52,7 +52,8 @@ class Member:
     units: dict[str, str] = field(default_factory=dict)  #: of the numbers: "deg", "D", "1", ...
 
     def open(self, units: Units = "SI") -> Run:
-        """The run, as talus.open gives it."""
+        """The run, as talus.open gives it. Throws Error where it is not there: before it has begun, or where the
+        ensemble does not keep it."""
         return open_run(self.path, units)
 
 
@@ -90,6 +91,7 @@ class Ensemble:
         self.folder = folder
         self.version = ""  #: of the Talus that began it
         self.until = ""  #: the precision that was asked for; empty: none
+        self.keep = "all"  #: which runs stay: "all", "analysis" (none of them), or those of so many seeds, the lowest
         self.seeds: list[int] = []
         self.variants: list[str] = []  #: names, as "contact.friction=0.3"; [""] where nothing varies
         self._read_manifest()
@@ -112,6 +114,8 @@ class Ensemble:
                     self.version = rest
                 if kind == "until":
                     self.until = rest
+                if kind == "keep":
+                    self.keep = rest
                 if kind == "seeds":
                     self.seeds = parse_seeds(rest)
                 if kind == "variant":

@@ -6,7 +6,7 @@ import shutil
 
 import numpy as np
 import pytest
-from conftest import json_of, run_talus
+from conftest import BED, json_of, run_talus
 
 import talus
 
@@ -130,3 +130,15 @@ def test_damaged_numbers(folder_of, tmp_path):
     (copy / VARIANTS[1] / "seed-2.csv").write_text("quantity,unit,value\nstate_hash,,0\n")
     with pytest.raises(talus.Error, match="seed-2.csv: is not what talus wrote"):
         talus.open_ensemble(copy)
+
+
+def test_members_whose_runs_were_not_kept_have_their_numbers(tmp_path):
+    (tmp_path / "bed.toml").write_text(BED)
+    run_talus("ensemble", "bed.toml", "--seeds", "1-2", "--keep", "1", "-o", "e", folder=tmp_path)
+    kept = talus.open_ensemble(tmp_path / "e")
+    assert kept.keep == "1" and len(kept.done()) == 2
+    with kept.done()[0].open() as run:
+        assert len(run.tilt) > 1
+    with pytest.raises(talus.Error, match="seed-2.h5: no such run"):
+        kept.done()[1].open()
+    assert kept.mean("theta_c").count == 2

@@ -111,6 +111,13 @@ TEST(ReadAverages, refuses_other_files) {
                     {"/variants/0", "state_hash", {"a", "b"}, true}});
   EXPECT_EQ(test::exit_code_of([&] { read_averages(folder.path("short.h5")); }), ExitCode::bad_data)
       << "a member without its number";
+  write_plain_file(folder.path("whole.h5"),
+                   {{"/variants/0/seed", {2}, "1", "", {}, {1, 2}},
+                    {"/variants/0/state_hash", {2}, "1", "", {}, {1, 2}},
+                    {"/variants/0/numbers/theta_c/values", {2, 1}, "deg", "", {}, {19, 20}}},
+                   {{"/variants/0", "name", {""}, false}, {"/variants/0", "scenario", {""}, false}});
+  EXPECT_EQ(test::exit_code_of([&] { read_averages(folder.path("whole.h5")); }), ExitCode::bad_data)
+      << "numbers of another kind";
 }
 
 TEST(AnalysisOf, a_member_has_all_single_numbers_of_the_analysis_that_it_comes_from) {
