@@ -1,13 +1,12 @@
 #include "app/ensemble_averages.h"
 
 #include <filesystem>
-#include <fmt/core.h>
 
 #include "app/analysed_run.h"
 #include "core/descriptor.h"
-#include "core/errors.h"
 #include "core/locked_file.h"
 #include "ensemble/averages_file.h"
+#include "ensemble/kept_runs.h"
 #include "ensemble/member_series.h"
 #include "io/durable_file.h"
 #include "io/run_store.h"
@@ -22,12 +21,7 @@ namespace {
 MemberSeries series_of_member(const Member& member) {
   const std::string path = series_path(member.path);
   if (std::filesystem::exists(path)) return parse_series(read_text(path), path);
-  if (run_presence(member.path) == RunPresence::none)
-    throw Error(
-        ExitCode::missing_input,
-        fmt::format("{} is not there, nor the run that it could be made from; remove {}, and the next worker "
-                    "computes the member again",
-                    path, numbers_path(member.path)));
+  if (run_presence(member.path) == RunPresence::none) refuse_missing_series(member);
   const AnalysedRun analysed =
       analysed_run(member.path, parse_analysis_settings({}), {.threads = 1, .quiet = true});
   MemberSeries series = member_series(analysed.analysis, analysed.statics.mean_diameter);

@@ -9,6 +9,7 @@
 #include "core/visible_text.h"
 #include "ensemble/averages_reader.h"
 #include "ensemble/ensemble_manifest.h"
+#include "ensemble/kept_runs.h"
 #include "ensemble/member_state.h"
 #include "io/durable_file.h"
 #include "io/run_store.h"
@@ -54,6 +55,7 @@ void refuse_settings(const Reading& reading, const std::string& path) {
 void add_tables(Reading& reading, const Member& member, const Variant& variant) {
   const std::string numbers = numbers_path(member.path), series = series_path(member.path);
   refuse_settings(reading, numbers);
+  if (!fs::exists(series)) refuse_missing_series(member);
   reading.input.runs.push_back(run_of_values(
       numbers,
       {member.seed, parse_numbers(read_text(numbers), numbers), parse_series(read_text(series), series)},

@@ -44,6 +44,14 @@ void drop_run(const Member& member) {
   remove_file(member.path);
 }
 
+void refuse_missing_series(const Member& member) {
+  throw Error(
+      ExitCode::missing_input,
+      fmt::format("{} is not there, nor the run that it could be made from; remove {}, and the next worker "
+                  "computes the member again",
+                  series_path(member.path), numbers_path(member.path)));
+}
+
 std::size_t drop_runs(const EnsembleManifest& manifest, const EnsemblePlan& plan) {
   if (!number_kept(manifest.keep)) return 0;
   const std::vector<MemberState> states = look_at_members(plan);

@@ -22,6 +22,9 @@ bool keeps_run(const EnsembleManifest& manifest, std::uint64_t seed);
 /// Removes the run of a member that is done, with a folder that a kill has left of it.
 void drop_run(const Member& member);
 
+/// Throws Error(missing_input): the run of a member that is done is gone, and its series as well.
+[[noreturn]] void refuse_missing_series(const Member& member);
+
 /// Removes the runs of all members that are done and do not keep theirs: what is left where a worker was
 /// killed after it had written the tables of a member, and what was done before the ensemble was told to keep
 /// less. A run whose tables are not both there stays. Returns how many were removed.

@@ -206,6 +206,9 @@ TEST(Ensemble, that_keeps_less_goes_on_from_what_is_there) {
   EXPECT_NE(lost.err.find("remove e/seed-2.csv, and the next worker computes the member again"),
             std::string::npos)
       << lost.err;
+  const Outcome figures = run_talus({"figures", "e", "-o", "f"}, folder.path());
+  EXPECT_EQ(figures.exit_code, 66);
+  EXPECT_NE(figures.err.find("remove e/seed-2.csv, and the next worker"), std::string::npos) << figures.err;
   std::filesystem::remove(folder.path("e/seed-2.csv"));
   EXPECT_EQ(run_talus({"ensemble", "work", "e"}, folder.path()).exit_code, 0);
   EXPECT_TRUE(std::filesystem::exists(folder.path("e/seed-2.series.csv")) && !has_run(2));
