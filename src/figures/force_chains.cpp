@@ -13,8 +13,8 @@ namespace talus {
 namespace {
 
 // cm, in a figure 17.8 cm wide: below the map.
-constexpr double figure_width = 17.8;
-constexpr double legend_height = 1.3;
+constexpr double page_width = 17.8;
+constexpr double room_for_legend = 1.3;
 constexpr double curves_height = 5.6;
 
 double rounded(double value) { return std::round(1e4 * value) / 1e4; }
@@ -113,7 +113,7 @@ std::optional<Figure> force_chains(std::span<const RunGroup> groups) {
       frame_text(*failed, frame));
   figure.runs = {run.path};
   figure.height_over_width =
-      add_contact_map(figure, {frame, run.file->header().statics}) + legend_height / figure_width;
+      add_contact_map(figure, {frame, run.file->header().statics}) + room_for_legend / page_width;
   set_variable(figure, "tilt", frame.tilt);
   return figure;
 }
@@ -137,9 +137,9 @@ std::optional<Figure> critical_contacts_figure(std::span<const RunGroup> groups)
     figure.caption +=
         fmt::format(" (a) Black: critical contacts, gray: the others; {}.", frame_text(*mapped, frame));
     figure.height_over_width =
-        add_contact_map(figure, {frame, run.file->header().statics}) + curves_height / figure_width;
+        add_contact_map(figure, {frame, run.file->header().statics}) + curves_height / page_width;
   } else {
-    figure.height_over_width = (curves_height - 0.6) / figure_width;
+    figure.height_over_width = (curves_height - 0.6) / page_width;
     set_variable(figure, "map_height", 0.0);
   }
   figure.caption += fmt::format(

@@ -15,7 +15,7 @@
 namespace talus {
 namespace {
 
-constexpr double angles[] = {0.0, 15.0};  // deg
+constexpr double tilts_compared[] = {0.0, 15.0};  // deg
 
 /// Diameters, D: the grain alone, then from the first neighbours on; not above `largest`.
 std::vector<double> scales_up_to(double largest) {
@@ -66,7 +66,7 @@ std::vector<Column> scale_columns(const RunChoice& runs) {
                      {"p_o_" + name, "1", fmt::format("{}, {}", meaning, runs_text(at.runs.size())), {}}))
       columns.push_back(std::move(column));
   };
-  for (const double angle : angles)
+  for (const double angle : tilts_compared)
     add(frames_at_angle(runs, radians(angle)), short_text(angle),
         fmt::format("at {} deg", short_text(angle)));
   FramesAtAngle failure{runs, {}};
@@ -95,7 +95,7 @@ std::optional<Figure> overload_scale_figure(std::span<const RunGroup> groups) {
   }
   if (figure.tables.empty()) return std::nullopt;
   figure.height_over_width = 0.7 * static_cast<double>(figure.groups);
-  set_key(figure, std::size(angles) + 1, 16);
+  set_key(figure, std::size(tilts_compared) + 1, 16);
   return figure;
 }
 
