@@ -9,7 +9,7 @@ namespace talus::test {
 namespace {
 
 const char* const bed =
-    "seed = 2\n[bed]\nlength = 12\ndepth = 5\n[tilt]\nend_angle = 1.0\n[output]\nframe_every = 0.5\n";
+    "seed = 5\n[bed]\nlength = 12\ndepth = 5\n[tilt]\nend_angle = 1.0\n[output]\nframe_every = 0.5\n";
 
 int count_of(const std::string& text, const std::string& part) {
   int count = 0;

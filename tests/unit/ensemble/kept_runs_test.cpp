@@ -17,7 +17,11 @@ namespace {
 namespace fs = std::filesystem;
 
 EnsembleManifest manifest_with(const std::string& keep) {
-  return {"", {3, 5, 8}, "", {{"", "", {}, {}}}, keep};
+  EnsembleManifest manifest;
+  manifest.seeds = {3, 5, 8};
+  manifest.variants = {{"", "", {}}};
+  manifest.keep = keep;
+  return manifest;
 }
 
 TEST(KeptRuns, are_all_none_or_those_of_the_lowest_seeds) {
