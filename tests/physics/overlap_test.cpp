@@ -34,8 +34,8 @@ struct LongRun {
   double bound = 0.0;
 };
 
-/// A heap of 14 grains between walls, at rest, then rocked to and fro by 3 degrees for 100 000 steps. Overlaps
-/// that the fall of the grains has left, by residuals that are not looked at, are gone by then.
+/// A heap of 14 grains between walls, at rest, then rocked to and fro by 3 degrees for 100 000 steps.
+/// Overlaps that the fall of the grains has left, by residuals that are not looked at, are gone by then.
 LongRun rock_a_heap(double tolerance, double allowed_overlap) {
   StepSettings settings = test::bed_step(tolerance);
   settings.law.allowed_overlap = allowed_overlap;
