@@ -115,9 +115,8 @@ std::vector<Point> points_of(const StoredVariant& variant, std::size_t m, double
     add_points(points, variant.before_failure, m, variant.angles_left.size(), true,
                [&](std::size_t k) { return theta_c - variant.angles_left[k]; });
   std::ranges::stable_sort(points, {}, &Point::theta);
-  const auto twice = std::ranges::unique(
-      points, [](double left, double right) { return right - left < same_tilt; }, &Point::theta);
-  points.erase(twice.begin(), twice.end());
+  const auto same = [](const Point& left, const Point& right) { return right.theta - left.theta < same_tilt; };
+  points.erase(std::unique(points.begin(), points.end(), same), points.end());
   return points;
 }
 
