@@ -115,7 +115,9 @@ std::vector<Point> points_of(const StoredVariant& variant, std::size_t m, double
     add_points(points, variant.before_failure, m, variant.angles_left.size(), true,
                [&](std::size_t k) { return theta_c - variant.angles_left[k]; });
   std::ranges::stable_sort(points, {}, &Point::theta);
-  const auto same = [](const Point& left, const Point& right) { return right.theta - left.theta < same_tilt; };
+  const auto same = [](const Point& left, const Point& right) {
+    return right.theta - left.theta < same_tilt;
+  };
   points.erase(std::unique(points.begin(), points.end(), same), points.end());
   return points;
 }
