@@ -2,14 +2,9 @@
 include(CheckCXXSourceCompiles)
 add_library(talus_options INTERFACE)
 target_compile_options(talus_options INTERFACE
-  -Wall -Wextra -Wpedantic -Wnon-virtual-dtor -Woverloaded-virtual
+  -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual
   # Same bits for every compiler and optimisation level: no fused multiply-add behind our back.
   -ffp-contract=off)
-# Several sources in one translation unit (the builds with sanitizers) may name a parameter as another source names a
-# constant of its own.
-if(NOT CMAKE_UNITY_BUILD)
-  target_compile_options(talus_options INTERFACE -Wshadow)
-endif()
 string(TOUPPER "${CMAKE_BUILD_TYPE}" build_type)
 # With a sanitizer gcc warns of faults that are none, as its manual says (array-bounds within std::string, by the length of
 # the path of the sources): there a warning is only that.

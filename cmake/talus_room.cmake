@@ -17,7 +17,6 @@ function(talus_test name label)
   add_executable(${name} ${TEST_UNPARSED_ARGUMENTS})
   target_link_libraries(${name} PRIVATE ${TEST_LINK} talus_test_options GTest::gtest_main)
   target_precompile_headers(${name} REUSE_FROM talus_test_headers)
-  set_target_properties(${name} PROPERTIES UNITY_BUILD OFF) # tests may use names that others use
   # Sources of the program that a test compiles too: clang-tidy reads them, and knows no precompiled headers of gcc.
   foreach(source ${TEST_UNPARSED_ARGUMENTS})
     if(source MATCHES "/src/")

@@ -85,7 +85,7 @@ std::string take_texts(OpenPlainFile& open, hid_t object, const std::string& ite
 
 /// Whether an array has the values that were hashed when it was written; one without a hash is not asked.
 template <typename T>
-bool is_as_written(hid_t set, const std::string& item, const std::vector<T>& values) {
+bool has_its_hash(hid_t set, const std::string& item, const std::vector<T>& values) {
   if (H5Aexists(set, hdf5::hash_attribute) <= 0) return true;
   const Handle attribute(H5Aopen(set, hdf5::hash_attribute, H5P_DEFAULT), H5Aclose);
   const Handle space(H5Aget_space(attribute.get()), H5Sclose);
@@ -100,7 +100,7 @@ std::vector<T> numbers_of(const OpenPlainFile& open, hid_t set, const std::strin
   std::vector<T> values(count);
   if (count > 0 && H5Dread(set, hdf5::memory_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
     refuse(open.path, item, "cannot be read");
-  if (!is_as_written(set, item, values)) refuse(open.path, item, "was changed since talus wrote it");
+  if (!has_its_hash(set, item, values)) refuse(open.path, item, "was changed since talus wrote it");
   return values;
 }
 
