@@ -1,7 +1,6 @@
 #include "export/csv.h"
 
 #include <fmt/core.h>
-#include <iterator>
 #include <string_view>
 #include <vector>
 
@@ -47,7 +46,7 @@ CsvRows grains_csv(const ExportedFrame& of) {
              after = std::span(all).subspan(columns_before_centre);
   CsvRows csv = {fmt::format("frame{},x (m),y (m){}\n", heads_of(before), heads_of(after)), ""};
   for (std::size_t i = 0; i < of.frame.x.size(); ++i) {
-    fmt::format_to(std::back_inserter(csv.rows), "{}", of.number);
+    csv.rows += fmt::format("{}", of.number);
     append_columns(csv.rows, before, i);
     for (const double coordinate : {of.frame.x[i], of.frame.y[i]}) {
       csv.rows += ',';
@@ -63,7 +62,7 @@ CsvRows contacts_csv(const ExportedFrame& of) {
   const std::vector<FieldColumn> columns = contact_columns(of);
   CsvRows csv = {fmt::format("frame{}\n", heads_of(columns)), ""};
   for (std::size_t c = 0; c < of.frame.contacts.a.size(); ++c) {
-    fmt::format_to(std::back_inserter(csv.rows), "{}", of.number);
+    csv.rows += fmt::format("{}", of.number);
     append_columns(csv.rows, columns, c);
     csv.rows += '\n';
   }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <fmt/core.h>
-#include <iterator>
 #include <set>
 #include <string_view>
 #include <vector>
@@ -45,7 +44,7 @@ std::string keys_text(std::string_view owner, const std::vector<FieldColumn>& co
 }
 
 void append_datum(std::string& text, std::string_view key, double value, FieldNumber number) {
-  fmt::format_to(std::back_inserter(text), "<data key=\"{}\">", key);
+  text += fmt::format("<data key=\"{}\">", key);
   append_number(text, value, number, "NaN");
   text += "</data>";
 }
@@ -75,8 +74,8 @@ void append_row(std::string& text, const std::vector<KeyedColumn>& columns, std:
 void append_grains(std::string& text, const ExportedFrame& of, const std::vector<FieldColumn>& columns) {
   const std::vector<KeyedColumn> keys = keyed("node", columns);
   for (std::size_t i = 0; i < of.frame.x.size(); ++i) {
-    fmt::format_to(std::back_inserter(text), "<node id=\"{}\"><data key=\"node.kind\">{}</data>", i,
-                   i < static_cast<std::size_t>(of.run.statics.free_count) ? "free" : "floor");
+    text += fmt::format("<node id=\"{}\"><data key=\"node.kind\">{}</data>", i,
+                        i < static_cast<std::size_t>(of.run.statics.free_count) ? "free" : "floor");
     append_datum(text, "node.x", of.frame.x[i], FieldNumber::single);
     append_datum(text, "node.y", of.frame.y[i], FieldNumber::single);
     append_row(text, keys, i);
@@ -89,15 +88,14 @@ void append_planes(std::string& text, const ExportedFrame& of) {
   for (const Index b : of.frame.contacts.b)
     if (b >= of.frame.grain_count()) planes.insert(b);
   for (const Index plane : planes)
-    fmt::format_to(std::back_inserter(text), "<node id=\"{}\"><data key=\"node.kind\">plane</data></node>\n",
-                   plane);
+    text += fmt::format("<node id=\"{}\"><data key=\"node.kind\">plane</data></node>\n", plane);
 }
 
 void append_contacts(std::string& text, const ExportedFrame& of, const std::vector<FieldColumn>& columns) {
   const std::vector<KeyedColumn> keys = keyed("edge", columns);
   for (std::size_t c = 0; c < of.frame.contacts.a.size(); ++c) {
-    fmt::format_to(std::back_inserter(text), "<edge id=\"{}\" source=\"{}\" target=\"{}\">", c,
-                   of.frame.contacts.a[c], of.frame.contacts.b[c]);
+    text += fmt::format("<edge id=\"{}\" source=\"{}\" target=\"{}\">", c, of.frame.contacts.a[c],
+                        of.frame.contacts.b[c]);
     append_row(text, keys, c);
     text += "</edge>\n";
   }

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <cstdint>
 #include <fmt/core.h>
-#include <iterator>
 
 namespace talus {
 
@@ -11,11 +10,11 @@ void append_number(std::string& text, double value, FieldNumber number, std::str
   if (std::isnan(value))
     text += nan;
   else if (number == FieldNumber::integer)
-    fmt::format_to(std::back_inserter(text), "{}", static_cast<std::int64_t>(value));
+    text += fmt::format("{}", static_cast<std::int64_t>(value));
   else if (number == FieldNumber::single)
-    fmt::format_to(std::back_inserter(text), "{}", static_cast<float>(value));
+    text += fmt::format("{}", static_cast<float>(value));
   else
-    fmt::format_to(std::back_inserter(text), "{}", value);
+    text += fmt::format("{}", value);
 }
 
 }  // namespace talus

@@ -1,7 +1,6 @@
 #include "export/xyz.h"
 
 #include <fmt/core.h>
-#include <iterator>
 #include <vector>
 
 #include "export/bounds.h"
@@ -59,7 +58,7 @@ std::string xyz_text(const ExportedFrame& of) {
   const std::vector<FieldColumn> columns = grain_columns(of);
   std::string text = fmt::format("{}\n{}", of.frame.grain_count(), box_line(of, columns));
   for (std::size_t i = 0; i < of.frame.x.size(); ++i) {
-    fmt::format_to(std::back_inserter(text), "X {} {} 0", of.frame.x[i] / d, of.frame.y[i] / d);
+    text += fmt::format("X {} {} 0", of.frame.x[i] / d, of.frame.y[i] / d);
     for (const FieldColumn& column : columns) append_column(text, column, i, d);
     text += '\n';
   }
