@@ -4,6 +4,9 @@ function(talus_room name)
   cmake_parse_arguments(ROOM "" "" "LINK" ${ARGN})
   add_library(talus_${name} STATIC ${ROOM_UNPARSED_ARGUMENTS})
   target_link_libraries(talus_${name} PUBLIC talus_options ${ROOM_LINK})
+  if(TARGET talus_headers)
+    target_precompile_headers(talus_${name} REUSE_FROM talus_headers)
+  endif()
 endfunction()
 
 # talus_test(NAME LABEL sources... [SHARED_BED] [TIMEOUT s] [LINK libraries...]): one GoogleTest program, its cases known

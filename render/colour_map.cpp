@@ -7,6 +7,8 @@
 #include <string>
 
 #include "core/errors.h"
+#include "core/nearest_word.h"
+#include "core/visible_text.h"
 #include "render/embedded.h"
 
 namespace talus {
@@ -107,7 +109,8 @@ ColourMap colour_map(std::string_view name) {
     if (known.name == name) return known.map;
     list += fmt::format("{}{}", list.empty() ? "" : ", ", known.name);
   }
-  throw Error(ExitCode::usage, fmt::format("no colour map \"{}\"; there are {}", name, list));
+  throw Error(ExitCode::usage, fmt::format("--colours {}: expected one of {}{}", visible_word(name), list,
+                                           did_you_mean(name, names_of(names))));
 }
 
 Colour colour_at(ColourMap map, double share) {

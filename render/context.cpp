@@ -4,6 +4,8 @@
 #include <string>
 
 #include "core/errors.h"
+#include "core/nearest_word.h"
+#include "core/visible_text.h"
 
 namespace talus {
 
@@ -13,7 +15,8 @@ std::optional<ContextKind> context_kind(std::string_view name) {
   if (name == "auto") return std::nullopt;
   for (const ContextKind kind : {ContextKind::osmesa, ContextKind::egl})
     if (name == context_name(kind)) return kind;
-  throw Error(ExitCode::usage, fmt::format("no rendering context \"{}\"; there are auto, osmesa, egl", name));
+  throw Error(ExitCode::usage, fmt::format("--context {}: expected auto, osmesa or egl{}", visible_word(name),
+                                           did_you_mean(name, {"auto", "osmesa", "egl"})));
 }
 
 std::unique_ptr<Context> make_context(std::optional<ContextKind> kind) {

@@ -1,5 +1,4 @@
 # A panel for each periodic bed.
-angles = "0 10 15"
 set xlabel "{/:Italic γ}"
 set ylabel "{/:Italic P}({/:Italic γ})"
 set xrange [0:1]
@@ -18,7 +17,9 @@ do for [g = 1:groups] {
     set label f name at threshold, graph 0.93 offset character 0.4, 0
   }
   set label 3 label(g) at graph 0, graph 1 offset 0, character 0.6 font ",7"
-  plot for [a = 1:3] data(g) using "gamma":(column("density_" . word(angles, a))) with linespoints linetype a pointinterval 3 title "{/:Italic θ} = " . word(angles, a) . "°"
+  bands = value(sprintf("several_%d", g)) ? words(angles) : 0
+  plot for [a = 1:bands] data(g) using "gamma":(band_low("density_" . word(angles, a), "_error")):(band_high("density_" . word(angles, a), "_error")) with filledcurves linetype a fillstyle transparent solid 0.3 noborder notitle, \
+       for [a = 1:words(angles)] data(g) using "gamma":(column("density_" . word(angles, a))) with linespoints linetype a pointinterval 3 title "{/:Italic θ} = " . word(angles, a) . "°"
   unset key
 }
 unset multiplot

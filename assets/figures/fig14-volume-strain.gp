@@ -7,6 +7,7 @@ scale = 1000
 do for [row = 1:2] {
   eval panel(row, 3, 1, 1)
   ordinate = word("volume_strain centre_of_mass_strain", row)
+  set ytics value("step_" . ordinate)
   set ylabel "{/:Italic ε_" . "Vy"[row:row] . "}  (10^{−3})" offset 0.5, 0
   set label 1 sprintf("(%s)", "ab"[row:row]) at graph 0.03, graph 0.9
   plot @curves, 0 with lines linestyle 103 notitle

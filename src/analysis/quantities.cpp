@@ -52,6 +52,35 @@ void for_each_record(SomeAnalysis& analysis, const Use& use) {
     }
 }
 
+/// A value as the record has it: rounded where it counts something, and 0 where it is not known.
+template <typename Number>
+Number number_from(double value) {
+  if constexpr (std::is_same_v<Number, Index>)
+    return std::isnan(value) ? 0 : static_cast<Index>(std::lround(value));
+  else
+    return value;
+}
+
+/// The frame itself, or its record at threshold f; null where it has none.
+template <typename Record, typename SomeFrame>
+auto* record_of(SomeFrame& frame, std::size_t f) {
+  if constexpr (std::is_same_v<Record, FrameRecord>)
+    return &frame;
+  else
+    return f < frame.thresholds.size() ? &frame.thresholds[f] : nullptr;
+}
+
+template <typename T>
+inline constexpr bool is_fixed_list = false;
+template <typename T, std::size_t n>
+inline constexpr bool is_fixed_list<std::array<T, n>> = true;
+
+/// What is_list_of_frame asks; the vectors at thresholds are of grains.
+template <typename Record, typename T>
+inline constexpr bool is_list = (std::is_same_v<Record, FrameRecord> &&
+                                 (is_fixed_list<T> || std::is_same_v<T, std::vector<double>>)) ||
+                                (std::is_same_v<Record, FrameThreshold> && is_fixed_list<T>);
+
 }  // namespace
 
 const Quantity& quantity_of(const QuantityMember& member) {
@@ -105,12 +134,7 @@ double number_of(const Quantity& quantity, const FrameRecord& frame, std::size_t
 }
 
 void set_number(const Quantity& quantity, double value, FrameRecord& frame, std::size_t f) {
-  const auto set = [value](auto& number) {
-    if constexpr (std::is_same_v<std::remove_reference_t<decltype(number)>, Index>)
-      number = std::isnan(value) ? 0 : static_cast<Index>(std::lround(value));
-    else
-      number = value;
-  };
+  const auto set = [value]<typename Number>(Number& number) { number = number_from<Number>(value); };
   std::visit(
       [&]<typename Record, typename T>(T Record::*member) {
         if constexpr (std::is_arithmetic_v<T> && std::is_same_v<Record, FrameRecord>)
@@ -132,6 +156,43 @@ bool is_number_of_frame(const Quantity& quantity) {
       []<typename Record, typename T>(T Record::*) {
         return std::is_arithmetic_v<T> &&
                (std::is_same_v<Record, FrameRecord> || std::is_same_v<Record, FrameThreshold>);
+      },
+      quantity.member);
+}
+
+bool is_list_of_frame(const Quantity& quantity) {
+  return std::visit([]<typename Record, typename T>(T Record::*) { return is_list<Record, T>; },
+                    quantity.member);
+}
+
+bool is_list_of_run(const Quantity& quantity) {
+  return std::holds_alternative<std::vector<double> Analysis::*>(quantity.member);
+}
+
+std::vector<double> list_of(const Quantity& quantity, const FrameRecord& frame, std::size_t f) {
+  std::vector<double> list;
+  std::visit(
+      [&]<typename Record, typename T>(T Record::*member) {
+        if constexpr (is_list<Record, T>)
+          if (const Record* const record = record_of<Record>(frame, f))
+            list.assign((record->*member).begin(), (record->*member).end());
+      },
+      quantity.member);
+  return list;
+}
+
+void set_list(const Quantity& quantity, std::span<const double> values, FrameRecord& frame, std::size_t f) {
+  std::visit(
+      [&]<typename Record, typename T>(T Record::*member) {
+        if constexpr (is_list<Record, T>) {
+          if constexpr (is_fixed_list<T>)
+            if (values.size() != std::tuple_size_v<T>) return;
+          using Number = typename T::value_type;
+          std::vector<Number> numbers;
+          for (const double value : values) numbers.push_back(number_from<Number>(value));
+          if (Record* const record = record_of<Record>(frame, f))
+            assign(record->*member, std::span<const Number>(numbers));
+        }
       },
       quantity.member);
 }

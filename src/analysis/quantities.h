@@ -71,6 +71,19 @@ bool is_number_of_frame(const Quantity& quantity);
 /// Whether there is one number of it in a run, or one for each threshold or strain: no frames, bins or edges.
 bool is_number_of_run(const Quantity& quantity);
 
+/// Whether there is a short list of it in a frame, or one for each threshold of a frame: a distribution, a
+/// correlation, the components of a tensor; no grains. And whether it is such a list of a run: edges of bins.
+bool is_list_of_frame(const Quantity& quantity);
+bool is_list_of_run(const Quantity& quantity);
+
+/// The numbers of such a list of a frame, at threshold f where it depends on one; none for other quantities.
+std::vector<double> list_of(const Quantity& quantity, const FrameRecord& frame, std::size_t f = 0);
+
+/// Sets them, rounded where they count something; leaves a quantity that is no such list, and a list of fixed
+/// length where there are more or fewer values.
+void set_list(const Quantity& quantity, std::span<const double> values, FrameRecord& frame,
+              std::size_t f = 0);
+
 /// Element k of a quantity in doubles, among all its values; NaN where there are fewer.
 double number_of(const Quantity& quantity, const Analysis& analysis, std::size_t k);
 

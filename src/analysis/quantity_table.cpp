@@ -66,6 +66,12 @@ QuantityRows packing_rows() {
        ""},
       {&FrameRecord::solid_fraction, "packing/solid_fraction", "T", "1",
        "area of the free grains over V; from /observables", ""},
+      {&Analysis::failure_ratio, "packing/failure_ratio", "", "1",
+       "(sigma_T / sigma_N) / tan(theta), mean over the last 0.5 deg before theta_c: 1 for a periodic bed, "
+       "less between walls (paper, Eq. 15 and Fig. 7); from /observables; NaN if the slope has not failed",
+       ""},
+      {&Analysis::failure_ratio_spread, "packing/failure_ratio_spread", "", "1",
+       "its standard deviation in these 0.5 deg", ""},
       {&Analysis::section_edge, "sections/edge", "X+1", "m",
        "edges of equal sections along the bed; a grain belongs to the section of its centre", "sections"},
       {&FrameRecord::section_sigma_xx, "sections/sigma_xx", "T X", "Pa",

@@ -95,6 +95,8 @@ struct Analysis {
   double theta_c = not_known;
   double first_slide = not_known;
   double gamma_c = not_known;
+  double failure_ratio = not_known;
+  double failure_ratio_spread = not_known;
   double lc_cut = not_known;
   std::vector<double> section_edge{};
   std::vector<double> gamma_edge{};

@@ -5,6 +5,7 @@
 
 #include "app/analysis_report.h"
 #include "app/commands.h"
+#include "app/given_runs.h"
 #include "session/analysis_parameters.h"
 
 namespace talus {
@@ -19,9 +20,10 @@ struct AnalyzeArguments {
 
 void analyze(const AnalyzeArguments& arguments) {
   const AnalysisParameters parameters = parse_analysis_settings(arguments.settings);
+  const std::vector<std::string> runs = runs_among(arguments.runs);
   if (arguments.json) std::printf("[");
-  for (std::size_t r = 0; r < arguments.runs.size(); ++r) {
-    const AnalysedRun run = analysed_run(arguments.runs[r], parameters, arguments.options);
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    const AnalysedRun run = analysed_run(runs[r], parameters, arguments.options);
     if (arguments.json)
       std::printf("%s%s", r > 0 ? ",\n" : "", analysis_json(run).c_str());
     else
@@ -38,7 +40,7 @@ void add_analyze_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "analyze", "Analyse stresses, overloaded grains and contacts of runs, and store it in their files");
   command
-      ->add_option("runs", arguments->runs, "Run files; a run that is not complete is analysed, not stored")
+      ->add_option("RUNS", arguments->runs, "Run files; a run that is not complete is analysed, not stored")
       ->required();
   command
       ->add_option("--set", arguments->settings,

@@ -1,5 +1,5 @@
-/// `talus check`: whether a scenario can be run, what it says in full, and what it will take; whether what a
-/// run file holds is whole.
+/// `talus check`: whether a scenario can be run, what it says in full, and how long it will take; whether
+/// what a run file holds is whole.
 
 #include <cmath>
 #include <cstdio>
@@ -197,7 +197,7 @@ void add_check_command(CLI::App& app) {
                                          "Check a scenario, print it with every key, and estimate time, "
                                          "memory and disk; or check what a run file holds");
   command
-      ->add_option("scenario", arguments->scenario,
+      ->add_option("SCENARIO", arguments->scenario,
                    "Scenario file (TOML; see docs/scenario.md) or run file (RUN.h5)")
       ->required();
   command

@@ -57,7 +57,7 @@ CommandPage command_tree(const CLI::App& app, const std::string& name) {
 
 std::string first_clause(const std::string& description) {
   std::size_t end = description.size();
-  for (const char* stop : {". ", ": ", "; ", " ["}) end = std::min(end, description.find(stop));
+  for (const char* stop : {". ", ": ", "; ", " [", ".\n"}) end = std::min(end, description.find(stop));
   return description.substr(0, end);
 }
 

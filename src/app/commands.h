@@ -11,6 +11,7 @@ void add_check_command(CLI::App& app);
 void add_info_command(CLI::App& app);
 void add_analyze_command(CLI::App& app);
 void add_render_command(CLI::App& app);
+void add_maps_command(CLI::App& app);
 void add_animate_command(CLI::App& app);
 void add_panel_command(CLI::App& app);
 void add_export_command(CLI::App& app);

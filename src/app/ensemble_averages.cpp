@@ -2,11 +2,11 @@
 
 #include <filesystem>
 
-#include "app/analysed_run.h"
 #include "core/descriptor.h"
 #include "core/locked_file.h"
 #include "ensemble/averages_file.h"
 #include "ensemble/kept_runs.h"
+#include "ensemble/member_lists.h"
 #include "ensemble/member_series.h"
 #include "io/durable_file.h"
 #include "io/run_store.h"
@@ -16,29 +16,33 @@
 namespace talus {
 namespace {
 
-/// The series of a member that is done: read from the table beside its run, or made from the run and its
-/// analysis where there is none, and kept.
-MemberSeries series_of_member(const Member& member) {
-  const std::string path = series_path(member.path);
-  if (std::filesystem::exists(path)) return parse_series(read_text(path), path);
-  if (run_presence(member.path) == RunPresence::none) refuse_missing_series(member);
-  const AnalysedRun analysed =
-      analysed_run(member.path, parse_analysis_settings({}), {.threads = 1, .quiet = true});
-  MemberSeries series = member_series(analysed.analysis, analysed.statics.mean_diameter);
-  write_text(path, series_csv(series));
-  return series;
+/// Makes the tables of a member that is done from its run and analysis where one of them is not there, as
+/// of an ensemble of an earlier Talus. Without the run there may be no lists.
+void complete_tables(const Member& member) {
+  const bool series = std::filesystem::exists(series_path(member.path));
+  if (series && std::filesystem::exists(lists_path(member.path))) return;
+  if (run_presence(member.path) != RunPresence::none)
+    write_tables(member.path,
+                 analysed_run(member.path, parse_analysis_settings({}), {.threads = 1, .quiet = true}));
+  else if (!series)
+    refuse_missing_series(member);
 }
 
 NamedAverages averages_of_variant(const EnsembleView& view, std::size_t variant) {
+  const Variant& found = view.plan.variants[variant];
+  const double spacing = found.scenario.output.frame_every;
   std::vector<MemberResult> members;
+  ListAverages lists;
   for (std::size_t m = 0; m < view.plan.members.size(); ++m) {
     const Member& member = view.plan.members[m];
-    if (member.variant == variant && view.states[m].stage == MemberStage::done)
-      members.push_back({member.seed, view.numbers[m], series_of_member(member)});
+    if (member.variant != variant || view.states[m].stage != MemberStage::done) continue;
+    complete_tables(member);
+    const std::string series = series_path(member.path), file = lists_path(member.path);
+    members.push_back({member.seed, view.numbers[m], parse_series(read_text(series), series)});
+    if (std::filesystem::exists(file))
+      add_member(lists, read_lists(file), number_called(view.numbers[m], "theta_c"), spacing);
   }
-  const Variant& found = view.plan.variants[variant];
-  return {found.name, read_text(found.scenario_file),
-          averages_of(members, found.scenario.output.frame_every)};
+  return {found.name, read_text(found.scenario_file), averages_of(members, spacing), std::move(lists)};
 }
 
 void write_files(const std::filesystem::path& folder, const EnsembleView& view) {
@@ -51,6 +55,12 @@ void write_files(const std::filesystem::path& folder, const EnsembleView& view) 
 }
 
 }  // namespace
+
+void write_tables(const std::string& run, const AnalysedRun& analysed) {
+  const double mean_diameter = analysed.statics.mean_diameter;
+  write_lists(lists_path(run), member_lists(analysed.analysis, mean_diameter));
+  write_text(series_path(run), series_csv(member_series(analysed.analysis, mean_diameter)));
+}
 
 EnsembleView write_averages(const std::string& folder) {
   const std::filesystem::path place = folder;

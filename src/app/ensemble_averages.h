@@ -3,9 +3,14 @@
 
 #include <string>
 
+#include "app/analysed_run.h"
 #include "app/ensemble_report.h"
 
 namespace talus {
+
+/// Writes the tables of frames of a member beside its run: its series last, so that they are all there where
+/// it is.
+void write_tables(const std::string& run, const AnalysedRun& analysed);
 
 /// Writes members.csv, averages.csv and ensemble.h5 into the folder of an ensemble, of the members that are
 /// done by then, and returns how far it was; writes nothing where none is done. One process at a time does:

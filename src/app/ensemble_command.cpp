@@ -22,7 +22,6 @@
 #include "core/errors.h"
 #include "core/text.h"
 #include "ensemble/kept_runs.h"
-#include "ensemble/member_series.h"
 #include "ensemble/pool.h"
 #include "ensemble/reproduction_values.h"
 #include "ensemble/until.h"
@@ -100,8 +99,7 @@ void compute_member(const EnsembleArguments& arguments) {
   if (trials != nullptr) complete_trials(member->path, *trials);
   const AnalysedRun analysed =
       analysed_run(member->path, parse_analysis_settings({}), {.threads = 1, .quiet = true});
-  write_text(series_path(member->path),
-             series_csv(member_series(analysed.analysis, analysed.statics.mean_diameter)));
+  write_tables(member->path, analysed);
   if (std::holds_alternative<ReadingsTask>(manifest.task)) make_readings(*member);
   const MemberNumbers numbers = member_numbers(RunFile::open(member->path), analysed.analysis);
   write_text(numbers_path(member->path), numbers_csv(numbers));
@@ -145,7 +143,7 @@ void retry(const EnsembleArguments& arguments) {
 CLI::App* add_folder_command(CLI::App& ensemble, const std::shared_ptr<EnsembleArguments>& arguments,
                              const std::string& name, const std::string& text) {
   CLI::App* command = ensemble.add_subcommand(name, text);
-  command->add_option("folder", arguments->folder, "Folder of the ensemble")->required();
+  command->add_option("FOLDER", arguments->folder, "Folder of the ensemble")->required();
   return command;
 }
 
@@ -195,7 +193,7 @@ void add_ensemble_command(CLI::App& app) {
   auto arguments = std::make_shared<EnsembleArguments>();
   CLI::App* command = app.add_subcommand(
       "ensemble", "Compute many beds of one scenario, on one machine or many; the same command goes on");
-  command->add_option("scenario", arguments->scenario, "Scenario file (TOML; see docs/scenario.md)");
+  command->add_option("SCENARIO", arguments->scenario, "Scenario file (TOML; see docs/scenario.md)");
   command->add_option(
       "-o,--output", arguments->folder,
       "Folder of the ensemble; what is complete in it is kept, and seeds and values are added to it");

@@ -7,6 +7,7 @@
 #include <fmt/core.h>
 #include <memory>
 
+#include "app/choices.h"
 #include "app/ensemble_jobs.h"
 #include "app/ensemble_report.h"
 #include "app/program_output.h"
@@ -181,12 +182,12 @@ void add_submit(CLI::App& ensemble) {
   auto arguments = std::make_shared<SubmitArguments>();
   CLI::App* command =
       ensemble.add_subcommand("submit", "Let a cluster compute what is missing, by a job array of workers");
-  command->add_option("folder", arguments->folder, "Folder of the ensemble")->required();
+  command->add_option("FOLDER", arguments->folder, "Folder of the ensemble")->required();
   command
       ->add_option("--engine", arguments->engine,
                    "slurm, or print: writes the command of a worker on each line, for GNU parallel")
       ->capture_default_str()
-      ->check(CLI::IsMember({"slurm", "print"}));
+      ->check(one_of({"slurm", "print"}));
   command
       ->add_option("--tasks", arguments->tasks,
                    "Workers; without it as many as members are missing and not queued for, 100 at most")
@@ -211,10 +212,10 @@ void add_submit_commands(CLI::App& ensemble) {
   add_submit(ensemble);
   auto folder = std::make_shared<std::string>();
   CLI::App* command = ensemble.add_subcommand("cancel", "Cancel the jobs that were submitted");
-  command->add_option("folder", *folder, "Folder of the ensemble")->required();
+  command->add_option("FOLDER", *folder, "Folder of the ensemble")->required();
   command->callback([folder] { cancel(*folder); });
   command = ensemble.add_subcommand("requeue", "Queue a task of a job array again");
-  command->add_option("folder", *folder, "Folder of the ensemble")->required();
+  command->add_option("FOLDER", *folder, "Folder of the ensemble")->required();
   command->group("");  // what the script of a task calls
   command->callback([folder] { requeue(*folder); });
 }

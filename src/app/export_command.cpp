@@ -13,10 +13,10 @@
 #include "app/output_files.h"
 #include "app/stop_signals.h"
 #include "core/errors.h"
+#include "core/nearest_word.h"
 #include "core/text.h"
 #include "core/visible_text.h"
 #include "export/export_files.h"
-#include "scenario/suggestion.h"
 #include "session/analysis_parameters.h"
 
 namespace talus {
@@ -34,16 +34,10 @@ struct ExportArguments {
 
 ExportFormat format_of(const std::string& name) {
   if (const auto format = export_format(name)) return *format;
-  const auto distance = [&](const FormatEntry& entry) {
-    return edit_distance(name.substr(0, 60), entry.name);
-  };
-  const FormatEntry& nearest = *std::ranges::min_element(export_formats(), {}, distance);
-  const std::string names = joined(export_formats(), ", ", &FormatEntry::name);
-  throw Error(
-      ExitCode::usage,
-      distance(nearest) <= 2
-          ? fmt::format("--to {}: no such format; did you mean '{}'?", visible_word(name), nearest.name)
-          : fmt::format("--to {}: no such format; expected one of {}", visible_word(name), names));
+  throw Error(ExitCode::usage,
+              fmt::format("--to {}: no such format; expected one of {}{}", visible_word(name),
+                          joined(export_formats(), ", ", &FormatEntry::name),
+                          did_you_mean(name, names_of(export_formats()))));
 }
 
 /// Without a threshold no grain is overloaded, and none is not.

@@ -4,12 +4,14 @@
 #include <filesystem>
 #include <fmt/core.h>
 
+#include "app/given_runs.h"
 #include "app/output_files.h"
 #include "core/errors.h"
 #include "core/visible_text.h"
 #include "ensemble/averages_reader.h"
 #include "ensemble/ensemble_manifest.h"
 #include "ensemble/kept_runs.h"
+#include "ensemble/member_lists.h"
 #include "ensemble/member_state.h"
 #include "io/durable_file.h"
 #include "io/run_store.h"
@@ -61,6 +63,11 @@ void add_tables(Reading& reading, const Member& member, const Variant& variant) 
       {member.seed, parse_numbers(read_text(numbers), numbers), parse_series(read_text(series), series)},
       read_text(variant.scenario_file)));
   reading.input.files.insert(reading.input.files.end(), {numbers, series});
+  const std::string lists = lists_path(member.path);
+  if (!fs::exists(lists)) return;
+  FigureRun& run = reading.input.runs.back();
+  set_lists(read_lists(lists), run.mean_diameter, run.analysis);
+  reading.input.files.push_back(lists);
 }
 
 void add_ensemble(Reading& reading, const std::string& folder) {
@@ -105,7 +112,7 @@ std::vector<FigureRun> open_figure_runs(const std::vector<std::string>& paths,
 FigureInput read_figure_input(const std::vector<std::string>& paths, const std::vector<std::string>& settings,
                               const AnalysisOptions& options) {
   Reading reading{settings, parse_analysis_settings(settings), options};
-  for (const std::string& path : paths) {
+  for (const std::string& path : runs_among(paths, holds_averages)) {
     const std::string averages = (fs::path(path) / "ensemble.h5").string();
     if (is_ensemble(path))
       add_ensemble(reading, path);

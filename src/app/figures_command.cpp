@@ -15,10 +15,10 @@
 #include "app/gnuplot.h"
 #include "app/stop_signals.h"
 #include "core/errors.h"
+#include "core/nearest_word.h"
 #include "core/output_file.h"
 #include "core/visible_text.h"
 #include "figures/catalogue.h"
-#include "scenario/suggestion.h"
 #include "session/analysis_parameters.h"
 
 namespace talus {
@@ -47,18 +47,13 @@ std::string long_form(const std::string& word) {
 }
 
 [[noreturn]] void refuse_name(const std::string& word) {
-  std::string_view nearest;
-  std::size_t least = 1000;
+  std::vector<std::string> names;
   for (const FigureRecipe& recipe : figure_catalogue())
-    for (const std::string_view name : {recipe.name, short_name(recipe.name)})
-      if (const std::size_t distance = edit_distance(word.substr(0, 60), name); distance < least) {
-        least = distance;
-        nearest = name;
-      }
-  throw Error(ExitCode::usage,
-              fmt::format("--only {}: there is no such figure; did you mean {}? talus figures "
-                          "--help lists them",
-                          visible_word(word), nearest));
+    for (const std::string_view name : {recipe.name, short_name(recipe.name)}) names.emplace_back(name);
+  const std::string meant = did_you_mean(word, names);
+  throw Error(ExitCode::usage, fmt::format("--only {}: there is no such figure{} talus figures --help lists "
+                                           "them",
+                                           visible_word(word), meant.empty() ? ";" : meant));
 }
 
 /// The recipes that are asked for, in the order of the catalogue.
@@ -78,11 +73,14 @@ std::vector<FigureRecipe> chosen_recipes(const std::vector<std::string>& only) {
   return recipes;
 }
 
-/// Whether no run has its file: of members only values are there.
-bool have_values_only(std::span<const RunGroup> groups) {
-  return std::ranges::none_of(groups, [](const RunGroup& group) {
-    return std::ranges::any_of(group.runs, [](const FigureRun& run) { return run.file.has_value(); });
-  });
+/// Whether some run has what a figure is made from.
+bool is_there(Material material, std::span<const RunGroup> groups) {
+  const auto has = [material](const FigureRun& run) {
+    return material == Material::values || run.file ||
+           (material == Material::distributions && !run.analysis.gamma_edge.empty());
+  };
+  return std::ranges::any_of(groups,
+                             [&](const RunGroup& group) { return std::ranges::any_of(group.runs, has); });
 }
 
 /// The figures that can be made of the runs; the others are named with what they need.
@@ -91,7 +89,7 @@ std::vector<Figure> make_figures(const std::vector<FigureRecipe>& recipes, std::
   for (const FigureRecipe& recipe : recipes)
     if (auto figure = recipe.make(groups))
       figures.push_back(std::move(*figure));
-    else if (recipe.material == Material::frames && have_values_only(groups))
+    else if (!is_there(recipe.material, groups))
       fmt::print(stderr, "left out: {} needs {}; given are only values of members, without their runs\n",
                  recipe.name, recipe.needs);
     else
@@ -138,7 +136,7 @@ void add_figures_command(CLI::App& app) {
       "figures", "Draw the paper's figures of runs as PDF, SVG and PNG, with their data (needs gnuplot)");
   command
       ->add_option(
-          "runs", arguments->runs,
+          "RUNS", arguments->runs,
           "Run files, or folders of ensembles, or an ensemble.h5 alone; runs that differ in their seed only "
           "are averaged. Their analysis is read from the file, or made and stored")
       ->required();

@@ -139,8 +139,8 @@ void print_json(const RunInfo& info) {
       {"tilt_first_deg", number(degrees(info.tilt_first))},
       {"tilt_last_deg", number(degrees(info.tilt_last))},
       {"tilt_deg", number(degrees(info.tilt))},
-      {"theta_c", number(degrees(figure(info.results, "theta_c")))},
-      {"theta_r", number(degrees(figure(info.results, "theta_r")))},
+      {"theta_c_deg", number(degrees(figure(info.results, "theta_c")))},
+      {"theta_r_deg", number(degrees(figure(info.results, "theta_r")))},
       {"solver_tolerance", number(info.solver_tolerance)},
       {"residual_max", number(info.residual_max)},
       {"unconverged_steps", number(info.unconverged_steps)},
@@ -219,11 +219,11 @@ void add_info_command(CLI::App& app) {
   };
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command = app.add_subcommand("info", "Print what a run holds");
-  command->add_option("run", arguments->path, "Run file, or the name of a run that is not complete")
+  command->add_option("RUN", arguments->path, "Run file, or the name of a run that is not complete")
       ->required();
   command->add_flag(
       "--json", arguments->json,
-      "As JSON: theta_c, theta_r and keys ending in _deg in degrees, results and timing in SI units");
+      "As JSON: what ends in _deg is in degrees, all else in SI units, theta_c in results in radians");
   command->callback([arguments] {
     const RunInfo info = look_at(arguments->path);
     if (arguments->json)

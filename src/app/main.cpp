@@ -4,33 +4,19 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <memory>
 #include <string>
+#include <vector>
 
 #include "app/commands.h"
+#include "app/help_text.h"
 #include "app/program_end.h"
 #include "app/program_help.h"
 #include "app/stop_signals.h"
+#include "app/usage_error.h"
 #include "core/errors.h"
-#include "core/visible_text.h"
-#include "scenario/suggestion.h"
 
 namespace {
-
-/// A first word that is no command.
-void refuse_unknown_command(const CLI::App& app, const std::string& word) {
-  std::string nearest;
-  std::size_t least = std::string::npos;
-  if (word.starts_with('-')) return;
-  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
-    const std::size_t distance = talus::edit_distance(word.substr(0, 60), command->get_name());
-    if (distance < least) nearest = command->get_name();
-    least = std::min(least, distance);
-  }
-  if (least == 0) return;
-  const std::string advice = least <= 2 ? "did you mean '" + nearest + "'? " : "";
-  throw talus::Error(talus::ExitCode::usage, "'" + talus::visible_word(word) + "' is no command; " + advice +
-                                                 "talus --help lists them");
-}
 
 /// No option or argument means anything where it is empty, as `-o "$NAME"` is without the variable; some
 /// would take it for an option that was not given. The only place that looks.
@@ -44,36 +30,57 @@ void refuse_empty_words(CLI::App& app) {
   }
 }
 
-void run(int argc, char** argv, CLI::App& app) {
+/// Commands that belong together in the help.
+struct CommandGroup {
+  const char* title;
+  std::vector<void (*)(CLI::App&)> add;
+};
+
+void add_commands(CLI::App& app) {
+  const std::vector<CommandGroup> groups = {
+      {"Runs",
+       {talus::add_run_command, talus::add_check_command, talus::add_info_command, talus::add_replay_command,
+        talus::add_repair_command}},
+      {"Pictures",
+       {talus::add_view_command, talus::add_render_command, talus::add_panel_command,
+        talus::add_animate_command, talus::add_maps_command}},
+      {"Results", {talus::add_analyze_command, talus::add_figures_command, talus::add_export_command}},
+      {"Many runs",
+       {talus::add_ensemble_command, talus::add_study_command, talus::add_perturb_command,
+        talus::add_reproduce_command}},
+      {"Contact problems", {talus::add_dump_command, talus::add_solve_command, talus::add_forces_command}},
+  };
+  for (const CommandGroup& group : groups)
+    for (void (*const add)(CLI::App&) : group.add) {
+      add(app);
+      app.get_subcommands([](const CLI::App*) { return true; }).back()->group(group.title);
+    }
+  talus::add_program_help_command(app);
+}
+
+/// `talus help COMMAND` is `talus COMMAND --help`.
+std::vector<std::string> words_of(int argc, char** argv) {
+  std::vector<std::string> words(argv + std::min(1, argc), argv + argc);
+  if (words.empty() || words[0] != "help") return words;
+  words.erase(words.begin());
+  words.emplace_back("--help");
+  return words;
+}
+
+void run(std::vector<std::string> words, CLI::App& app) {
   app.set_version_flag("--version", talus::version_report());
   app.require_subcommand(1);
+  app.formatter(std::make_shared<talus::HelpText>());
+  add_commands(app);
+  talus::add_examples(app);
   app.footer(
       "Exit codes: 0 done, 64 usage, 65 bad scenario, run or problem, 66 missing input,\n"
       "69 no context, display or tool, 70 internal, 71 out of memory, 73 cannot create output,\n"
       "74 I/O error, 75 stopped and resumable.");
-  talus::add_run_command(app);
-  talus::add_check_command(app);
-  talus::add_info_command(app);
-  talus::add_analyze_command(app);
-  talus::add_render_command(app);
-  talus::add_animate_command(app);
-  talus::add_panel_command(app);
-  talus::add_export_command(app);
-  talus::add_dump_command(app);
-  talus::add_solve_command(app);
-  talus::add_forces_command(app);
-  talus::add_ensemble_command(app);
-  talus::add_study_command(app);
-  talus::add_perturb_command(app);
-  talus::add_figures_command(app);
-  talus::add_reproduce_command(app);
-  talus::add_view_command(app);
-  talus::add_replay_command(app);
-  talus::add_repair_command(app);
-  talus::add_program_help_command(app);
   refuse_empty_words(app);
-  if (argc > 1) refuse_unknown_command(app, argv[1]);
-  app.parse(argc, argv);
+  talus::refuse_words(app, words);
+  std::ranges::reverse(words);  // as the parser takes them
+  app.parse(std::move(words));
 }
 
 /// What a command has printed is part of its result: a full disk must not cut it off unseen.
@@ -84,17 +91,20 @@ void require_printed() {
 
 /// Runs the command line; tells parse errors, and passes on the others.
 int run_and_tell(int argc, char** argv) {
-  CLI::App app{"Talus: granular slopes by Contact Dynamics, from a scenario file to maps of failure.",
-               "talus"};
-  int code = static_cast<int>(talus::ExitCode::done);
+  CLI::App app{
+      std::string("Granular slopes by Contact Dynamics, from a scenario file to maps of failure.\n\n") +
+          talus::first_example + "\n",
+      "talus"};
   try {
-    run(argc, argv, app);
+    run(words_of(argc, argv), app);
   } catch (const CLI::ParseError& error) {  // --help and --version among them, which are no errors
-    if (app.exit(error) != 0) code = static_cast<int>(talus::ExitCode::usage);
+    if (error.get_exit_code() != 0)
+      throw talus::Error(talus::ExitCode::usage, talus::usage_message(app, error));
+    app.exit(error);
   }
   require_printed();
   errno = 0;  // whatever could not be had was not needed
-  return code;
+  return static_cast<int>(talus::ExitCode::done);
 }
 
 }  // namespace

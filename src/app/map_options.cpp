@@ -8,11 +8,7 @@
 namespace talus {
 namespace {
 
-std::string list_of_traces() {
-  return joined(trace_kinds(), "; ", [](TraceKind kind) {
-    return fmt::format("{}: {}", trace_name(kind), shown_title(trace_quantity(kind)));
-  });
-}
+std::string list_of_traces() { return joined(trace_kinds(), ", ", trace_name); }
 
 std::string list_of_colours() { return joined(colour_maps(), ", ", colour_map_name); }
 
@@ -20,8 +16,8 @@ void add_live_options(CLI::App& command, MapOptions& options) {
   command
       .add_option("--map", options.maps,
                   "What is drawn: one map, or several with commas; two overlaid with a plus, as in "
-                  "gamma+forces. " +
-                      list_of_maps())
+                  "gamma+forces. The maps: " +
+                      list_of_maps() + "; talus maps says what they show")
       ->delimiter(',')
       ->allow_extra_args(false);
   command
@@ -82,7 +78,7 @@ void add_frame_options(CLI::App& command, MapOptions& options) {
   command.add_option(
       "--trace", options.traces,
       "Curves over the tilt below the map, with a mark where the frame is; one, or several with "
-      "commas. " +
+      "commas: " +
           list_of_traces());
   command.add_flag("--turned", options.turned, "Draw the bed at its slope instead of in its own frame");
   command.add_flag("--transparent", options.transparent, "Transparent background instead of white");

@@ -110,7 +110,7 @@ void add_perturb_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "perturb",
       "Push on the surface at tilts up to failure, and find the weakest push that starts an avalanche");
-  command->add_option("scenario", arguments->scenario, "Scenario file (TOML; see docs/scenario.md)")
+  command->add_option("SCENARIO", arguments->scenario, "Scenario file (TOML; see docs/scenario.md)")
       ->required();
   command
       ->add_option("-o,--output", arguments->folder,

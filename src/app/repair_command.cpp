@@ -38,7 +38,7 @@ void add_repair_command(CLI::App& app) {
   auto arguments = std::make_shared<RepairArguments>();
   CLI::App* command = app.add_subcommand(
       "repair", "Save what is undamaged of a damaged run as a new run; the old one is left as it is");
-  command->add_option("run", arguments->run, "Run file, or the name of a run that is not complete")
+  command->add_option("RUN", arguments->run, "Run file, or the name of a run that is not complete")
       ->required();
   command
       ->add_option("-o,--output", arguments->output, "The new run (HDF5); its folder is made where missing")

@@ -117,7 +117,7 @@ void add_replay_command(CLI::App& app) {
   auto arguments = std::make_shared<ReplayArguments>();
   CLI::App* command = app.add_subcommand(
       "replay", "Compute a run again from its scenario and its commands, and compare its end state");
-  command->add_option("run", arguments->run, "Run file, or the name of a run that is not complete")
+  command->add_option("RUN", arguments->run, "Run file, or the name of a run that is not complete")
       ->required();
   CLI::Option* output =
       command->add_option("-o,--output", arguments->output, "Keep the recomputed run in this file (HDF5)");

@@ -212,7 +212,7 @@ void add_run_command(CLI::App& app) {
   auto arguments = std::make_shared<RunArguments>();
   CLI::App* command = app.add_subcommand("run", "Compute a run: deposition, rest, tilt to failure");
   command
-      ->add_option("scenario", arguments->scenario,
+      ->add_option("SCENARIO", arguments->scenario,
                    "Scenario file (TOML; see docs/scenario.md), or the run to resume")
       ->required();
   command->add_option("-o,--output", arguments->output,

@@ -4,6 +4,8 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
+#include "core/visible_text.h"
+
 namespace talus {
 
 /// `seed`: its digits, for the setting "seed=..."; its range is checked with the scenario. Left empty where
@@ -15,7 +17,11 @@ inline void add_seed_option(CLI::App& command, std::string& seed) {
         const bool has_sign = text.starts_with('-') || text.starts_with('+');
         const std::string digits = text.substr(has_sign ? 1 : 0);
         const bool whole = !digits.empty() && digits.find_first_not_of("0123456789") == std::string::npos;
-        return whole ? std::string() : "expected a whole number, found " + text;
+        if (whole) return std::string();
+        const bool several =
+            !digits.empty() && digits.find_first_not_of("0123456789-,.: ") == std::string::npos;
+        return "expected a whole number, found " + visible_word(text) +
+               (several ? "; talus ensemble SCENARIO --seeds 1-3 -o FOLDER computes several beds" : "");
       });
 }
 

@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 
+#include "app/choices.h"
 #include "app/commands.h"
 #include "app/json.h"
 #include "app/moving_step.h"
@@ -192,7 +193,7 @@ void add_settings(CLI::App& command, SolveArguments& arguments) {
           "--solver", [&settings, kinds](const std::string& name) { settings.kind = kinds.at(name); },
           "accelerated, or the reference gauss-seidel")
       ->default_str("accelerated")
-      ->check(CLI::IsMember({"accelerated", "gauss-seidel"}));
+      ->check(one_of({"accelerated", "gauss-seidel"}));
   command
       .add_option("--tol", arguments.tolerance,
                   fmt::format("Natural-map residual eta to reach; without it what the run asked of the step, "

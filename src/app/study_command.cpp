@@ -93,7 +93,7 @@ void add_study_command(CLI::App& app) {
   auto arguments = std::make_shared<StudyArguments>();
   CLI::App* command = app.add_subcommand(
       "study", "Run a scenario with one thing changed at a time, and compare the figures over seeds");
-  command->add_option("scenario", arguments->scenario, "Scenario file (TOML; see docs/scenario.md)")
+  command->add_option("SCENARIO", arguments->scenario, "Scenario file (TOML; see docs/scenario.md)")
       ->required();
   command->add_option("-o,--output", arguments->folder, "Folder of the study; what is complete in it is kept")
       ->required();

@@ -112,8 +112,16 @@ Correlation correlation_of(std::span<const double> left, std::span<const double>
 
 Statistics paired_difference(std::span<const double> values, std::span<const double> baseline) {
   std::vector<double> differences(values.size());
-  for (std::size_t k = 0; k < values.size(); ++k) differences[k] = values[k] - baseline[k];
-  return statistics_of(differences);
+  double largest = 0.0;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    differences[k] = values[k] - baseline[k];
+    if (!std::isnan(differences[k]))
+      largest = std::max({largest, std::abs(values[k]), std::abs(baseline[k])});
+  }
+  Statistics result = statistics_of(differences);
+  constexpr double round_off = 1e-13;  // of one subtraction, with room for the sum
+  if (result.deviation <= round_off * largest) result.deviation = result.error = 0.0;
+  return result;
 }
 
 double student_t(int freedom) {
@@ -131,6 +139,7 @@ double student_t(int freedom) {
 
 Verdict verdict(const Statistics& difference) {
   if (difference.count < 2) return Verdict::unknown;
+  if (difference.error == 0.0 && difference.mean != 0.0) return Verdict::unknown;
   return std::abs(difference.mean) <= difference.interval() ? Verdict::within_error : Verdict::differs;
 }
 

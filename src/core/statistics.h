@@ -50,7 +50,7 @@ struct Correlation {
 Correlation correlation_of(std::span<const double> left, std::span<const double> right);
 
 /// Of values[k] - baseline[k], pair by pair, over the pairs of two numbers. Both have the same length, one
-/// value for each seed.
+/// value for each seed. A deviation that is no more than round-off is 0, and so is the error.
 Statistics paired_difference(std::span<const double> values, std::span<const double> baseline);
 
 /// Two-sided quantile of Student's t distribution at 95 %, freedom >= 1 (Abramowitz and Stegun 1964, table
@@ -59,7 +59,7 @@ double student_t(int freedom);
 
 /// What can be said of a difference at a confidence of 95 %.
 enum class Verdict {
-  unknown,       ///< fewer than two pairs: it has no error
+  unknown,       ///< fewer than two pairs, or all differ by the same: that says nothing of its error
   within_error,  ///< zero lies in the interval
   differs,
 };

@@ -56,13 +56,6 @@ std::vector<AveragedQuantity> averaged_numbers(const std::vector<MemberResult>& 
   return all;
 }
 
-/// Multiples of the spacing up to the last that some member reaches.
-std::vector<double> grid_up_to(double largest, double spacing) {
-  std::vector<double> angles;
-  for (int k = 0; k * spacing <= largest + same_angle; ++k) angles.push_back(k * spacing);
-  return angles;
-}
-
 /// `tilt_at(member, angle)`: the tilt of a member (deg) that belongs to a point of the grid.
 AveragedCurves averaged_curves(const std::vector<MemberResult>& members, std::vector<double> angles,
                                const std::function<double(const MemberResult&, double)>& tilt_at,
@@ -132,6 +125,12 @@ AngleCorrelations correlations_of(const std::vector<AveragedQuantity>& numbers) 
 }
 
 }  // namespace
+
+std::vector<double> grid_up_to(double largest, double spacing) {
+  std::vector<double> angles;
+  for (int k = 0; k * spacing <= largest + same_angle; ++k) angles.push_back(k * spacing);
+  return angles;
+}
 
 double interpolated(const std::vector<double>& tilts, const std::vector<double>& values, double theta) {
   const auto upper = std::ranges::lower_bound(tilts, theta - same_angle);

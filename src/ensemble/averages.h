@@ -56,6 +56,9 @@ struct Averages {
 /// when members came, only on which there are.
 Averages averages_of(const std::vector<MemberResult>& members, double frame_every);
 
+/// Multiples of the spacing from 0 up to `largest`, deg: the points of a grid.
+std::vector<double> grid_up_to(double largest, double spacing);
+
 /// The value of a series at `theta` (deg), between the two frames around it; NaN outside of the frames.
 double interpolated(const std::vector<double>& tilts, const std::vector<double>& values, double theta);
 

@@ -66,6 +66,33 @@ void add_curves(Content& content, const std::string& group, AveragedCurves& curv
   for (AveragedQuantity& quantity : curves.quantities) add_quantity(content, group, quantity);
 }
 
+/// Lists at the points of a grid of `points` angles, those that no member reached without values.
+void add_lists(Content& content, const std::string& group, const std::vector<AveragedList>& lists,
+               std::size_t points) {
+  for (const AveragedList& list : lists) {
+    const auto add = [&](const char* name, const std::string& unit, const std::string& definition,
+                         std::vector<double> values, double missing) {
+      values.resize(points * list.width, missing);
+      content.arrays.push_back({fmt::format("{}/{}/{}", group, list.name, name),
+                                {points, list.width},
+                                unit,
+                                definition,
+                                std::move(values),
+                                {}});
+    };
+    add("n", "1", "members behind each number", list.count, 0.0);
+    add("mean", list.unit, "mean over the members of: " + list.definition, list.mean, std::nan(""));
+    add("deviation", list.unit, "standard deviation; that of the mean is deviation / sqrt(n)",
+        deviation_of(list), std::nan(""));
+  }
+}
+
+void add_bins(Content& content, const std::string& group, const std::vector<NamedList>& bins) {
+  for (const NamedList& each : bins)
+    content.arrays.push_back(
+        {fmt::format("{}/{}", group, each.name), {each.width}, each.unit, each.definition, each.values, {}});
+}
+
 void add_correlations(Content& content, const std::string& group, const AngleCorrelations& correlations) {
   const std::size_t size = correlations.names.size();
   PlainArray coefficient{group + "/coefficient",
@@ -105,9 +132,14 @@ void add_variant(Content& content, const std::string& group, NamedAverages& vari
   for (AveragedQuantity& quantity : averages.numbers) add_quantity(content, group + "/numbers", quantity);
   add_correlations(content, group + "/correlations", averages.correlations);
   add_curves(content, group + "/over_tilt", averages.over_tilt, "theta", "tilt");
-  if (!averages.before_failure.quantities.empty())
+  add_lists(content, group + "/over_tilt", variant.lists.over_tilt, averages.over_tilt.angles.size());
+  if (!averages.before_failure.quantities.empty()) {
     add_curves(content, group + "/before_failure", averages.before_failure, "angle_left",
                "theta_c - theta, theta_c that of each member");
+    add_lists(content, group + "/before_failure", variant.lists.before_failure,
+              averages.before_failure.angles.size());
+  }
+  add_bins(content, group + "/bins", variant.lists.bins);
 }
 
 std::string csv_number(double value) { return std::isnan(value) ? "" : fmt::format("{:.7g}", value); }

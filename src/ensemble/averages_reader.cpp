@@ -136,6 +136,13 @@ bool is_averages_file(const std::string& path) {
   return file.read(begin.data(), static_cast<std::streamsize>(begin.size())) && begin == signature;
 }
 
+bool holds_averages(const std::string& path) {
+  if (!is_averages_file(path)) return false;
+  const PlainFile file = read_plain_file(path);
+  return std::ranges::any_of(file.texts,
+                             [](const PlainTexts& texts) { return texts.path.starts_with("/variants"); });
+}
+
 std::vector<StoredVariant> read_averages(const std::string& path) {
   Source source{path, read_plain_file(path)};
   std::vector<StoredVariant> variants;

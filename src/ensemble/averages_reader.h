@@ -32,6 +32,10 @@ struct StoredVariant {
 /// Whether the file at `path` can be one of these rather than a run: it begins as HDF5 files do.
 bool is_averages_file(const std::string& path);
 
+/// Whether it is one of these, sound or not: an HDF5 file with variants, which those of other programs have
+/// not. Throws as read_plain_file does.
+bool holds_averages(const std::string& path);
+
 /// Throws as read_plain_file does, and Error(bad_data) where the file is not what write_averages makes.
 std::vector<StoredVariant> read_averages(const std::string& path);
 

@@ -8,6 +8,7 @@
 
 #include "core/errors.h"
 #include "core/visible_text.h"
+#include "ensemble/member_lists.h"
 #include "ensemble/member_series.h"
 #include "io/durable_file.h"
 #include "io/run_store.h"
@@ -61,7 +62,9 @@ std::size_t drop_runs(const EnsembleManifest& manifest, const EnsemblePlan& plan
     if (states[m].stage != MemberStage::done || !states[m].has_run || keeps_run(manifest, member.seed))
       continue;
     std::error_code unknown;
-    if (!std::filesystem::exists(series_path(member.path), unknown)) continue;
+    if (!std::filesystem::exists(series_path(member.path), unknown) ||
+        !std::filesystem::exists(lists_path(member.path), unknown))
+      continue;
     drop_run(member);
     ++dropped;
   }

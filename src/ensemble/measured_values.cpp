@@ -5,6 +5,7 @@
 #include <numeric>
 #include <optional>
 
+#include "analysis/failure_ratio.h"
 #include "core/trigonometry.h"
 #include "ensemble/wall_fit.h"
 
@@ -13,8 +14,7 @@ namespace {
 
 using enum PaperQuantity;
 
-constexpr double same_tilt = 1e-9;      // rad: tilts are multiples of a step up to rounding
-constexpr double failure_window = 0.5;  // deg before theta_c
+constexpr double same_tilt = 1e-9;  // rad: tilts are multiples of a step up to rounding
 
 /// A run with its angles looked up: frames by index, where there are any.
 struct RunAtThreshold {
@@ -122,7 +122,7 @@ Measured measure_packing(const RunAtThreshold& of, PaperQuantity quantity) {
       return {degrees(of.theta_c)};
     case shear_over_tangent:
     case shear_over_tangent_of_walls:
-      return {ratio_at_failure(of.run.rows, of.theta_c, failure_window).mean};
+      return {of.run.analysis.failure_ratio};
     case stress_ratio_over_sine:
       return {stress_ratio(of)};
     case contraction:

@@ -6,7 +6,6 @@
 #include <span>
 
 #include "analysis/record.h"
-#include "core/observables.h"
 #include "ensemble/paper_values.h"
 #include "ensemble/wall_fit.h"
 
@@ -21,8 +20,7 @@ enum class Population {
 /// An analysed run.
 struct MeasuredRun {
   std::span<const double> tilts;  ///< rad, of its frames
-  std::span<const ObservableRow> rows;
-  double mean_diameter = 0.0;  ///< m
+  double mean_diameter = 0.0;     ///< m
   const Analysis& analysis;
 };
 

@@ -13,13 +13,6 @@
 namespace talus {
 namespace {
 
-std::vector<const FrameRecord*> frames_to_failure(const Analysis& analysis) {
-  std::vector<const FrameRecord*> frames;
-  for (const FrameRecord& frame : analysis.frames)
-    if (!(frame.tilt > analysis.theta_c)) frames.push_back(&frame);
-  return frames;
-}
-
 std::string head_of(const NamedSeries& series) { return fmt::format("{} ({})", series.name, series.unit); }
 
 /// "name (unit)" taken apart.
@@ -30,6 +23,13 @@ NamedSeries series_of_head(const std::string& head, const std::string& path) {
 }
 
 }  // namespace
+
+std::vector<const FrameRecord*> frames_to_failure(const Analysis& analysis) {
+  std::vector<const FrameRecord*> frames;
+  for (const FrameRecord& frame : analysis.frames)
+    if (!(frame.tilt > analysis.theta_c)) frames.push_back(&frame);
+  return frames;
+}
 
 MemberSeries member_series(const Analysis& analysis, double mean_diameter) {
   const std::vector<const FrameRecord*> frames = frames_to_failure(analysis);

@@ -20,8 +20,10 @@ struct MemberSeries {
   std::vector<NamedSeries> series;
 };
 
-/// Of the frames up to theta_c, or of all of a slope that has not failed, in the order of the table of
-/// quantities. `mean_diameter` (m) is the D of its lengths.
+/// The frames up to theta_c, or all of a slope that has not failed.
+std::vector<const FrameRecord*> frames_to_failure(const Analysis& analysis);
+
+/// Of these frames, in the order of the table of quantities. `mean_diameter` (m) is the D of its lengths.
 MemberSeries member_series(const Analysis& analysis, double mean_diameter);
 
 /// CSV: theta, then a column for each series, a row for each frame, with full digits.

@@ -30,8 +30,7 @@ std::optional<Analysis> stored_analysis(const RunFile& run, const std::string& p
 }
 
 Thresholds measure_thresholds(const RunFile& run, const Analysis& analysis, Population population) {
-  const std::vector<ObservableRow> rows = run.observables();
-  const MeasuredRun measured{run.frame_tilts(), rows, run.header().statics.mean_diameter, analysis};
+  const MeasuredRun measured{run.frame_tilts(), run.header().statics.mean_diameter, analysis};
   Thresholds thresholds;
   for (std::size_t f = 0; f < AnalysisParameters().threshold_factors.size(); ++f)
     thresholds.push_back(measure_all(measured, f, population));
@@ -80,10 +79,9 @@ ReproducedOutcome measure_member(const ReproductionPlan& plan, std::size_t m) {
     throw Error(ExitCode::bad_data, member.path + " lacks analyses of this version of Talus; remove " +
                                         numbers + ", and the member is analysed again");
   const MemberNumbers found = parse_numbers(read_text(numbers), numbers);
-  const std::vector<ObservableRow> rows = run.observables();
   const RunStatics& statics = run.header().statics;
   return {m, found.version, found.seconds, std::move(*values),
-          wall_point({run.frame_tilts(), rows, statics.mean_diameter, *stored}, statics.length)};
+          wall_point({run.frame_tilts(), statics.mean_diameter, *stored}, statics.length)};
 }
 
 }  // namespace

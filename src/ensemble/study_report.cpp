@@ -47,6 +47,7 @@ std::string difference_text(const Statistics& difference, double factor, std::si
   std::string text = mean_text(difference, factor, seeds, true);
   const Verdict found = verdict(difference);
   if (found == Verdict::within_error) text += ", within error";
+  if (found == Verdict::unknown && difference.count > 1) text += ", the same for all seeds: without an error";
   return found == Verdict::differs ? fmt::format("**differs by {}**", text) : text;
 }
 

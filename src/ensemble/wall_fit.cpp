@@ -1,11 +1,8 @@
 #include "ensemble/wall_fit.h"
 
 #include <cmath>
-#include <vector>
 
-#include "core/statistics.h"
 #include "core/tensor.h"
-#include "core/trigonometry.h"
 
 namespace talus {
 
@@ -21,17 +18,6 @@ WallFit fit_wall_law(std::span<const WallPoint> points) {
   if (count < 2) return {k, not_known};
   const Eigen::VectorXd residual = ratio - x.unaryExpr([k](double each) { return wall_law(k, each); });
   return {k, 3.0 * std::sqrt(residual.squaredNorm() / static_cast<double>(count - 1) / x.squaredNorm())};
-}
-
-RatioAtFailure ratio_at_failure(std::span<const ObservableRow> rows, double theta_c, double width) {
-  std::vector<double> ratios;
-  for (const ObservableRow& row : rows) {
-    const double tilt = at(row, Observable::tilt);
-    if (tilt > 0.0 && tilt <= theta_c && tilt > theta_c - radians(width))
-      ratios.push_back(at(row, Observable::sigma_t_over_n) * cosine(tilt) / sine(tilt));
-  }
-  const Statistics result = statistics_of(ratios);
-  return {result.mean, result.error * std::sqrt(static_cast<double>(result.count))};
 }
 
 }  // namespace talus

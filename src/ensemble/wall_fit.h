@@ -25,12 +25,4 @@ WallFit fit_wall_law(std::span<const WallPoint> points);
 /// The law itself.
 double wall_law(double k, double depth_over_length);
 
-/// (sigma_T / sigma_N) / tan(theta) of a run, from its observables over the last `window` deg before
-/// theta_c.
-struct RatioAtFailure {
-  double mean = 0.0;
-  double spread = 0.0;  ///< standard deviation of the rows
-};
-RatioAtFailure ratio_at_failure(std::span<const ObservableRow> rows, double theta_c, double window);
-
 }  // namespace talus

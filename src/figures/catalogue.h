@@ -12,8 +12,9 @@ namespace talus {
 
 /// What a figure is made from.
 enum class Material {
-  values,  ///< numbers of runs and of their frames, which an ensemble keeps of all its members
-  frames,  ///< distributions, maps and series, which are in the files of runs only
+  values,         ///< numbers of runs and of their frames, which ensemble.h5 has of all members
+  distributions,  ///< of each frame, which an ensemble keeps beside the runs of its members
+  frames,         ///< maps and series, which are in the files of runs only
 };
 
 struct FigureRecipe {

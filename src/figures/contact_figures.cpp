@@ -93,7 +93,7 @@ std::vector<Column> row_means(const RunChoice& runs, std::span<const std::size_t
 }
 
 std::optional<Figure> contact_directions(std::span<const RunGroup> groups) {
-  const auto failed = first_failed_group(groups);
+  const auto failed = first_group_with_distributions(groups);
   if (!failed) return std::nullopt;
   Figure figure = figure_of(*failed);
   figure.name = "contact-directions";
@@ -116,7 +116,7 @@ std::optional<Figure> contact_directions(std::span<const RunGroup> groups) {
 }
 
 std::optional<Figure> force_distribution(std::span<const RunGroup> groups) {
-  const auto failed = first_failed_group(groups);
+  const auto failed = first_group_with_distributions(groups);
   if (!failed) return std::nullopt;
   Figure figure = figure_of(*failed);
   figure.name = "force-distribution";
@@ -136,7 +136,7 @@ std::optional<Figure> force_distribution(std::span<const RunGroup> groups) {
 }
 
 std::optional<Figure> correlations(std::span<const RunGroup> groups) {
-  const auto failed = first_failed_group(groups);
+  const auto failed = first_group_with_distributions(groups);
   if (!failed) return std::nullopt;
   Figure figure = figure_of(*failed);
   figure.name = "correlations";

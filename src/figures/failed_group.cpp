@@ -9,12 +9,24 @@
 #include "scenario/text.h"
 
 namespace talus {
+namespace {
 
-std::optional<FailedGroup> first_failed_group(std::span<const RunGroup> groups) {
+/// The first group with failed runs that are among those which `choose` leaves.
+std::optional<FailedGroup> first_group(std::span<const RunGroup> groups, RunChoice (*choose)(RunChoice)) {
   for (const RunGroup& group : groups)
-    if (RunChoice runs = with_files(failed_runs(group)); !runs.empty())
+    if (RunChoice runs = choose(failed_runs(group)); !runs.empty())
       return FailedGroup{&group, std::move(runs)};
   return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<FailedGroup> first_failed_group(std::span<const RunGroup> groups) {
+  return first_group(groups, with_files);
+}
+
+std::optional<FailedGroup> first_group_with_distributions(std::span<const RunGroup> groups) {
+  return first_group(groups, with_distributions);
 }
 
 std::string first_run_text(const FailedGroup& failed) {

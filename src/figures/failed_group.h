@@ -10,7 +10,7 @@
 
 namespace talus {
 
-/// The failed runs of a group whose files are there, one at least.
+/// The failed runs of a group from which a figure is made, one at least.
 struct FailedGroup {
   const RunGroup* group = nullptr;
   RunChoice runs;
@@ -19,8 +19,10 @@ struct FailedGroup {
   const FigureRun& first() const { return *runs.front(); }
 };
 
-/// The first group that has such runs; periodic beds come first (group_runs).
+/// The first group that has such runs with their files, or with their distributions; periodic beds come first
+/// (group_runs).
 std::optional<FailedGroup> first_failed_group(std::span<const RunGroup> groups);
+std::optional<FailedGroup> first_group_with_distributions(std::span<const RunGroup> groups);
 
 /// "PBC, L = 200 D, seed 1": the first run.
 std::string first_run_text(const FailedGroup& failed);

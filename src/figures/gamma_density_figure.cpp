@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include "core/statistics.h"
+#include "core/text.h"
 #include "core/trigonometry.h"
 #include "figures/contact_figures.h"
 #include "figures/group_table.h"
@@ -31,6 +32,8 @@ std::vector<Column> density_columns(const RunChoice& runs) {
         columns.push_back(std::move(column));
     } else {
       mean.values.assign(edges.size() - 1, std::nan(""));
+      columns.push_back(mean);
+      mean.name += "_error";
       columns.push_back(std::move(mean));
     }
   }
@@ -43,6 +46,16 @@ double mean_gamma_c(const RunChoice& runs) {
   return statistics_of(all).mean;
 }
 
+/// Whether any bed has a density at the angle.
+bool is_shown(const Figure& figure, const std::string& angle) {
+  return std::ranges::any_of(figure.tables, [&](const Table& table) {
+    return std::ranges::any_of(table.columns, [&](const Column& column) {
+      return column.name == "density_" + angle &&
+             std::ranges::any_of(column.values, [](double value) { return !std::isnan(value); });
+    });
+  });
+}
+
 }  // namespace
 
 std::optional<Figure> gamma_density_figure(std::span<const RunGroup> groups) {
@@ -51,22 +64,26 @@ std::optional<Figure> gamma_density_figure(std::span<const RunGroup> groups) {
   figure.title = "Distribution of the stress ratio of grains (paper, Fig. 8)";
   figure.caption =
       "Probability density of the stress ratio gamma = q/p of the grains that carry something, periodic "
-      "beds, at "
-      "theta = 0, 10 and 15 deg; vertical lines: Gamma_c = sin(theta_c), the threshold that the paper "
-      "prints, "
-      "and 2 Gamma_c, each the mean over the runs. Means over the runs of a bed, of which at least half "
-      "stand "
-      "at an angle that is shown.";
+      "beds, "
+      "at theta = 0, 10 and 15 deg; vertical lines: Gamma_c = sin(theta_c), the threshold that the paper "
+      "prints, and 2 Gamma_c, each the mean over the runs. Means over the runs of a bed, of which at least "
+      "half "
+      "stand at an angle that is shown; bands: the standard error of the mean, where there are several runs.";
   for (const RunGroup& group : groups) {
-    const RunChoice runs = with_files(runs_with_threshold(group));
+    const RunChoice runs = with_distributions(runs_with_threshold(group));
     if (!group.periodic() || runs.empty()) continue;
     if (figure.tables.empty()) figure.caption.append(" ").append(reading_caption(*runs.front()));
     add_group_table(figure, group, runs, density_columns(runs));
     set_variable(figure, fmt::format("gamma_c_{}", figure.groups), mean_gamma_c(runs));
+    set_variable(figure, fmt::format("several_{}", figure.groups), runs.size() > 1 ? 1.0 : 0.0);
   }
   if (figure.tables.empty()) return std::nullopt;
+  std::vector<std::string> shown;
+  for (const double angle : angles)
+    if (is_shown(figure, short_text(angle))) shown.push_back(short_text(angle));
+  set_variable(figure, "angles", gnuplot_string(joined(shown, " ")));
   figure.height_over_width = 0.7 * static_cast<double>(figure.groups);
-  set_key(figure, std::size(angles), 8);
+  set_key(figure, shown.size(), 8);
   return figure;
 }
 

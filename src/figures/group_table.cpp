@@ -59,6 +59,11 @@ RunChoice with_files(RunChoice runs) {
   return runs;
 }
 
+RunChoice with_distributions(RunChoice runs) {
+  std::erase_if(runs, [](const FigureRun* run) { return run->analysis.gamma_edge.empty(); });
+  return runs;
+}
+
 FramesAtAngle frames_at_angle(const RunChoice& runs, double tilt) {
   FramesAtAngle result;
   for (const FigureRun* run : runs)

@@ -24,6 +24,9 @@ RunChoice failed_runs(const RunGroup& group);
 /// Those of some runs whose files are there: for what values of an ensemble do not tell.
 RunChoice with_files(RunChoice runs);
 
+/// Those of some runs whose distributions are known: ensemble.h5 has no more than means of them.
+RunChoice with_distributions(RunChoice runs);
+
 /// Those of some runs that stand at a tilt (rad), and the frame of each that is nearest to it.
 struct FramesAtAngle {
   RunChoice runs;

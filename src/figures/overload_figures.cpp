@@ -101,21 +101,30 @@ std::optional<Figure> length_figure(std::span<const RunGroup> groups) {
   figure.caption =
       "Mean (a) and largest (b) coarse-graining length l_c, a diameter, of the overloaded grains over the "
       "tilt "
-      "theta; a column for each threshold. Dashed line: the cut at which the search for l_c ends.";
+      "theta; a column for each threshold. Dashed lines: the cut of each bed at which the search for l_c "
+      "ends.";
   figure.caption.append(paper_text).append(" ").append(means_caption);
   add_periodic_groups(figure, groups, {{"mean", &FrameThreshold::lc_mean}, {"max", &FrameThreshold::lc_max}});
   if (figure.tables.empty()) return std::nullopt;
   set_more_keys(figure, 2);
-  double cut = 0.0;
-  for (const RunGroup& group : groups)
-    for (const FigureRun* run : group.periodic() ? runs_with_threshold(group) : RunChoice{})
-      cut = std::max(cut, run->analysis.lc_cut / run->mean_diameter);
-  set_variable(figure, "cut", cut);
+  const std::array<PaperQuantity, 3> largest = {lc_max_at_0, lc_max_before_jump, lc_max_after_jump};
+  double top = 0.0;  // of all that is shown of the largest lengths
+  for (const PaperQuantity quantity : largest) top = std::max(top, paper_value(quantity).value);
+  int shown = 0;
+  for (const RunGroup& group : groups) {
+    const RunChoice runs = group.periodic() ? runs_with_threshold(group) : RunChoice{};
+    if (runs.empty()) continue;
+    double cut = 0.0;
+    for (const FigureRun* run : runs) cut = std::max(cut, run->analysis.lc_cut / run->mean_diameter);
+    set_variable(figure, fmt::format("cut_{}", ++shown), cut);
+    top = std::max(top, cut);
+  }
+  set_variable(figure, "top", top);
   figure.tables.push_back(
       {"paper",
        {tilts_of_the_paper(),
         paper_column("mean", "D", "mean l_c", {lc_mean_at_0, lc_mean_at_theta_d, lc_mean_at_theta_c}),
-        paper_column("max", "D", "largest l_c", {lc_max_at_0, lc_max_before_jump, lc_max_after_jump})}});
+        paper_column("max", "D", "largest l_c", largest)}});
   return figure;
 }
 

@@ -1,6 +1,7 @@
 #include "figures/run_group.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <fmt/core.h>
 
 #include "core/errors.h"
@@ -32,6 +33,28 @@ std::string bed_label(const Scenario& scenario) {
 
 Scenario essence_of(const RunGroup& group) { return essence(group.runs.front().scenario); }
 
+/// Not to a group that has another run with its seed: bits change from one version of Talus to another.
+bool belongs_to(const RunGroup& group, const FigureRun& run) {
+  return essence_of(group) == essence(run.scenario) &&
+         std::ranges::none_of(group.runs, [&](const FigureRun& other) {
+           return other.scenario.seed == run.scenario.seed && other.state_hash != run.state_hash;
+         });
+}
+
+/// The name of the folder of the first run.
+std::string folder_name(const RunGroup& group) {
+  const std::string& path = group.runs.front().path;
+  return std::filesystem::absolute(path.substr(0, path.find('#'))).parent_path().filename().string();
+}
+
+/// Adds to the labels of groups that share one their folders.
+void tell_folders_apart(std::vector<RunGroup>& groups) {
+  std::vector<std::string> labels;
+  for (const RunGroup& group : groups) labels.push_back(group.label);
+  for (RunGroup& group : groups)
+    if (std::ranges::count(labels, group.label) > 1) group.label += ", " + folder_name(group);
+}
+
 /// Adds to the labels of groups that share one the keys in which they differ.
 void tell_apart(std::vector<RunGroup>& groups) {
   std::vector<std::string> additions(groups.size());
@@ -62,12 +85,12 @@ void sort_by_seed(RunGroup& group) {
 std::vector<RunGroup> group_runs(std::vector<FigureRun> runs) {
   std::vector<RunGroup> groups;
   for (FigureRun& run : runs) {
-    const Scenario wanted = essence(run.scenario);
-    auto group = std::ranges::find(groups, wanted, essence_of);
+    auto group = std::ranges::find_if(groups, [&](const RunGroup& each) { return belongs_to(each, run); });
     if (group == groups.end()) group = groups.insert(group, RunGroup{bed_label(run.scenario), {}});
     group->runs.push_back(std::move(run));
   }
   tell_apart(groups);
+  tell_folders_apart(groups);
   std::ranges::for_each(groups, sort_by_seed);
   std::ranges::stable_sort(groups, {}, [](const RunGroup& group) {
     return group.periodic() ? 0.0 : group.runs.front().scenario.bed.length;

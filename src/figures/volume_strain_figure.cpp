@@ -1,5 +1,6 @@
 #include "figures/volume_strain_figure.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/core.h>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "figures/group_table.h"
 #include "figures/run_means.h"
 #include "figures/theta_d_estimators.h"
+#include "pictures/texts.h"
 
 namespace talus {
 namespace {
@@ -56,6 +58,17 @@ std::vector<PeriodicRuns> add_strains(Figure& figure, std::span<const RunGroup> 
   return chosen;
 }
 
+/// From one number of the axis of a strain to the next, in 1e-3: a panel has room for some six of them.
+double tick_step(const Figure& figure, const std::string& strain) {
+  double low = 0.0, high = 0.0;
+  for (const Table& table : figure.tables)
+    for (const Column& column : table.columns)
+      if (column.name == strain)
+        for (const double value : column.values)
+          if (!std::isnan(value)) low = std::min(low, value), high = std::max(high, value);
+  return high > low ? round_step(1000.0 * (high - low), 5) : 1.0;
+}
+
 }  // namespace
 
 std::optional<Figure> volume_strain_figure(std::span<const RunGroup> groups) {
@@ -72,6 +85,8 @@ std::optional<Figure> volume_strain_figure(std::span<const RunGroup> groups) {
   figure.height_over_width = 1.35;
   const std::vector<PeriodicRuns> chosen = add_strains(figure, groups);
   if (chosen.empty()) return std::nullopt;
+  for (const char* strain : {"volume_strain", "centre_of_mass_strain"})
+    set_variable(figure, fmt::format("step_{}", strain), tick_step(figure, strain));
   RunChoice all;
   for (const PeriodicRuns& group : chosen) all.insert(all.end(), group.runs.begin(), group.runs.end());
   const std::vector<Estimator> estimators = estimators_of(most_analysed(all));

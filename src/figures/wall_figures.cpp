@@ -16,7 +16,6 @@ namespace talus {
 namespace {
 
 constexpr double paper_k = 2.5;  // k_L - k_0 (paper, Fig. 7)
-constexpr double window = 0.5;   // deg before theta_c
 
 /// M g / (2 L), Pa: the mean of sigma_yy in the horizontal bed at rest.
 double mean_weight(const RunStatics& statics) {
@@ -77,8 +76,8 @@ struct WallGroup {
 };
 
 double mean_depth(const FigureRun& run) {
-  const RunStatics& statics = run.file->header().statics;
-  return run.analysis.frames.at(repose_frame(run)).volume / statics.length / statics.mean_diameter;
+  const double length = run.scenario.bed.length * run.mean_diameter;
+  return run.analysis.frames.at(repose_frame(run)).volume / length / run.mean_diameter;
 }
 
 WallGroup wall_group(const RunChoice& runs, std::vector<WallPoint>& points) {
@@ -87,11 +86,10 @@ WallGroup wall_group(const RunChoice& runs, std::vector<WallPoint>& points) {
   const double n = static_cast<double>(runs.size());
   double squares = 0.0;
   for (const FigureRun* run : runs) {
-    const RatioAtFailure ratio = ratio_at_failure(run->file->observables(), theta_c_of(*run), window);
-    ratios.push_back(ratio.mean);
-    squares += ratio.spread * ratio.spread / n;
+    ratios.push_back(run->analysis.failure_ratio);
+    squares += run->analysis.failure_ratio_spread * run->analysis.failure_ratio_spread / n;
     result.depth += mean_depth(*run) / n;
-    points.push_back({mean_depth(*run) / run->scenario.bed.length, ratio.mean});
+    points.push_back({mean_depth(*run) / run->scenario.bed.length, run->analysis.failure_ratio});
   }
   result.ratio = statistics_of(ratios);
   result.spread = std::sqrt(squares);
@@ -162,7 +160,7 @@ std::optional<Figure> wall_ratio_figure(std::span<const RunGroup> groups) {
   std::vector<WallPoint> points;
   std::vector<double> depths;
   for (const RunGroup& group : groups) {
-    const RunChoice runs = with_files(failed_runs(group));
+    const RunChoice runs = failed_runs(group);
     if (group.periodic() || runs.empty()) continue;
     const WallGroup wall = wall_group(runs, points);
     depths.push_back(wall.depth);

@@ -9,7 +9,7 @@ namespace talus {
 
 /// Numbers of keys, as GLFW has them: printable keys are their ASCII code, letters as capitals. They are the
 /// indices of io.KeysDown.
-enum Key : int {
+enum KeyCode : int {
   key_space = 32,
   key_escape = 256,
   key_enter = 257,

@@ -236,7 +236,8 @@ void handle_keys(Gui& gui) {
   if (pressed(ImGuiKey_LeftArrow)) advance(gui, -factor_of_modifiers());
   if (pressed(ImGuiKey_Home)) gui.model.go_to(Landmark::first);
   if (pressed(ImGuiKey_End)) gui.model.go_to(Landmark::last);
-  if (pressed(ImGuiKey_Escape)) {
+  const bool list_open = ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopup);  // it closes itself
+  if (pressed(ImGuiKey_Escape) && !list_open) {
     if (gui.model.state.show_help)
       gui.model.state.show_help = false;
     else

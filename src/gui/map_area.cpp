@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <fmt/core.h>
 
 #include "core/trigonometry.h"
 #include "gui/panels.h"
@@ -61,8 +62,8 @@ void use_mouse(Gui& gui, const ShownMap& shown) {
     const double diameter = gui.model.mean_diameter();
     const std::optional<Index> grain = gui.model.grain_at(place.x, place.y);
     if (grain && !ImGui::IsMouseDown(0))
-      ImGui::SetTooltip("%.1f, %.1f D: grain %d, γ = %.3f, %s", place.x / diameter, place.y / diameter,
-                        *grain, gui.model.frame().gamma[*grain], reading_text(state.map).c_str());
+      ImGui::SetTooltip("%.1f, %.1f D: %s", place.x / diameter, place.y / diameter,
+                        grain_text(gui.model, *grain).c_str());
     const bool dragged = io.MouseDragMaxDistanceSqr[0] > 16.0f;
     if (ImGui::IsMouseReleased(0) && !dragged) state.selected = grain;
   }
@@ -76,6 +77,15 @@ void use_mouse(Gui& gui, const ShownMap& shown) {
 }
 
 }  // namespace
+
+std::string grain_text(const ViewModel& model, Index grain) {
+  std::string text = fmt::format("grain {}", grain);
+  if (grain >= model.statics().free_count) return "floor " + text;
+  if (!any_layer(model.state.map.layers, [](MapKind kind) { return shows_gamma(kind); })) return text;
+  const double gamma = model.frame().gamma[grain];
+  return std::isnan(gamma) ? text + ", carries nothing"
+                           : fmt::format("{}, γ = {:.3f}, {}", text, gamma, reading_text(model.state.map));
+}
 
 float map_area_height(float picture, float em) {
   const ImGuiStyle& style = ImGui::GetStyle();

@@ -37,7 +37,7 @@ class OffscreenGui {
   void click(std::string_view name, float share_x = 0.5f, float share_y = 0.5f);
   void drag(std::string_view name, float from_x, float from_y, float to_x, float to_y, int button = 0);
   void scroll(std::string_view name, float steps, float share_x = 0.5f, float share_y = 0.5f);
-  /// A printable ASCII character, or a number of Key.
+  /// A printable ASCII character, or a number of KeyCode.
   void key(int code, bool control = false);
   void type(std::string_view text);
 

@@ -101,7 +101,7 @@ void draw_replay(Gui& gui) {
   int frame = static_cast<int>(model.frame_index());
   ImGui::SetNextItemWidth(-1.0f);
   if (ImGui::SliderInt("##frame", &frame, 0, static_cast<int>(model.frame_count()) - 1,
-                       fmt::format("frame %d of {}", model.frame_count()).c_str(),
+                       fmt::format("frame {} of {}", model.frame_index() + 1, model.frame_count()).c_str(),
                        ImGuiSliderFlags_AlwaysClamp))
     model.go_to(static_cast<std::size_t>(frame));
   note_place(gui, "frame");

@@ -19,6 +19,8 @@ void draw_inspector(Gui& gui);
 void draw_plots(Gui& gui);
 /// The map with its title and legend, the mouse on it.
 void draw_map_area(Gui& gui);
+/// What the map tells of a grain under the mouse: its gamma on maps that show it.
+std::string grain_text(const ViewModel& model, Index grain);
 /// The height of the map with its title and legend around a picture of `picture` px.
 float map_area_height(float picture, float em);
 /// All keys.

@@ -17,6 +17,7 @@
 #include "core/hash.h"
 #include "core/version.h"
 #include "io/run_records.h"
+#include "io/run_signature.h"
 
 namespace talus {
 namespace {
@@ -69,6 +70,12 @@ bool is_run(const std::string& path) {
   file.read(begin.data(), static_cast<std::streamsize>(begin.size()));
   return std::ranges::any_of(signatures,
                              [&begin](std::string_view signature) { return begin.starts_with(signature); });
+}
+
+bool begins_as_run(const std::string& path) {
+  std::string begin(std::string_view(seal_begin).size(), '\0');
+  std::ifstream file(path, std::ios::binary);
+  return file.read(begin.data(), static_cast<std::streamsize>(begin.size())) && begin == seal_begin;
 }
 
 std::uint64_t sealed_size(std::span<const std::byte> file) {

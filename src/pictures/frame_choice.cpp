@@ -8,7 +8,9 @@
 #include <utility>
 
 #include "core/errors.h"
+#include "core/nearest_word.h"
 #include "core/trigonometry.h"
+#include "core/visible_text.h"
 
 namespace talus {
 namespace {
@@ -26,7 +28,8 @@ std::size_t frame_at_angle(const std::vector<double>& tilts, const std::string& 
   double angle = 0.0;
   const auto [end, error] = std::from_chars(entry.data(), entry.data() + entry.size(), angle);
   if (error != std::errc() || end != entry.data() + entry.size() || !std::isfinite(angle))
-    throw Error(ExitCode::usage, fmt::format("--at {}: expected an angle in degrees, or repose", entry));
+    throw Error(ExitCode::usage, fmt::format("--at {}: expected an angle in degrees, or repose{}",
+                                             visible_word(entry), did_you_mean(entry, {"repose"})));
   const auto frame = frame_near(tilts, radians(angle));
   if (!frame)
     throw Error(ExitCode::bad_data, fmt::format("--at {}: the run has no frame there; its {} frames go "

@@ -5,7 +5,9 @@
 #include <fmt/core.h>
 
 #include "core/errors.h"
+#include "core/nearest_word.h"
 #include "core/text.h"
+#include "core/visible_text.h"
 
 namespace talus {
 namespace {
@@ -38,9 +40,11 @@ const MapEntry& entry_of(MapKind kind) { return entries[static_cast<std::size_t>
 MapKind layer_of(std::string_view name, std::string_view whole) {
   const auto found = std::ranges::find(entries, name, &MapEntry::name);
   if (found != entries.end()) return found->kind;
-  throw Error(ExitCode::usage,
-              fmt::format("map '{}': expected one of {}, or two of them with + between, such as gamma+forces",
-                          whole, joined(entries, " ", &MapEntry::name)));
+  throw Error(
+      ExitCode::usage,
+      fmt::format("map '{}': expected one of {}, or two of them with + between, such as gamma+forces{}",
+                  visible_word(whole), joined(entries, ", ", &MapEntry::name),
+                  did_you_mean(name, names_of(entries))));
 }
 
 }  // namespace
@@ -51,10 +55,7 @@ std::string_view map_name(MapKind kind) { return entry_of(kind).name; }
 
 std::string_view map_help(MapKind kind) { return entry_of(kind).help; }
 
-std::string list_of_maps() {
-  return joined(entries, "; ",
-                [](const MapEntry& entry) { return fmt::format("{}: {}", entry.name, entry.help); });
-}
+std::string list_of_maps() { return joined(entries, ", ", &MapEntry::name); }
 
 bool needs_theta_c(MapKind kind) { return shows_gamma(kind) || kind == MapKind::coarse; }
 

@@ -26,7 +26,7 @@ std::span<const MapKind> map_kinds();
 std::string_view map_name(MapKind kind);
 /// A line for users: what the map shows.
 std::string_view map_help(MapKind kind);
-/// "gamma: stress ratio of each grain ...; overloaded: ...", of all.
+/// The names of all: "gamma, overloaded, ...".
 std::string list_of_maps();
 
 /// Whether its scale or its threshold is Gamma_c.

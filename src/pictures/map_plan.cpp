@@ -6,7 +6,9 @@
 #include <set>
 
 #include "core/errors.h"
+#include "core/nearest_word.h"
 #include "core/trigonometry.h"
+#include "core/visible_text.h"
 
 namespace talus {
 namespace {
@@ -34,7 +36,8 @@ MapSettings common_settings(const MapOptions& options) {
   settings.transparent = options.transparent;
   settings.furniture = !options.bare;
   if (options.joined && *options.joined != "contacts" && *options.joined != "neighbours")
-    refuse(fmt::format("--joined {}: expected contacts or neighbours", *options.joined));
+    refuse(fmt::format("--joined {}: expected contacts or neighbours{}", visible_word(*options.joined),
+                       did_you_mean(*options.joined, {"contacts", "neighbours"})));
   settings.joined_by_neighbours = options.joined == "neighbours";
   if (!options.range.empty()) {
     settings.range_low = options.range[0];
@@ -80,7 +83,8 @@ MapPlan plan_maps(const MapOptions& options) {
     plan.maps.emplace_back(common).layers = map_layers(name);
     if (!names.insert(name).second) refuse(fmt::format("--map: {} is given twice", name));
   }
-  if (plan.maps.empty()) refuse("--map is missing; expected one of: " + list_of_maps());
+  if (plan.maps.empty())
+    refuse("--map is missing; expected one of " + list_of_maps() + "; talus maps shows what they are");
   if (!options.traces.empty()) plan.traces = trace_kinds(options.traces);
   plan.crop = parse_crop(options.crop);
   if (options.since) plan.since = radians(*options.since);

@@ -7,8 +7,10 @@
 #include <limits>
 
 #include "core/errors.h"
+#include "core/nearest_word.h"
 #include "core/text.h"
 #include "core/trigonometry.h"
+#include "core/visible_text.h"
 #include "pictures/texts.h"
 #include "stress/overload.h"
 
@@ -40,9 +42,9 @@ TraceKind kind_of(std::string_view name) {
   const auto found = std::ranges::find(entries, name, &TraceEntry::name);
   if (found != entries.end()) return found->kind;
   throw Error(ExitCode::usage,
-              fmt::format("trace '{}': expected {} or {}", name,
+              fmt::format("trace '{}': expected {} or {}{}", visible_word(name),
                           joined(std::span(entries).first(entries.size() - 1), ", ", &TraceEntry::name),
-                          entries.back().name));
+                          entries.back().name, did_you_mean(name, names_of(entries))));
 }
 
 std::vector<AxisTick> axis_ticks(double low, double high, int most) {

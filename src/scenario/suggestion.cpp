@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cctype>
 #include <fmt/core.h>
-#include <numeric>
 #include <optional>
 #include <vector>
 
+#include "core/nearest_word.h"
 #include "core/text.h"
 
 namespace talus {
@@ -66,21 +66,6 @@ const KeyHead* key_with_word(const KeyHeads& keys, std::string_view section, std
 }
 
 }  // namespace
-
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);  // distances of a prefix of a to every prefix of b
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i + 1;
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({row[j] + 1, diagonal + 1, replaced});
-    }
-  }
-  return row.back();
-}
 
 std::string suggest_key(const KeyHeads& keys, std::string_view section, std::string_view name) {
   std::vector<std::string> homes, siblings;

@@ -8,10 +8,6 @@
 
 namespace talus {
 
-/// The least number of insertions, deletions and replacements of single characters that turn `a` into `b`
-/// (Levenshtein).
-std::size_t edit_distance(std::string_view a, std::string_view b);
-
 /// The end of a message about an unknown key `name` in `section` (which exists; empty above the first one):
 /// "; did you mean 'contact.friction'?", "; 'friction' belongs to [contact]", or what the section has.
 std::string suggest_key(const KeyHeads& keys, std::string_view section, std::string_view name);

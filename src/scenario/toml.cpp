@@ -13,9 +13,12 @@
 
 #include "core/descriptor.h"
 #include "core/errors.h"
+#include "core/nearest_word.h"
+#include "core/text.h"
 #include "core/visible_text.h"
 #include "scenario/keys.h"
 #include "scenario/rules.h"
+#include "scenario/setting_forms.h"
 #include "scenario/settings.h"
 #include "scenario/suggestion.h"
 #include "scenario/text.h"
@@ -137,14 +140,22 @@ bool is_of_expected_kind(const KeyHead& key, const toml::node& node) {
   return node.is_number() || (node.is_string() && !std::get<NumberRange>(key.range).word.empty());
 }
 
+/// The words that a key may have for its value.
+std::vector<std::string> words_of(const KeyHead& key) {
+  if (const auto* choices = std::get_if<Choices>(&key.range)) return choices->names;
+  if (const auto* range = std::get_if<NumberRange>(&key.range)) return {range->word};
+  return {};
+}
+
 void take_value(ParsedKeys& reading, const KeyHead& key, const toml::node& node, const SourcePlace& place) {
   const auto found = value_of(node);
   const auto good = found ? admitted(key, *found) : std::nullopt;
   reading.given[&key] = {place, good};
   if (!good)
-    reading.complain(place,
-                     fmt::format("key '{}'{}: expected {}{}", full_name(key), shown(node), expectation(key),
-                                 is_of_expected_kind(key, node) ? "" : ", found " + kind_of(node)));
+    reading.complain(
+        place, fmt::format("key '{}'{}: expected {}{}{}", full_name(key), shown(node), expectation(key),
+                           is_of_expected_kind(key, node) ? "" : ", found " + kind_of(node),
+                           node.is_string() ? did_you_mean(node.as_string()->get(), words_of(key)) : ""));
 }
 
 bool is_section(const KeyHeads& keys, std::string_view name) {
@@ -241,16 +252,26 @@ std::uint32_t line_too_deep(std::string_view text) {
   }
 }
 
-/// The value of a setting: TOML, a list without its brackets, or a bare word that stands for a string; of a
-/// key that takes any text, also what is no TOML (`--set deposition.file=beds/dense.csv`). One entry, named
-/// "value"; nothing where it is none of these.
+/// A number as a value that was read.
+toml::table table_of(const KeyValue& number) {
+  if (const auto* whole = std::get_if<std::int64_t>(&number)) return toml::table{{"value", *whole}};
+  return toml::table{{"value", std::get<double>(number)}};
+}
+
+/// The value of a setting: TOML, a number as people type it, a list without its brackets, or a bare word that
+/// stands for a string; of a key that takes any text, also what is no TOML (`--set
+/// deposition.file=beds/dense.csv`). One entry, named "value"; nothing where it is none of these.
 std::optional<toml::table> parse_setting(const KeyHead& key, const std::string& value) {
   if (line_too_deep(value) != 0) return std::nullopt;
   const bool bare_list = std::holds_alternative<NumberList>(key.range) && !value.starts_with('[');
   try {
     toml::table table = parse_toml("value = " + (bare_list ? fmt::format("[{}]", value) : value));
-    if (table.size() == 1) return table;
+    const bool may_be_whole =
+        std::holds_alternative<IntegerRange>(key.range) && table.get("value")->is_floating_point();
+    const auto whole = may_be_whole ? typed_number(key, value) : std::nullopt;
+    if (table.size() == 1) return whole ? table_of(*whole) : table;
   } catch (const toml::parse_error&) {
+    if (const auto number = typed_number(key, value)) return table_of(*number);
     if (is_bare_word(value) || std::holds_alternative<TextRange>(key.range))
       return toml::table{{"value", value}};
   }
@@ -258,6 +279,11 @@ std::optional<toml::table> parse_setting(const KeyHead& key, const std::string& 
 }
 
 std::string unknown_key_of_setting(const KeyHeads& keys, const std::string& name) {
+  const std::string meant = meant_key(keys, name);
+  const std::vector<std::string> several = keys_called(keys, name);
+  if (!meant.empty() || !several.empty())
+    return fmt::format("unknown key '{}'; did you mean '{}'?", visible_word(name),
+                       meant.empty() ? joined(several, "' or '") : meant);
   const auto dot = name.find('.');
   const std::string section = name.substr(0, dot == std::string::npos ? 0 : dot);
   const std::string rest = name.substr(dot == std::string::npos ? 0 : dot + 1);
@@ -271,26 +297,29 @@ void take_setting(ParsedKeys& reading, const std::string& option, const std::str
   SourcePlace place;
   place.text = fmt::format("{} {}", option, visible_word(setting));
   const auto equals = setting.find('=');
-  const std::string name = setting.substr(0, equals);
+  const std::string name(trimmed(std::string_view(setting).substr(0, equals)));
+  const std::string value(
+      equals == std::string::npos ? "" : trimmed(std::string_view(setting).substr(equals + 1)));
   const KeyHead* key = find_key(reading.keys, name);
-  if (equals == std::string::npos || equals == 0 || equals + 1 == setting.size())
+  const std::string meant = meant_setting(reading.keys, option, setting);
+  if (name.empty() || value.empty())
     return reading.complain(
-        place, fmt::format("{}expected {}key=value, such as --set {}",
+        place, fmt::format("{}expected {}key=value{}",
                            key != nullptr ? fmt::format("key '{}' has no value: ", name) : "",
-                           sections_of(reading.keys).empty() ? "" : "section.", reading.example));
+                           sections_of(reading.keys).empty() ? "" : "section.",
+                           meant.empty() ? fmt::format(", such as --set {}", reading.example) : meant));
   if (key == nullptr) return reading.complain(place, unknown_key_of_setting(reading.keys, name));
   if (reading.given.contains(key))
     return reading.complain(place,
                             fmt::format("key '{}' is set twice on the command line; expected it once", name));
-  const std::string value = setting.substr(equals + 1);
   if (const auto table = parse_setting(*key, value))
     return take_value(reading, *key, *table->get("value"), place);
   reading.given[key] = {place, std::nullopt};
   reading.complain(
-      place,
-      is_whole_number(value)
-          ? fmt::format("key '{}' = {}: expected {}", name, visible_word(value), expectation(*key))
-          : fmt::format("key '{}': expected {}, found text that is not valid TOML", name, expectation(*key)));
+      place, is_whole_number(value)
+                 ? fmt::format("key '{}' = {}: expected {}", name, visible_word(value), expectation(*key))
+                 : fmt::format("key '{}': expected {}, found text that is not valid TOML{}", name,
+                               expectation(*key), meant));
 }
 
 /// The scenario as far as its keys are accepted.

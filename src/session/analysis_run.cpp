@@ -5,6 +5,7 @@
 #include <future>
 #include <mutex>
 
+#include "analysis/failure_ratio.h"
 #include "analysis/frame_analysis.h"
 #include "analysis/transition.h"
 #include "core/errors.h"
@@ -73,6 +74,14 @@ void find_dilation(const std::vector<ObservableRow>& rows, Analysis& analysis) {
   }
 }
 
+void find_failure_ratio(const std::vector<ObservableRow>& rows, Analysis& analysis) {
+  const FailureRatio ratio =
+      failure_ratio(column(rows, Observable::tilt), column(rows, Observable::sigma_t_over_n),
+                    analysis.theta_c, radians(failure_window));
+  analysis.failure_ratio = ratio.mean;
+  analysis.failure_ratio_spread = ratio.spread;
+}
+
 void find_transitions(Analysis& analysis) {
   std::vector<double> tilts;
   for (const FrameRecord& frame : analysis.frames) tilts.push_back(frame.tilt);
@@ -115,6 +124,7 @@ Analysis analyse_run(const RunFile& run, const AnalysisParameters& parameters, i
   const std::vector<ObservableRow> rows = run.observables();
   take_observables(rows, analysis);
   find_dilation(rows, analysis);
+  find_failure_ratio(rows, analysis);
   find_transitions(analysis);
   analysis.first_slide =
       first_slide(column(rows, Observable::tilt), column(rows, Observable::surface_displacement),

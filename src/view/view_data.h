@@ -112,6 +112,8 @@ struct ViewModel::Data {
   std::size_t shown_index() const;
   /// Width over height of a picture in which the bed just has room.
   double bed_aspect(const ViewState& asked) const;
+  /// The angle since which motions are shown, where the frame shown comes after it.
+  std::optional<double> since_of(const ViewState& asked) const;
   const FrameView& whole_map(const ViewState& asked, const MapExtent& part);
   FrameView picture(const ViewState& asked, const MapExtent& part);
   std::string render_command(const ViewState& asked) const;

@@ -79,11 +79,15 @@ MapExtent ViewModel::Data::part(const ViewState& asked, double shown_aspect) con
                     shown_aspect > 0.0 ? shown_aspect : bed_aspect(asked), turn_max);
 }
 
+std::optional<double> ViewModel::Data::since_of(const ViewState& asked) const {
+  return asked.since && *asked.since < frame->tilt ? asked.since : std::nullopt;
+}
+
 const FrameView& ViewModel::Data::whole_map(const ViewState& asked, const MapExtent& shown) {
   pictures.plan.maps = {map_settings(asked)};
   pictures.extent = depends_on_extent(asked.map.layers) ? common_part(shown, bed) : bed;
   pictures.since.reset();
-  if (asked.since) pictures.since = nearest_frame(frame_tilts(), *asked.since).value_or(0);
+  if (const auto since = since_of(asked)) pictures.since = nearest_frame(frame_tilts(), *since).value_or(0);
   const std::size_t k = shown_index();
   const std::optional<std::size_t> from = reference_of(pictures, k);
   std::shared_ptr<const Frame> reference;
@@ -116,7 +120,7 @@ std::string ViewModel::Data::render_command(const ViewState& asked) const {
   shown.run = pictures.path;
   shown.settings = map_settings(asked);
   shown.tilt = frame->tilt;
-  shown.since = asked.since;
+  shown.since = since_of(asked);
   shown.mean_diameter = statics().mean_diameter;
   if (replay && replay->index() >= frames->file().frame_count()) {
     shown.in_flow = true;

@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <csignal>
+#include <map>
+#include <sstream>
 #include <thread>
 
+#include "core/trigonometry.h"
 #include "process.h"
 
 namespace talus::test {
@@ -43,12 +46,20 @@ TEST_F(AfterFailure, the_angle_at_rest_is_told) {
   const Outcome run = talus({"run", "bed.toml", "-o", "bed.h5"});
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_NE(run.out.find("theta_r = "), std::string::npos) << run.out;
-  const std::string theta_r = info("bed.h5", "theta_r");
+  const std::string theta_r = info("bed.h5", "theta_r_deg");
   ASSERT_NE(theta_r, "null");
-  EXPECT_LT(std::stod(theta_r), std::stod(info("bed.h5", "theta_c")));
+  EXPECT_LT(std::stod(theta_r), std::stod(info("bed.h5", "theta_c_deg")));
+  // One unit for one name: what is at the top in degrees has another name than what results have in radians.
+  std::istringstream json(talus({"info", "bed.h5", "--json"}).out);
+  std::map<std::string, int> keys;
+  for (std::string line; std::getline(json, line);)
+    if (const std::size_t at = line.find('"'); at == 2 || at == 4)
+      ++keys[line.substr(at + 1, line.find('"', at + 1) - at - 1)];
+  for (const char* key : {"theta_c", "theta_c_deg", "theta_r", "theta_r_deg"}) EXPECT_EQ(keys[key], 1) << key;
+  EXPECT_NEAR(degrees(std::stod(info("bed.h5", "theta_c"))), std::stod(info("bed.h5", "theta_c_deg")), 1e-9);
   EXPECT_EQ(theta_r, info("bed.h5", "tilt_deg")) << "a periodic bed has no other slope";
   EXPECT_GT(std::stoi(info("bed.h5", "frames_after_failure")), 0);
-  EXPECT_GT(std::stod(info("bed.h5", "tilt_last_deg")), std::stod(info("bed.h5", "theta_c")))
+  EXPECT_GT(std::stod(info("bed.h5", "tilt_last_deg")), std::stod(info("bed.h5", "theta_c_deg")))
       << "the last frame of the tilt is that of failure";
   const std::string text = talus({"info", "bed.h5"}).out;
   EXPECT_NE(text.find("theta_r"), std::string::npos) << text;
@@ -59,15 +70,15 @@ TEST_F(AfterFailure, a_flow_that_does_not_stop_is_told) {
                              "deposition.max_time=2"});
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_NE(run.out.find("had not stopped"), std::string::npos) << run.out;
-  EXPECT_EQ(info("bed.h5", "theta_r"), "null");
+  EXPECT_EQ(info("bed.h5", "theta_r_deg"), "null");
 }
 
 TEST_F(AfterFailure, the_other_commands_see_the_tilt_alone) {
   ASSERT_EQ(talus({"run", "bed.toml", "-o", "flow.h5"}).exit_code, 0);
   ASSERT_EQ(talus({"run", "bed.toml", "-o", "stop.h5", "--set", "tilt.after_failure=stop"}).exit_code, 0);
   EXPECT_EQ(info("flow.h5", "frames"), info("stop.h5", "frames"));
-  EXPECT_EQ(info("flow.h5", "theta_c"), info("stop.h5", "theta_c"));
-  EXPECT_EQ(info("stop.h5", "theta_r"), "null");
+  EXPECT_EQ(info("flow.h5", "theta_c_deg"), info("stop.h5", "theta_c_deg"));
+  EXPECT_EQ(info("stop.h5", "theta_r_deg"), "null");
   EXPECT_EQ(talus({"info", "stop.h5"}).out.find("theta_r"), std::string::npos);
   const auto table = [this](const std::string& run) {
     const std::string text = talus({"analyze", run}).out;
@@ -96,7 +107,7 @@ TEST_F(AfterFailure, a_flow_that_was_stopped_is_resumed_to_the_same_bits) {
     wait_for_commit(process, "parts.h5");
     kill(process, SIGTERM);
     if (wait_for(process) == 0) break;
-    if (info("parts.h5", "theta_c") != "null") ++stops_in_flow;
+    if (info("parts.h5", "theta_c_deg") != "null") ++stops_in_flow;
   }
   EXPECT_GT(stops_in_flow, 0) << "the flow was never interrupted: nothing was tested";
   ASSERT_EQ(talus({"run", "--resume", "parts.h5"}).exit_code, 0);

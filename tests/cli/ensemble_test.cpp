@@ -164,6 +164,7 @@ TEST_P(InterruptedEnsemble, that_keeps_no_runs_ends_with_the_tables_of_all) {
     EXPECT_FALSE(std::filesystem::exists(member + ".h5")) << member;
     EXPECT_FALSE(std::filesystem::exists(member + ".h5.run")) << member;
     EXPECT_TRUE(std::filesystem::exists(member + ".series.csv")) << member;
+    EXPECT_TRUE(std::filesystem::exists(member + ".lists.h5")) << member;
   }
 }
 

@@ -173,9 +173,27 @@ TEST_F(Figures, with_unknown_names_are_refused_with_the_nearest) {
   const Outcome outcome = figures({"--only", "fig09-overloaded-friction"});
   EXPECT_EQ(outcome.exit_code, 64);
   expect_parts(outcome.err, {"--only fig09-overloaded-friction: there is no such figure; did you mean "
-                             "fig09-overloaded-fraction?"});
+                             "'fig09-overloaded-fraction'?"});
   EXPECT_EQ(figures({"--only", "3"}).exit_code, 64);
   EXPECT_FALSE(fs::exists(out("")));
+}
+
+TEST_F(Figures, of_a_wildcard_are_of_the_runs_in_it) {
+  ASSERT_EQ(run_talus({"dump", "bed.h5", "--at", "1", "-o", "problem.h5"}, folder_.path()).exit_code, 0);
+  const Outcome all =
+      run_talus({"figures", "bed.h5", "bed.toml", "problem.h5", "-o", "out", "--only", "4"}, folder_.path());
+  ASSERT_EQ(all.exit_code, 0) << all.err;
+  EXPECT_EQ(all.err, "left out: bed.toml is no run\nleft out: problem.h5 is no run\n");
+  const Outcome none = run_talus({"figures", "bed.toml", "problem.h5", "-o", "none"}, folder_.path());
+  EXPECT_EQ(none.exit_code, 65);
+  expect_parts(none.err, {"none of these 2 files is a run"});
+  const Outcome alone = run_talus({"figures", "problem.h5", "-o", "none"}, folder_.path());
+  EXPECT_EQ(alone.exit_code, 65) << "what was asked for alone is no surprise";
+  const Outcome missing = run_talus({"figures", "bed.h5", "missing.h5", "-o", "none"}, folder_.path());
+  EXPECT_EQ(missing.exit_code, 66);
+  const Outcome analysis = run_talus({"analyze", "problem.h5", "bed.h5", "-q"}, folder_.path());
+  EXPECT_EQ(analysis.exit_code, 0) << analysis.err;
+  EXPECT_EQ(analysis.err, "left out: problem.h5 is no run\n");
 }
 
 TEST_F(Figures, of_one_run_twice_are_refused) {

@@ -34,7 +34,7 @@ TEST(Run, leaves_one_file_that_tells_what_it_holds) {
   EXPECT_EQ(json_value(json, "grains"), "96");
   EXPECT_EQ(json_value(json, "frames"), "7") << "0, 0.5, ... 3 deg";
   EXPECT_EQ(json_value(json, "complete"), "true");
-  EXPECT_EQ(json_value(json, "theta_c"), "null") << "this bed stands at 3 deg";
+  EXPECT_EQ(json_value(json, "theta_c_deg"), "null") << "this bed stands at 3 deg";
   EXPECT_EQ(json_value(json, "state_hash").size(), 16u);
 }
 

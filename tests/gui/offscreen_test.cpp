@@ -6,12 +6,14 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <fmt/core.h>
 #include <functional>
 #include <random>
 #include <thread>
 
 #include "cli/process.h"
 #include "core/trigonometry.h"
+#include "gui/panels.h"
 
 namespace talus {
 namespace {
@@ -109,6 +111,42 @@ TEST_F(Replay, a_map_is_chosen_in_the_list) {
   EXPECT_GT(difference(before, gui_.frame(), gui_.place("map")), 0.1);
   gui_.key('1');
   EXPECT_EQ(model_.state.map.layers, (MapLayers{MapKind::gamma}));
+}
+
+TEST_F(Replay, escape_closes_a_list_before_it_selects_no_grain) {
+  model_.state.selected = 7;
+  gui_.click("tab map");
+  gui_.click("map kind");
+  ASSERT_TRUE(gui_.has("map kind: pressure"));
+  gui_.key(key_escape);
+  EXPECT_FALSE(gui_.has("map kind: pressure"));
+  EXPECT_EQ(model_.state.selected, std::optional<Index>(7));
+  gui_.key(key_escape);
+  EXPECT_FALSE(model_.state.selected);
+}
+
+TEST_F(Replay, a_grain_is_told_by_what_the_map_shows) {
+  const std::string gamma = grain_text(model_, 7);
+  EXPECT_NE(gamma.find("grain 7, γ = "), std::string::npos) << gamma;
+  model_.state.map.layers = {MapKind::displacement};
+  EXPECT_EQ(grain_text(model_, 7), "grain 7");
+  model_.state.map.layers = {MapKind::displacement, MapKind::gamma};
+  EXPECT_EQ(grain_text(model_, model_.statics().free_count),
+            fmt::format("floor grain {}", model_.statics().free_count));
+}
+
+TEST_F(Replay, motion_is_per_degree_before_the_angle_since_which_it_is_asked_for) {
+  model_.state.map.layers = {MapKind::displacement};
+  model_.go_to(1);
+  gui_.frame();
+  const std::string per_degree = model_.annotated_map().title;
+  model_.state.since = radians(0.25);
+  model_.go_to(3);
+  gui_.frame();
+  EXPECT_NE(model_.annotated_map().title, per_degree);
+  model_.go_to(1);
+  gui_.frame();
+  EXPECT_EQ(model_.annotated_map().title, per_degree);
 }
 
 TEST_F(Replay, a_grain_is_selected_where_it_is_clicked) {

@@ -15,7 +15,7 @@ def test_facts_are_those_of_talus_info(run, analysed):
     assert run.complete and info["complete"]
     assert (run.seed, run.free.sum(), (~run.free).sum()) == (info["seed"], info["grains"], info["floor_grains"])
     assert len(run.frames) == info["frames"] == len(run.tilt)
-    assert math.degrees(run.theta_c) == pytest.approx(info["theta_c"], rel=1e-14)
+    assert math.degrees(run.theta_c) == pytest.approx(info["theta_c_deg"], rel=1e-14)
     assert run.results == info["results"]
     assert {name: run.provenance[name] for name in info["provenance"]} == info["provenance"]
     assert run["provenance/timing/tilt"] == info["timing"]["tilt"]
@@ -87,7 +87,7 @@ def test_frames_after_failure_are_told_apart(walls):
     with talus.open(walls) as run:
         assert 0 < info["frames_after_failure"] == len(run.frames) - run.frames_of_tilt
         assert run.tilt[run.frames_of_tilt - 1] == run.tilt.max()
-        assert math.degrees(run.results["theta_r"]) == pytest.approx(info["theta_r"])
+        assert math.degrees(run.results["theta_r"]) == pytest.approx(info["theta_r_deg"])
         assert not run.periodic and set(run.steps["phase"]) == {0, 1, 3}
 
 

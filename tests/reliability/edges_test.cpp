@@ -285,9 +285,9 @@ TEST_F(Edges, settings_of_the_user_change_no_figure) {
 }
 
 TEST_F(Edges, a_word_that_is_no_command_is_told_with_the_nearest) {
-  const Outcome outcome = talus({"plot", "x"});
+  const Outcome outcome = talus({"frob", "x"});
   EXPECT_EQ(outcome.exit_code, 64);
-  EXPECT_EQ(outcome.err, "talus: error: 'plot' is no command; talus --help lists them\n");
+  EXPECT_EQ(outcome.err, "talus: error: 'frob' is no command; talus --help lists them\n");
   EXPECT_NE(talus({"rnu", "x"}).err.find("did you mean 'run'"), std::string::npos);
 }
 

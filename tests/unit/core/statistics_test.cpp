@@ -120,6 +120,16 @@ TEST(StudentT, has_its_known_values) {
   EXPECT_NEAR(student_t(120), 1.97993, 1e-4);
 }
 
+TEST(PairedDifference, of_round_off_has_no_error) {
+  // Shares of 500 grains: each seed has 20 grains less, and each subtraction another last digit.
+  const Statistics found =
+      paired_difference(std::vector{0.152, 0.164, 0.236, 0.31}, std::vector{0.192, 0.204, 0.276, 0.35});
+  EXPECT_NEAR(found.mean, -0.04, 1e-15);
+  EXPECT_EQ(found.error, 0.0);
+  EXPECT_EQ(verdict(found), Verdict::unknown);
+  EXPECT_GT(paired_difference(std::vector{1.0, 2.0}, std::vector{1.0, 2.0 - 1e-9}).error, 0.0);
+}
+
 TEST(Verdict, goes_by_the_interval_of_95_percent) {
   const auto of = [](int count, double mean, double error) {
     return verdict({count, mean, error * std::sqrt(count), error});
@@ -128,6 +138,7 @@ TEST(Verdict, goes_by_the_interval_of_95_percent) {
   EXPECT_EQ(of(6, -2.6, 1.0), Verdict::differs);
   EXPECT_EQ(of(2, 12.0, 1.0), Verdict::within_error) << "two seeds say little";
   EXPECT_EQ(of(4, 0.0, 0.0), Verdict::within_error) << "the same bits";
+  EXPECT_EQ(of(4, -0.04, 0.0), Verdict::unknown) << "one step of the quantity for each seed has no error";
   EXPECT_EQ(of(1, 5.0, none), Verdict::unknown);
   EXPECT_EQ(of(0, none, none), Verdict::unknown);
 }

@@ -102,6 +102,8 @@ TEST(ReadAverages, refuses_other_files) {
   EXPECT_FALSE(is_averages_file(folder.path("none")));
   write_plain_file(folder.path("other.h5"), {{"/x", {2}, "1", "", {1.0, 2.0}, {}}}, {});
   EXPECT_TRUE(is_averages_file(folder.path("other.h5"))) << "it may be one";
+  EXPECT_FALSE(holds_averages(folder.path("other.h5")));
+  EXPECT_FALSE(holds_averages(folder.path("none")));
   EXPECT_EQ(test::exit_code_of([&] { read_averages(folder.path("other.h5")); }), ExitCode::bad_data);
   write_plain_file(folder.path("short.h5"),
                    {{"/variants/0/seed", {2}, "1", "", {}, {1, 2}},

@@ -52,9 +52,10 @@ class DroppedRuns : public testing::Test {
   test::TemporaryFolder folder_;
 };
 
-TEST_F(DroppedRuns, are_those_of_members_that_are_done_and_have_both_tables) {
-  for (const char* name : {"seed-3.h5", "seed-3.csv", "seed-3.series.csv", "seed-5.h5", "seed-5.series.csv",
-                           "seed-8.h5", "seed-8.csv"})
+TEST_F(DroppedRuns, are_those_of_members_that_are_done_and_have_all_tables) {
+  for (const char* name :
+       {"seed-3.h5", "seed-3.csv", "seed-3.series.csv", "seed-3.lists.h5", "seed-5.h5", "seed-5.series.csv",
+        "seed-5.lists.h5", "seed-8.h5", "seed-8.csv", "seed-8.series.csv"})
     touch(name);
   EXPECT_EQ(drop_runs(manifest_with(""), plan()), 0u);
   EXPECT_EQ(drop_runs(manifest_with("1"), plan()), 0u) << "seed 3 keeps its run";
@@ -62,7 +63,7 @@ TEST_F(DroppedRuns, are_those_of_members_that_are_done_and_have_both_tables) {
   EXPECT_FALSE(fs::exists(folder_.path("seed-3.h5")));
   EXPECT_TRUE(fs::exists(folder_.path("seed-3.csv")) && fs::exists(folder_.path("seed-3.series.csv")));
   EXPECT_TRUE(fs::exists(folder_.path("seed-5.h5"))) << "a member that is not done";
-  EXPECT_TRUE(fs::exists(folder_.path("seed-8.h5"))) << "one whose series is made from its run only";
+  EXPECT_TRUE(fs::exists(folder_.path("seed-8.h5"))) << "one whose lists are made from its run only";
   EXPECT_EQ(drop_runs(manifest_with("analysis"), plan()), 0u);
 }
 

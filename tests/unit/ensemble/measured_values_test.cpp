@@ -22,18 +22,12 @@ constexpr double diameter = 0.01;
 
 struct HandMadeRun {
   std::vector<double> tilts;
-  std::vector<ObservableRow> rows;
   Analysis analysis = test::blank_analysis({.frames = frames, .thresholds = 2, .sections = 4});
 
   HandMadeRun() {
-    // (sigma_T / sigma_N) / tan(theta) is 0.6 and 0.8 in the last half degree before 21 deg.
-    for (const auto& [tilt, ratio] : {std::pair(20.4, 0.1), {20.6, 0.6}, {21.0, 0.8}, {21.1, 0.2}}) {
-      rows.emplace_back();
-      at(rows.back(), Observable::tilt) = radians(tilt);
-      at(rows.back(), Observable::sigma_t_over_n) = ratio * std::tan(radians(tilt));
-    }
     for (std::size_t k = 0; k < frames; ++k) tilts.push_back(radians(5.0 * static_cast<double>(k)));
     set(&Analysis::theta_c, 0, radians(21.0));
+    set(&Analysis::failure_ratio, 0, 0.7);
     for (std::size_t k = 0; k < frames; ++k) {
       const double number = static_cast<double>(k);
       set(&FrameRecord::volume_strain, k, 1e-3 * (number == 2 ? -2.0 : number));
@@ -69,7 +63,7 @@ struct HandMadeRun {
     set(&Analysis::dilation_low, 0, low);
     set(&Analysis::dilation_high, 0, high);
   }
-  MeasuredRun measured() const { return {tilts, rows, diameter, analysis}; }
+  MeasuredRun measured() const { return {tilts, diameter, analysis}; }
   Measured value(PaperQuantity quantity, std::size_t factor = 0,
                  Population population = Population::carrying) const {
     return measure(measured(), quantity, factor, population);

@@ -25,6 +25,7 @@ FigureRun run_with(const std::string& folder, double theta_c, double level) {
   for (FrameRecord& frame : run.analysis.frames)
     frame.*density = std::vector<double>(bins, &frame == run.analysis.frames.data() ? level : 3.0 * level);
   run.analysis.direction_edge = {0.0, 0.5 * pi, pi};
+  run.analysis.gamma_edge = {0.0, 1.0};
   for (FrameRecord& frame : run.analysis.frames) frame.direction_density_by_force = std::vector<double>(bins);
   return run;
 }

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "analysis/coarse_graining.h"
+#include "ensemble/paper_values.h"
 #include "ensemble/wall_fit.h"
 #include "figures/catalogue.h"
 #include "figures/force_chains.h"
@@ -202,6 +203,19 @@ TEST_F(Curves, OfCriticalContactsNeedNoMap) {
     }
 }
 
+TEST_F(Curves, OfDistributionsNeedNoFile) {
+  fill(&FrameRecord::gamma_density, 1.0, 0.0);
+  for (FigureRun& run : groups_[0].runs) run.file.reset();
+  const auto figure = gamma_density_figure(groups_);
+  ASSERT_TRUE(figure);
+  EXPECT_EQ(column(figure->tables[0], "density_0"), (std::vector<double>{1.5, 1.5}));
+  for (FigureRun& run : groups_[0].runs) run.analysis.gamma_edge.clear();
+  for (const FigureRecipe& recipe : figure_catalogue())
+    if (recipe.material == Material::distributions) {
+      EXPECT_FALSE(recipe.make(groups_)) << recipe.name << " has no distributions to be made from";
+    }
+}
+
 TEST_F(Curves, OfOverloadedGrainsNeedAThreshold) {
   fill(&FrameThreshold::overloaded_fraction, 0.2, 0.05);  // elements: frame, threshold
   const auto figure = overloaded_fraction_figure(groups_);
@@ -226,7 +240,24 @@ TEST_F(Curves, OfLengthsAreInDiameters) {
   const auto figure = length_figure(groups_);
   EXPECT_NEAR(column(figure->tables[0], "mean_1")[0], 3.0, 1e-12);
   EXPECT_NEAR(column(figure->tables[0], "max_2")[2], 15.0, 1e-12);
-  EXPECT_NEAR(std::stod(variable(*figure, "cut")), 40.0, 1e-12) << "the largest of the runs";
+  EXPECT_NEAR(std::stod(variable(*figure, "cut_1")), 40.0, 1e-12) << "the largest of the runs";
+  EXPECT_NEAR(std::stod(variable(*figure, "top")), 40.0, 1e-12);
+}
+
+TEST_F(Curves, OfLengthsHaveTheCutOfEachBedAndAllThatThePaperFound) {
+  const double diameter = groups_[0].runs[0].file->header().statics.mean_diameter;
+  RunGroup other;
+  other.label = "deeper";
+  other.runs.push_back(std::move(groups_[0].runs.front()));
+  groups_[0].runs.erase(groups_[0].runs.begin());
+  groups_.push_back(std::move(other));
+  for (FigureRun& run : groups_[0].runs) run.analysis.lc_cut = 6.0 * diameter;
+  for (FigureRun& run : groups_[1].runs) run.analysis.lc_cut = 10.0 * diameter;
+  const auto figure = length_figure(groups_);
+  EXPECT_NEAR(std::stod(variable(*figure, "cut_1")), 6.0, 1e-12);
+  EXPECT_NEAR(std::stod(variable(*figure, "cut_2")), 10.0, 1e-12);
+  EXPECT_GE(std::stod(variable(*figure, "top")), paper_value(PaperQuantity::lc_max_after_jump).value)
+      << "the cut of a shallow bed must not drop the paper's crosses";
 }
 
 TEST_F(Curves, OfGammaAreThoseOfRunsThatStandAtTheAngle) {
@@ -234,7 +265,9 @@ TEST_F(Curves, OfGammaAreThoseOfRunsThatStandAtTheAngle) {
   const auto figure = gamma_density_figure(groups_);
   EXPECT_EQ(column(figure->tables[0], "density_0"), (std::vector<double>{1.5, 1.5}));
   for (FigureRun& run : groups_[0].runs) run.analysis.theta_c = radians(5.0);
-  EXPECT_TRUE(std::isnan(column(gamma_density_figure(groups_)->tables[0], "density_10")[0]));
+  const auto early = gamma_density_figure(groups_);
+  EXPECT_TRUE(std::isnan(column(early->tables[0], "density_10")[0]));
+  EXPECT_EQ(variable(*early, "angles"), gnuplot_string("0")) << "the key has no angle that no bed reaches";
 }
 
 TEST_F(Curves, OverScaleAreOfFailedRunsAtTheAngles) {
@@ -267,6 +300,14 @@ TEST_F(Curves, CaptionsSayWhoseGammaItIs) {
   EXPECT_NE(overloaded_fraction_figure(groups_)->caption.find("gamma is that of single grains"),
             std::string::npos);
   EXPECT_NE(gamma_density_figure(groups_)->caption.find("gamma is that of single grains"), std::string::npos);
+}
+
+TEST_F(Curves, OfTheVolumeHaveNumbersThatDoNotTouch) {
+  fill(&FrameRecord::volume_strain, 0.0, 0.01);
+  fill(&FrameRecord::centre_of_mass_strain, 0.0, -0.002);
+  const auto figure = volume_strain_figure(groups_);
+  EXPECT_EQ(std::stod(variable(*figure, "step_volume_strain")), 5.0) << "of 20e-3";
+  EXPECT_EQ(std::stod(variable(*figure, "step_centre_of_mass_strain")), 1.0) << "of -4e-3";
 }
 
 TEST_F(Curves, OfTheVolumeHaveThetaDByEachEstimator) {
@@ -319,17 +360,21 @@ TEST_F(Curves, OfWallsAreThoseOfTheShortestBed) {
               150.0 * 2.0 * statics.length / (mass * statics.gravity), 1e-12);
 }
 
-TEST(RatioAtFailure, IsOfTheLastRowsBeforeIt) {
-  std::vector<ObservableRow> rows(6);
-  const double ratios[] = {9.0, 9.0, 0.4, 0.6, 0.8, 9.0};
-  for (std::size_t k = 0; k < rows.size(); ++k) {
-    const double tilt = radians(19.0 + 0.25 * static_cast<double>(k));
-    at(rows[k], Observable::tilt) = tilt;
-    at(rows[k], Observable::sigma_t_over_n) = ratios[k] * sine(tilt) / cosine(tilt);
-  }
-  const RatioAtFailure ratio = ratio_at_failure(rows, radians(20.1), 0.75);
-  EXPECT_NEAR(ratio.mean, 0.6, 1e-12) << "19.5, 19.75 and 20 deg";
-  EXPECT_NEAR(ratio.spread, 0.2, 1e-12);
+TEST_F(Curves, OfWallsNeedNumbersOnly) {
+  RunGroup& group = groups_[0];
+  const double length = group.runs[0].scenario.bed.length, diameter = group.runs[0].mean_diameter;
+  group.runs[0].scenario.bed.boundary = BedBoundary::walls;
+  fill(&Analysis::failure_ratio, 0.5, 0.0);
+  fill(&Analysis::failure_ratio_spread, 0.1, 0.0);
+  fill(&FrameRecord::volume, 20.0 * length * diameter * diameter, 0.0);
+  for (FigureRun& run : group.runs) run.file.reset();
+  const auto figure = wall_ratio_figure(groups_);
+  ASSERT_TRUE(figure);
+  const Table& table = figure->tables[0];
+  EXPECT_EQ(column(table, "n"), (std::vector<double>{2.0}));
+  EXPECT_NEAR(column(table, "ratio")[0], 0.75, 1e-12) << "mean of 0.5 and 1";
+  EXPECT_NEAR(column(table, "ratio_spread")[0], std::sqrt((0.01 + 0.04) / 2.0), 1e-12);
+  EXPECT_NEAR(column(table, "H")[0], 30.0, 1e-9) << "mean of 20 and 40 D";
 }
 
 TEST(GnuplotQuoted, StandsForItself) {

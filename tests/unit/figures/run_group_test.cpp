@@ -73,6 +73,21 @@ TEST_F(RunGroups, ComePeriodicFirstThenByLength) {
   EXPECT_EQ(groups[2].label, "WBC, L = 300 D");
 }
 
+TEST_F(RunGroups, PartRunsOfOneSeedThatEndedInOtherStates) {
+  const auto of_ensemble = [&](std::uint64_t seed, const std::string& folder) {
+    FigureRun result = run(seed);
+    result.path = "/runs/" + folder + "/ensemble.h5#seed-" + std::to_string(seed);
+    result.state_hash = "of " + folder;
+    return result;
+  };
+  const auto groups = groups_of(of_ensemble(1, "before"), of_ensemble(2, "before"), of_ensemble(1, "after"),
+                                of_ensemble(2, "after"));
+  ASSERT_EQ(groups.size(), 2u);
+  EXPECT_EQ(groups[0].label, "PBC, L = 200 D, before");
+  EXPECT_EQ(groups[1].label, "PBC, L = 200 D, after");
+  EXPECT_EQ(groups[1].runs.size(), 2u);
+}
+
 TEST_F(RunGroups, RefuseARunTwice) {
   try {
     groups_of(run(1), run(2), run(1));

@@ -121,6 +121,46 @@ TEST(Settings, go_through_the_same_checks) {
             "--set seed=2: error: key 'seed' is set twice on the command line; expected it once");
 }
 
+TEST(Settings, may_be_written_as_people_type_them) {
+  const auto with = [](const std::string& setting) { return parse_scenario("", "s.toml", {setting}); };
+  for (const char* form : {"contact.friction=.3", "contact.friction = 0.3", " contact.friction= 0.3 ",
+                           "contact.friction=+.30", "contact.friction=3e-1"})
+    EXPECT_EQ(with(form).contact.friction, 0.3) << form;
+  EXPECT_EQ(with("contact.friction=1.").contact.friction, 1.0);
+  for (const char* form : {"bed.length=20D", "bed.length=20 D", "bed.length=20."})
+    EXPECT_EQ(with(form).bed.length, 20.0) << form;
+  EXPECT_EQ(with("tilt.end_angle=5deg").tilt.end_angle, 5.0);
+  for (const char* form : {"seed=7", "seed=007", "seed=7.0", "seed=+7", "seed=7e0"})
+    EXPECT_EQ(with(form).seed, 7u) << form;
+  EXPECT_EQ(with("solver.max_iterations=1e5").solver.max_iterations, 100000);
+}
+
+TEST(Settings, that_are_nearly_right_are_told_with_what_was_meant) {
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {"contact.friction 0.3", "did you mean '--set contact.friction=0.3'?"},
+      {"contact.friction:0.3", "did you mean '--set contact.friction=0.3'?"},
+      {"contact.friction==0.3", "did you mean '--set contact.friction=0.3'?"},
+      {"contact.friction=0,3", "did you mean '--set contact.friction=0.3'?"},
+      {"contact.friction=0.3,tilt.step=0.002",
+       "did you mean '--set contact.friction=0.3 --set tilt.step=0.002'?"},
+      {"Contact.Friction=0.3", "did you mean 'contact.friction'?"},
+      {"contact/friction=0.3", "did you mean 'contact.friction'?"},
+      {"contact_friction=0.3", "did you mean 'contact.friction'?"},
+      {"[contact]friction=0.3", "did you mean 'contact.friction'?"},
+      {"--contact.friction=0.3", "did you mean 'contact.friction'?"},
+      {"friction=0.3", "did you mean 'contact.friction' or 'deposition.friction'?"},
+      {"tolerance=1e-6", "did you mean 'solver.tolerance'?"},
+      {"contact.friction=30%", "; give the number alone"},
+      {"tilt.step=0.001rad", "; give the number alone, in deg"},
+      {"bed.boundary=PERIODIC", "did you mean 'periodic'?"},
+      {"bed.boundary=wall", "did you mean 'walls'?"},
+      {"tilt.end_angle=Repose", "did you mean 'repose'?"},
+      {"seed=7.5", "expected an integer"},
+  };
+  for (const auto& [setting, meant] : cases)
+    EXPECT_NE(message_of("", {setting}).find(meant), std::string::npos) << message_of("", {setting});
+}
+
 TEST(Settings, that_are_none_are_refused) {
   for (const char* setting : {"", "=", "seed", "seed=", "=7"})
     EXPECT_NE(message_of("", {setting}).find("expected section.key=value"), std::string::npos) << setting;

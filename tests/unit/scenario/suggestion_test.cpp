@@ -11,16 +11,6 @@ namespace {
 
 const KeyHeads keys = heads(scenario_keys());
 
-TEST(EditDistance, counts_insertions_deletions_and_replacements) {
-  EXPECT_EQ(edit_distance("", ""), 0u);
-  EXPECT_EQ(edit_distance("abc", ""), 3u);
-  EXPECT_EQ(edit_distance("", "abc"), 3u);
-  EXPECT_EQ(edit_distance("friction", "friction"), 0u);
-  EXPECT_EQ(edit_distance("fricton", "friction"), 1u);
-  EXPECT_EQ(edit_distance("kitten", "sitting"), 3u);
-  EXPECT_EQ(edit_distance("step", "pets"), 4u);
-}
-
 TEST(Suggestion, of_a_key_prefers_its_own_section) {
   EXPECT_EQ(suggest_key(keys, "deposition", "fricton"), "; did you mean 'deposition.friction'?");
   EXPECT_EQ(suggest_key(keys, "contact", "fricton"), "; did you mean 'contact.friction'?");

@@ -69,7 +69,7 @@ TEST(AnalysisParameters, out_of_range_are_refused) {
                               "l_min=101",
                               "l_min=",
                               "lc_cut=-3",
-                              "lc_cut=30D",
+                              "lc_cut=30m",
                               "lc_cut=inf",
                               "joining=contact",
                               "averaging=-1",

@@ -158,6 +158,13 @@ TEST(RunCheck, allows_a_bed_at_rest_what_its_rest_velocity_allows) {
   EXPECT_TRUE(is_told(0.05, 0.7));
 }
 
+TEST(RunCheck, judges_the_first_frame_by_the_friction_of_the_deposition) {
+  Scenario scenario = small_bed();
+  scenario.deposition.friction = scenario.deposition.wall_friction = 0.5;
+  scenario.contact.friction = scenario.contact.wall_friction = 0.1;
+  EXPECT_EQ(faults_of(check_with([](Segment&) {}, run_of(scenario))), "");
+}
+
 TEST(RunCheck, does_not_tell_more_than_can_be_read) {
   const RunCheck check = check_with([](Segment& s) {
     for (StepRow& row : s.steps) at(row, StepField::residual) = std::numeric_limits<double>::infinity();

@@ -1,0 +1,31 @@
+#include "app/given_runs.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <fmt/core.h>
+
+#include "core/errors.h"
+#include "core/visible_text.h"
+#include "io/run_signature.h"
+
+namespace talus {
+
+std::vector<std::string> runs_among(const std::vector<std::string>& paths,
+                                    bool (*is_wanted_too)(const std::string&)) {
+  if (paths.size() < 2) return paths;
+  std::vector<std::string> runs;
+  for (const std::string& path : paths) {
+    std::error_code unknown;
+    const bool is_other = std::filesystem::is_regular_file(path, unknown) && !begins_as_run(path) &&
+                          (is_wanted_too == nullptr || !is_wanted_too(path));
+    if (is_other)
+      fmt::print(stderr, "left out: {} is no run\n", visible(path));
+    else
+      runs.push_back(path);
+  }
+  if (runs.empty())
+    throw Error(ExitCode::bad_data, fmt::format("none of these {} files is a run", paths.size()));
+  return runs;
+}
+
+}  // namespace talus

@@ -1,0 +1,107 @@
+#include "app/help_text.h"
+
+#include <algorithm>
+#include <fmt/core.h>
+
+namespace talus {
+namespace {
+
+constexpr std::size_t line_width = 80, name_width = 24;
+
+struct Example {
+  std::string_view command;  ///< its words after that of the program
+  std::string_view text;
+};
+
+constexpr Example examples[] = {
+    {"run", "talus run assets/scenarios/demo.toml --set contact.friction=0.3 -o demo.h5"},
+    {"check", "talus check assets/scenarios/demo.toml"},
+    {"info", "talus info demo.h5"},
+    {"replay", "talus replay demo.h5"},
+    {"repair", "talus repair damaged.h5 -o whole.h5"},
+    {"view", "talus view demo.h5 --at repose --map coarse+forces"},
+    {"render", "talus render demo.h5 --map gamma,clusters --at 0,10,repose"},
+    {"panel", "talus panel demo.h5 --map clusters --at 0,10,repose -o clusters.png"},
+    {"animate", "talus animate demo.h5 --map coarse+forces --speed 2 -o demo.mp4"},
+    {"maps", "talus maps"},
+    {"analyze", "talus analyze demo.h5"},
+    {"figures", "talus figures demo.h5 -o figures"},
+    {"export", "talus export demo.h5 --to paraview --at 0,10,repose -o paraview"},
+    {"ensemble", "talus ensemble assets/scenarios/demo.toml --seeds 1-8 -o beds"},
+    {"ensemble work", "talus ensemble work beds"},
+    {"ensemble status", "talus ensemble status beds"},
+    {"ensemble average", "talus ensemble average beds"},
+    {"ensemble retry", "talus ensemble retry beds"},
+    {"ensemble submit", "talus ensemble submit beds --tasks 8 -- --partition=short"},
+    {"ensemble cancel", "talus ensemble cancel beds"},
+    {"study", "talus study assets/scenarios/demo.toml --vary tilt.step=0.002,0.0005 --seeds 1-4 -o study"},
+    {"perturb", "talus perturb assets/scenarios/metastability.toml --seeds 1-4 -o pushes"},
+    {"reproduce", "talus reproduce --quick -o reproduction"},
+    {"dump", "talus dump demo.h5 --at 10 -o problem.h5"},
+    {"solve", "talus solve problem.h5 --cold --tol 1e-4"},
+    {"forces", "talus forces demo.h5 --at 10"},
+};
+
+void add_examples_below(CLI::App& app, const std::string& words) {
+  for (CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    const std::string name = words + command->get_name();
+    add_examples_below(*command, name + " ");
+    const auto* const found = std::ranges::find(examples, name, &Example::command);
+    if (found == std::end(examples)) continue;
+    const std::string before = command->get_footer();
+    command->footer(fmt::format("{}{}Example:\n  {}", before, before.empty() ? "" : "\n", found->text));
+  }
+}
+
+}  // namespace
+
+const char* const first_example =
+    "To begin with, from the folder with assets/scenarios (share/talus/scenarios where it is installed):\n"
+    "  talus run assets/scenarios/demo.toml -o demo.h5\n"
+    "  talus render demo.h5 --map clusters --at 0,10,repose\n"
+    "  talus view demo.h5";
+
+std::string wrapped(const std::string& text, std::size_t width) {
+  std::string result, rest = text;
+  while (rest.size() > width || rest.find('\n') != std::string::npos) {
+    std::size_t end = rest.find('\n');
+    if (end > width) end = rest.rfind(' ', width);
+    if (end == std::string::npos) end = rest.find(' ');
+    if (end == std::string::npos) break;
+    result += rest.substr(0, end) + "\n";
+    rest.erase(0, end + 1);
+  }
+  return result + rest;
+}
+
+HelpText::HelpText() { column_width(name_width); }
+
+std::string HelpText::make_option_opts(const CLI::Option* option) const {
+  std::string text;
+  if (option->get_type_size() != 0) {
+    const std::string type = option->get_type_name();  // "FLOAT:FLOAT in [0 - 90]", "TEXT:{a,b}"
+    const std::size_t colon = type.find(':');
+    text = " " + (colon == std::string::npos ? type : type.substr(colon + 1));
+    if (!option->get_default_str().empty()) text += fmt::format(" [{}]", option->get_default_str());
+    if (option->get_expected_max() == CLI::detail::expected_max_vector_size) text += " ...";
+    if (option->get_required()) text += " (required)";
+  }
+  for (const CLI::Option* other : option->get_needs()) text += " with " + other->get_name();
+  for (const CLI::Option* other : option->get_excludes()) text += " without " + other->get_name();
+  return text;
+}
+
+std::string HelpText::make_option_desc(const CLI::Option* option) const {
+  return wrapped(option->get_description(), line_width - name_width);
+}
+
+std::string HelpText::make_subcommand(const CLI::App* command) const {
+  std::ostringstream out;
+  CLI::detail::format_help(out, command->get_name(),
+                           wrapped(command->get_description(), line_width - name_width), name_width);
+  return out.str();
+}
+
+void add_examples(CLI::App& app) { add_examples_below(app, ""); }
+
+}  // namespace talus

@@ -1,0 +1,154 @@
+/// Distributions and other lists of members: their file, and averages that keep no member.
+
+#include "ensemble/list_averages.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "analysis/quantities.h"
+#include "core/trigonometry.h"
+#include "ensemble/averages_file.h"
+#include "io/plain_file.h"
+#include "support/blank_analysis.h"
+#include "support/exit_code.h"
+#include "support/temporary_folder.h"
+
+namespace talus {
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+/// Frames at 0, 1, 2 ... deg up to theta_c with the densities {d + theta, 10 d + theta}.
+MemberLists member(double theta_c, double d) {
+  MemberLists lists{
+      {}, {{"gamma/edge", "1", "edges", 3, {0.0, 0.5, 1.0}}}, {{"gamma/density", "1", "pdf", 2, {}}}};
+  for (int k = 0; k <= theta_c; ++k) {
+    lists.theta.push_back(k);
+    lists.lists[0].values.push_back(d + k);
+    lists.lists[0].values.push_back(10.0 * d + k);
+  }
+  return lists;
+}
+
+ListAverages averages_of_two() {
+  ListAverages averages;
+  add_member(averages, member(2.5, 1.0), 2.5, 1.0);
+  add_member(averages, member(3.5, 3.0), 3.5, 1.0);
+  return averages;
+}
+
+TEST(ListAverages, are_number_by_number_over_the_members_that_still_stand) {
+  const ListAverages found = averages_of_two();
+  const AveragedList& density = found.over_tilt.at(0);
+  EXPECT_EQ(density.name, "gamma/density");
+  ASSERT_EQ(density.mean.size(), 4u * 2u) << "0, 1, 2 and 3 deg";
+  EXPECT_DOUBLE_EQ(density.mean[0], 2.0);
+  EXPECT_DOUBLE_EQ(density.mean[1], 20.0);
+  EXPECT_DOUBLE_EQ(density.mean[2 * 2 + 1], 22.0);
+  EXPECT_EQ(density.count[2 * 2], 2.0);
+  EXPECT_EQ(density.count[3 * 2], 1.0) << "member 1 has failed";
+  EXPECT_DOUBLE_EQ(density.mean[3 * 2], 6.0);
+  EXPECT_NEAR(deviation_of(density)[1], std::sqrt(200.0), 1e-12);
+  EXPECT_TRUE(std::isnan(deviation_of(density)[3 * 2]));
+}
+
+TEST(ListAverages, before_failure_are_at_the_same_angle_from_each_theta_c) {
+  const ListAverages found = averages_of_two();
+  const AveragedList& density = found.before_failure.at(0);
+  EXPECT_EQ(density.count[0], 0.0) << "theta_c is beyond the last frame";
+  EXPECT_TRUE(std::isnan(density.mean[0]));
+  EXPECT_DOUBLE_EQ(density.mean[1 * 2], 0.5 * ((1.0 + 1.5) + (3.0 + 2.5)));
+  EXPECT_EQ(density.count[3 * 2], 1.0) << "member 1 was never so far from its failure";
+}
+
+TEST(ListAverages, leave_out_members_with_other_bins) {
+  ListAverages averages = averages_of_two();
+  MemberLists other = member(2.5, 100.0);
+  other.bins[0].values[1] = 0.4;
+  add_member(averages, other, 2.5, 1.0);
+  EXPECT_EQ(averages.over_tilt[0].count[0], 2.0);
+  add_member(averages, {}, none, 1.0);
+  EXPECT_EQ(averages.over_tilt[0].count[0], 2.0) << "one without frames";
+}
+
+TEST(ListAverages, stand_in_the_file_with_their_bins) {
+  const test::TemporaryFolder folder;
+  Averages numbers;
+  numbers.over_tilt.angles = {0.0, 1.0, 2.0, 3.0, 4.0};
+  write_averages(folder.path("e.h5"), {{"", "seed = 1\n", numbers, averages_of_two()}}, "0.1.0");
+  const PlainFile file = read_plain_file(folder.path("e.h5"));
+  const auto called = [&](const std::string& path) {
+    return *std::ranges::find(file.arrays, "/variants/0/" + path, &PlainArray::path);
+  };
+  EXPECT_EQ(called("bins/gamma/edge").values, (std::vector{0.0, 0.5, 1.0}));
+  EXPECT_EQ(called("over_tilt/gamma/density/mean").shape, (std::vector<std::size_t>{5, 2}));
+  EXPECT_DOUBLE_EQ(called("over_tilt/gamma/density/mean").values[1], 20.0);
+  EXPECT_EQ(called("over_tilt/gamma/density/n").values[4 * 2], 0.0) << "no member reached 4 deg";
+  EXPECT_TRUE(std::isnan(called("over_tilt/gamma/density/mean").values[4 * 2]));
+  EXPECT_NEAR(called("over_tilt/gamma/density/deviation").values[0], std::sqrt(2.0), 1e-12);
+}
+
+/// Every list of the table of quantities has numbers of its own.
+Analysis filled_analysis() {
+  Analysis analysis = test::blank_analysis({.frames = 3, .thresholds = 2, .sections = 4, .bins = 5});
+  double next = 1.0;
+  for (FrameRecord& frame : analysis.frames) {
+    frame.tilt = radians(next);
+    for (const Quantity& quantity : quantities())
+      for (std::size_t f = 0; f < (needs_threshold(quantity) ? 2u : 1u); ++f) {
+        std::vector<double> numbers = list_of(quantity, frame, f);
+        for (double& number : numbers) number = next++;
+        set_list(quantity, numbers, frame, f);
+      }
+  }
+  return analysis;
+}
+
+TEST(MemberLists, come_back_from_their_file_to_where_they_were) {
+  const test::TemporaryFolder folder;
+  const Analysis analysis = filled_analysis();
+  const double diameter = 0.25;
+  write_lists(folder.path("m.lists.h5"), member_lists(analysis, diameter));
+  Analysis again = test::blank_analysis({.frames = 3, .thresholds = 2, .sections = 4, .bins = 5});
+  set_lists(read_lists(folder.path("m.lists.h5")), diameter, again);
+  int lists = 0;
+  for (const Quantity& quantity : quantities()) {
+    if (!is_list_of_frame(quantity) || quantity.unit == "rad") continue;
+    for (std::size_t f = 0; f < (needs_threshold(quantity) ? 2u : 1u); ++f) {
+      EXPECT_EQ(list_of(quantity, again.frames[2], f), list_of(quantity, analysis.frames[2], f))
+          << quantity.name;
+      EXPECT_FALSE(list_of(quantity, again.frames[2], f).empty()) << quantity.name;
+      ++lists;
+    }
+  }
+  EXPECT_GT(lists, 12);
+}
+
+TEST(MemberLists, end_at_theta_c_and_leave_out_directions_and_grains) {
+  Analysis analysis = filled_analysis();
+  analysis.theta_c = analysis.frames[1].tilt;
+  const MemberLists found = member_lists(analysis, 0.25);
+  EXPECT_EQ(found.theta.size(), 2u);
+  for (const NamedList& list : found.lists) {
+    EXPECT_EQ(list.values.size(), 2 * list.width) << list.name;
+    EXPECT_NE(list.unit, "deg") << list.name;
+    EXPECT_NE(list.name, "lc/length");
+  }
+}
+
+TEST(MemberLists, that_were_changed_are_refused) {
+  const test::TemporaryFolder folder;
+  const std::string path = folder.path("m.lists.h5");
+  write_plain_file(
+      path,
+      {{"/theta", {2}, "deg", "tilt", {0.0, 1.0}, {}}, {"/frames/z", {3, 1}, "1", "z", {1.0, 2.0, 3.0}, {}}},
+      {});
+  EXPECT_EQ(test::exit_code_of([&] { read_lists(path); }), ExitCode::bad_data) << "three frames at two tilts";
+  write_plain_file(path, {{"/theta", {2}, "deg", "tilt", {1.0, 0.0}, {}}}, {});
+  EXPECT_EQ(test::exit_code_of([&] { read_lists(path); }), ExitCode::bad_data) << "tilts that descend";
+}
+
+}  // namespace
+}  // namespace talus
