@@ -38,6 +38,10 @@ set border linewidth 1
 set tics in scale 0.6,0.3
 set style fill solid 0.25 noborder
 set key above left Left reverse samplen 3 spacing 1.1 font ",7"
+# A text that is longer than the figure is wide has smaller letters.
+if (exists("key_entries") && 0.13 * key_longest > width - 2.4) {
+  eval sprintf('set key font ",%g"', 7 * (width - 2.4) / (0.13 * key_longest) < 5 ? 5 : 7 * (width - 2.4) / (0.13 * key_longest))
+}
 if (exists("key_entries")) {
   eval sprintf('set key at screen %g, screen %g left top vertical maxrows %d', 1.2 / width, 1 - 0.1 / height, key_rows)
   set tmargin at screen 1 - key_height / height

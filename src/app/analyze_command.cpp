@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "app/analysis_report.h"
+#include "app/choices.h"
 #include "app/commands.h"
 #include "app/given_runs.h"
 #include "session/analysis_parameters.h"
@@ -50,7 +51,7 @@ void add_analyze_command(CLI::App& app) {
       ->add_option("--threads", arguments->options.threads,
                    "Frames analysed side by side; the result does not depend on it")
       ->capture_default_str()
-      ->check(CLI::Range(1, 256));
+      ->check(in_range(1, 256));
   command->add_flag("--force", arguments->options.force, "Compute again what is stored and valid");
   command->add_flag("--json", arguments->json,
                     "As a JSON list with all series of each run, in SI units and radians");

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "app/choices.h"
 #include "app/commands.h"
 #include "app/count_progress.h"
 #include "app/map_options.h"
@@ -60,16 +61,16 @@ void add_animate_command(CLI::App& app) {
   command
       ->add_option("--every", arguments->timing.every,
                    "Degrees of tilt between frames of the run that are drawn [all frames]")
-      ->check(CLI::Range(1e-6, 90.0));
+      ->check(in_range(1e-6, 90.0));
   command->add_option("--fps", arguments->timing.fps, "Frames a second")
       ->capture_default_str()
-      ->check(CLI::Range(0.1, 120.0));
+      ->check(in_range(0.1, 120.0));
   command
       ->add_option(
           "--speed", arguments->timing.speed,
           "Degrees of tilt a second: the time of the movie follows the tilt, and its end is held for "
           "a second [each frame of the run is shown once]")
-      ->check(CLI::Range(1e-3, 1000.0));
+      ->check(in_range(1e-3, 1000.0));
   command
       ->add_option("-o,--output", arguments->output,
                    "Movie to write: FILE.mp4, FILE.webm or FILE.gif; its folder is made where missing")

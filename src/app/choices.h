@@ -1,9 +1,10 @@
 #pragma once
-/// Options with few values.
+/// What values of options may be: one of few names, or a number within a range.
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "core/nearest_word.h"
@@ -21,6 +22,19 @@ inline CLI::Validator one_of(const std::vector<std::string>& names) {
                                did_you_mean(word, names));
           },
           fmt::format("{{{}}}", joined(names, ","))};
+}
+
+/// Accepts numbers of this kind from `low` to `high`, both included. Help shows them as "in [low - high]".
+template <typename Number>
+CLI::Validator in_range(Number low, Number high) {
+  return {[low, high](const std::string& word) {
+            Number value{};
+            if (CLI::detail::lexical_cast(word, value) && value >= low && value <= high) return std::string();
+            return fmt::format("expected a {} from {} to {}, found {}",
+                               std::is_integral_v<Number> ? "whole number" : "number", low, high,
+                               visible_word(word));
+          },
+          fmt::format("in [{} - {}]", low, high)};
 }
 
 }  // namespace talus

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "app/analysed_run.h"
+#include "app/choices.h"
 #include "app/command_line.h"
 #include "app/commands.h"
 #include "app/ensemble_averages.h"
@@ -156,7 +157,7 @@ void add_time_options(CLI::App& command, const std::shared_ptr<EnsembleArguments
           "Time without a heartbeat after which a worker of another machine is taken for dead, s; the "
           "same for all workers")
       ->capture_default_str()
-      ->check(CLI::Range(1.0, 86400.0));
+      ->check(in_range(1.0, 86400.0));
 }
 
 void add_subcommands(CLI::App& command, const std::shared_ptr<EnsembleArguments>& arguments) {

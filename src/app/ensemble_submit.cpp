@@ -191,7 +191,7 @@ void add_submit(CLI::App& ensemble) {
   command
       ->add_option("--tasks", arguments->tasks,
                    "Workers; without it as many as members are missing and not queued for, 100 at most")
-      ->check(CLI::Range(std::size_t{1}, most_tasks));
+      ->check(in_range(std::size_t{1}, most_tasks));
   command->add_option(
       "--time", arguments->time,
       "Time of a task, HH:MM or HH:MM:SS; its worker stops before it is over, and the task is "
@@ -200,7 +200,7 @@ void add_submit(CLI::App& ensemble) {
       ->add_option("--stale", arguments->stale,
                    "Time without a heartbeat after which a worker of another machine is taken for dead, s")
       ->capture_default_str()
-      ->check(CLI::Range(1.0, 86400.0));
+      ->check(in_range(1.0, 86400.0));
   command->add_option("options", arguments->options,
                       "Options of sbatch, after --: -- --partition=long --mem=2G");
   command->callback([arguments] { submit(*arguments); });

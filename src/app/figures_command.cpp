@@ -7,6 +7,7 @@
 #include <fmt/core.h>
 #include <memory>
 
+#include "app/choices.h"
 #include "app/command_line.h"
 #include "app/commands.h"
 #include "app/count_progress.h"
@@ -150,7 +151,7 @@ void add_figures_command(CLI::App& app) {
   command
       ->add_option("--columns", arguments->columns,
                    "Width of the figures: 1 column (8.6 cm) or 2 (17.8 cm); default: each figure's own")
-      ->check(CLI::IsMember({1, 2}));
+      ->check(in_range(1, 2));
   command
       ->add_option("--set", arguments->settings,
                    "Change a parameter of the analysis, e.g. --set lc_cut=30 (see docs/analysis.md)")
@@ -159,7 +160,7 @@ void add_figures_command(CLI::App& app) {
       ->add_option("--threads", arguments->analysis.threads,
                    "Frames analysed side by side; the result does not depend on it")
       ->capture_default_str()
-      ->check(CLI::Range(1, 256));
+      ->check(in_range(1, 256));
   command->add_flag("--overwrite", arguments->overwrite, "Replace files that exist");
   command->add_flag("-q,--quiet", arguments->analysis.quiet, "Show no progress");
   command->footer(list_of_figures());

@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 #include <memory>
 
+#include "app/choices.h"
 #include "app/commands.h"
 #include "app/json.h"
 #include "core/errors.h"
@@ -148,13 +149,13 @@ void add_search(CLI::App& command, ForceSearch& search) {
       .add_option("--solutions", search.solutions,
                   "How many sets of forces to look for, beside the one from the stored forces")
       ->capture_default_str()
-      ->check(CLI::Range(1, 10000));
+      ->check(in_range(1, 10000));
   command.add_option("--tol", search.tolerance, "Natural-map residual eta that all of them must reach")
       ->capture_default_str()
-      ->check(CLI::Range(1e-15, 1.0));
+      ->check(in_range(1e-15, 1.0));
   command.add_option("--max-iterations", search.max_iterations, "Iterations, at most")
       ->capture_default_str()
-      ->check(CLI::Range(0, 1000000000));
+      ->check(in_range(0, 1000000000));
   command.add_option("--seed", search.seed, "Seed of the random starts and orders")->capture_default_str();
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 
+#include "app/choices.h"
 #include "core/errors.h"
 
 namespace talus {
@@ -50,7 +51,7 @@ void add_frame_options(CLI::App& command, FrameOptions& options) {
           ->excludes(numbers);
   command
       .add_option("--every", options.every, "Degrees between frames; the last frame before failure is added")
-      ->check(CLI::Range(1e-6, 90.0))
+      ->check(in_range(1e-6, 90.0))
       ->excludes(numbers)
       ->excludes(at);
   command.add_flag("--flow", options.flow,

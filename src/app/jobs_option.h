@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <thread>
 
+#include "app/choices.h"
+
 namespace talus {
 
 /// Processors of this machine: how many beds are computed side by side where nothing is asked.
@@ -16,7 +18,7 @@ inline void add_jobs_option(CLI::App& command, int& jobs) {
                   "Workers side by side, each on one thread; with 0 what is missing is left to others "
                   "(talus ensemble work, or submit)")
       ->capture_default_str()
-      ->check(CLI::Range(0, 256));
+      ->check(in_range(0, 256));
 }
 
 }  // namespace talus

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include "app/choices.h"
 #include "core/text.h"
 #include "render/layout.h"
 
@@ -23,18 +24,18 @@ void add_live_options(CLI::App& command, MapOptions& options) {
   command
       .add_option("--width", options.width, "Width of the picture in pixels; the height follows from the bed")
       ->capture_default_str()
-      ->check(CLI::Range(smallest_width, largest_side));
+      ->check(in_range(smallest_width, largest_side));
   command
       .add_option("--theta-c", options.theta_c,
                   "Angle of repose in degrees, for Gamma_c = sin(theta_c) [that of the run]")
-      ->check(CLI::Range(2.0, 89.0));
+      ->check(in_range(2.0, 89.0));
   command
       .add_option(
           "--l-min", options.l_min,
           "Maps gamma, overloaded and clusters, and their traces: a grain is taken together with all "
           "whose centres lie within half of this of its own, in mean diameters: 3 for a grain and its "
           "first neighbours, 0 for the grain alone [3]")
-      ->check(CLI::Range(0.0, 100.0));
+      ->check(in_range(0.0, 100.0));
   command.add_option("--colours", options.colours,
                      fmt::format("Colours of the bar: {} [each map its own]", list_of_colours()));
   command
@@ -47,17 +48,17 @@ void add_scale_options(CLI::App& command, MapOptions& options) {
   command
       .add_option("--threshold", options.threshold,
                   "Grains are overloaded from this times Gamma_c on; the paper prints 1 and draws 2 [1]")
-      ->check(CLI::Range(0.01, 100.0));
+      ->check(in_range(0.01, 100.0));
   command
       .add_option("--length", options.length,
                   "Map coarse: diameter of the neighbourhood of a grain, in mean diameters [10]")
-      ->check(CLI::Range(1.0, 1000.0));
+      ->check(in_range(1.0, 1000.0));
   command
       .add_option(
           "--since", options.since,
           "Maps displacement and rotation: since this angle in degrees [in a degree of tilt, from the "
           "frame before]")
-      ->check(CLI::Range(0.0, 90.0));
+      ->check(in_range(0.0, 90.0));
   command.add_option("--joined", options.joined,
                      "Clusters join by contacts that carry a force, or by neighbours: grains closer than 1.1 "
                      "times the sum of their radii [contacts]");

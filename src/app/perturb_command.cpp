@@ -8,6 +8,7 @@
 #include <optional>
 #include <thread>
 
+#include "app/choices.h"
 #include "app/command_line.h"
 #include "app/commands.h"
 #include "app/ensemble_workers.h"
@@ -123,10 +124,10 @@ void add_perturb_command(CLI::App& app) {
       ->excludes(seeds);
   command->add_option("--from", arguments->plan.first, "First tilt at which copies are pushed, deg")
       ->capture_default_str()
-      ->check(CLI::Range(0.0, 60.0));
+      ->check(in_range(0.0, 60.0));
   command->add_option("--every", arguments->plan.every, "Tilt between these states, deg")
       ->capture_default_str()
-      ->check(CLI::Range(1e-3, 60.0));
+      ->check(in_range(1e-3, 60.0));
   command
       ->add_option("--patch", arguments->patch,
                    "Width and depth of the part of the surface that is pushed, D")

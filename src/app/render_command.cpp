@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "app/choices.h"
 #include "app/commands.h"
 #include "app/count_progress.h"
 #include "app/map_options.h"
@@ -64,7 +65,7 @@ void add_render_command(CLI::App& app) {
       ->add_option("--every", arguments->frames.every,
                    "Degrees between pictures; the last frame before failure is added")
       ->capture_default_str()
-      ->check(CLI::Range(1e-6, 90.0))
+      ->check(in_range(1e-6, 90.0))
       ->excludes(at);
   command->add_flag("--flow", arguments->frames.flow,
                     "Also all frames of the flow after failure, where the run has followed it");

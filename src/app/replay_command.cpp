@@ -8,6 +8,7 @@
 #include <optional>
 #include <thread>
 
+#include "app/choices.h"
 #include "app/command_line.h"
 #include "app/commands.h"
 #include "app/open_run.h"
@@ -124,7 +125,7 @@ void add_replay_command(CLI::App& app) {
   command
       ->add_option("--threads", arguments->threads, "Threads of the solver; the result does not depend on it")
       ->capture_default_str()
-      ->check(CLI::Range(1, 256));
+      ->check(in_range(1, 256));
   command
       ->add_flag("--overwrite", arguments->overwrite,
                  "Replace a run of this name; the old file is kept until the new run is complete")

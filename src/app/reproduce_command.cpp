@@ -19,6 +19,7 @@
 #include "core/errors.h"
 #include "ensemble/reproduction_report.h"
 #include "ensemble/reproduction_values.h"
+#include "figures/agreement_figure.h"
 #include "figures/catalogue.h"
 #include "io/durable_file.h"
 #include "session/estimate.h"
@@ -84,33 +85,55 @@ bool is_drawn(const Figure& figure, std::span<const RunGroup> groups, const fs::
          holds(folder / (figure.name + ".gp"), gnuplot_text(figure, figure_width(figure, options.columns)));
 }
 
-/// Draws all figures of the catalogue that can be made of the complete, analysed runs and returns them as
-/// pictures of the report. A figure whose provenance and script are those that would be written is kept.
-std::vector<ReportPicture> draw_figures(const ReproductionPlan& plan, const std::string& folder) {
+/// Draws a figure, unless one with the same provenance and script is there, and returns it as a picture.
+ReportPicture drawn(const Figure& figure, std::span<const RunGroup> groups, const std::string& folder,
+                    const FigureOptions& options) {
+  try {
+    if (!is_drawn(figure, groups, folder, options)) write_figure(figure, groups, folder, options);
+  } catch (const Error&) {
+    stop_if_asked();  // Ctrl-C ends gnuplot too: that is no error of the figure
+    throw;
+  }
+  return {fmt::format("figures/{}.png", figure.name), figure.title, figure.caption, figure.wide};
+}
+
+std::vector<ReportPicture>& part_of(ReproductionPictures& pictures, Subject subject) {
+  switch (subject) {
+    case Subject::packing:
+      return pictures.packing;
+    case Subject::overload:
+      return pictures.overload;
+    case Subject::walls:
+      return pictures.walls;
+    case Subject::further:
+      break;
+  }
+  return pictures.further;
+}
+
+/// Draws the chart of agreement, and all figures of the catalogue that can be made of the complete, analysed
+/// runs.
+ReproductionPictures draw_figures(const ReproductionPlan& plan, const ReproductionResult& result,
+                                  const std::string& folder) {
   const std::vector<RunGroup> groups = open_groups(plan);
   const std::string into = (fs::path(folder) / "figures").string();
   const auto catalogue = figure_catalogue();
-  std::vector<ReportPicture> pictures;
-  CountProgress progress("figures", catalogue.size(), false);
+  ReproductionPictures pictures;
+  CountProgress progress("figures", catalogue.size() + 1, false);
+  pictures.agreement.push_back(
+      drawn(agreement_figure(result), groups, into, {0, fmt::format("talus reproduce -o {}", folder)}));
   for (std::size_t k = 0; k < catalogue.size(); ++k) {
-    stop_if_asked();
-    if (const auto figure = catalogue[k].make(groups)) {
-      const FigureOptions options{0, command_of(*figure, into)};
-      try {
-        if (!is_drawn(*figure, groups, into, options)) write_figure(*figure, groups, into, options);
-      } catch (const Error&) {
-        stop_if_asked();  // Ctrl-C ends gnuplot too: that is no error of the figure
-        throw;
-      }
-      pictures.push_back(
-          {fmt::format("figures/{}.png", figure->name), figure->title, figure->caption, figure->wide});
-    }
     progress.show(k + 1);
+    stop_if_asked();
+    if (const auto figure = catalogue[k].make(groups))
+      part_of(pictures, catalogue[k].subject)
+          .push_back(drawn(*figure, groups, into, {0, command_of(*figure, into)}));
   }
+  progress.show(catalogue.size() + 1);
   return pictures;
 }
 
-void write_report(const ReproductionResult& result, const std::vector<ReportPicture>& pictures,
+void write_report(const ReproductionResult& result, const ReproductionPictures& pictures,
                   const fs::path& folder) {
   write_text(folder / "values.csv", values_csv(result));
   write_text(folder / "report.html", report_html(reproduction_report(result, pictures), folder));
@@ -135,7 +158,8 @@ void reproduce(const ReproduceArguments& arguments) {
     std::printf("%s", ensemble_text(view).c_str());  // others are to compute it
     return;
   }
-  write_report(measure_members(plan), draw_figures(plan, folder), folder);
+  const ReproductionResult result = measure_members(plan);
+  write_report(result, draw_figures(plan, result, folder), folder);
   refuse_failures(plan, "left out of the report");
 }
 

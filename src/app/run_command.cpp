@@ -8,6 +8,7 @@
 #include <optional>
 #include <thread>
 
+#include "app/choices.h"
 #include "app/commands.h"
 #include "app/map_options.h"
 #include "app/open_run.h"
@@ -225,7 +226,7 @@ void add_run_command(CLI::App& app) {
   command
       ->add_option("--threads", arguments->threads, "Threads of the solver; the result does not depend on it")
       ->capture_default_str()
-      ->check(CLI::Range(1, 256));
+      ->check(in_range(1, 256));
   CLI::Option* resume =
       command->add_flag("--resume", arguments->resume,
                         "Continue from the last checkpoint: talus run --resume RUN. With SCENARIO "

@@ -199,16 +199,16 @@ void add_settings(CLI::App& command, SolveArguments& arguments) {
                   fmt::format("Natural-map residual eta to reach; without it what the run asked of the step, "
                               "and {} where the file does not tell",
                               short_text(settings.tolerance)))
-      ->check(CLI::Range(1e-15, 1.0));
+      ->check(in_range(1e-15, 1.0));
   command.add_option("--max-iterations", settings.max_iterations, "Iterations, at most")
       ->capture_default_str()
-      ->check(CLI::Range(0, 1000000000));
+      ->check(in_range(0, 1000000000));
   command
       .add_option(
           "--threads", settings.threads,
           "Threads of the accelerated solver, where bodies are known; the result does not depend on it")
       ->capture_default_str()
-      ->check(CLI::Range(1, 256));
+      ->check(in_range(1, 256));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "app/choices.h"
 #include "app/commands.h"
 #include "app/ensemble_workers.h"
 #include "app/jobs_option.h"
@@ -111,7 +112,7 @@ void add_study_command(CLI::App& app) {
   command
       ->add_option("--at", arguments->reference,
                    "Angle at which beds are compared, deg [smallest theta_c, rounded down to a whole degree]")
-      ->check(CLI::Range(0.0, 60.0));
+      ->check(in_range(0.0, 60.0));
   add_jobs_option(*command, arguments->jobs);
   command->add_flag("--json", arguments->json, "Print the result as JSON");
   command->callback([arguments] { study(*arguments); });

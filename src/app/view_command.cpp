@@ -9,6 +9,7 @@
 #include <thread>
 #include <utility>
 
+#include "app/choices.h"
 #include "app/command_line.h"
 #include "app/commands.h"
 #include "app/output_files.h"
@@ -213,7 +214,7 @@ void add_view_command(CLI::App& app) {
                       "Begin a replay at this angle in degrees, or at repose, the last frame before failure");
   command->add_option("--map", arguments->map, "Begin with this map, or two overlaid as in gamma+forces");
   command->add_option("--grain", arguments->grain, "Select this grain, by its number")
-      ->check(CLI::NonNegativeNumber);
+      ->check(in_range(0, 1000000000));
   command->add_option("--size", arguments->size, "Width and height of the window, px")->capture_default_str();
   CLI::Option* screenshot =
       command
@@ -222,7 +223,7 @@ void add_view_command(CLI::App& app) {
           ->excludes(output);
   command->add_option("--scale", arguments->scale, "Size of text and widgets in the screenshot")
       ->capture_default_str()
-      ->check(CLI::Range(0.5, 4.0))
+      ->check(in_range(0.5, 4.0))
       ->needs(screenshot);
   command->add_option("--context", arguments->context, "What draws the screenshot: auto, osmesa or egl")
       ->capture_default_str()

@@ -1,6 +1,6 @@
 #pragma once
-/// A report as data: headings, paragraphs, tables and pictures, written as Markdown or as one HTML page that
-/// needs nothing beside it.
+/// A report as data: headings, paragraphs, tables and pictures, written as one HTML page that needs nothing
+/// beside it.
 
 #include <string>
 #include <variant>
@@ -31,6 +31,8 @@ struct ReportHeading {
   int level = 2;
   std::string text;
 };
+/// Links to all headings of level 2.
+struct ReportContents {};
 struct ReportParagraph {
   std::string text;
 };
@@ -47,8 +49,8 @@ struct ReportPicture {
   bool wide = false;  ///< over the whole width of the page
 };
 
-using ReportBlock =
-    std::variant<ReportHeading, ReportParagraph, ReportList, ReportCommands, ReportTable, ReportPicture>;
+using ReportBlock = std::variant<ReportHeading, ReportContents, ReportParagraph, ReportList, ReportCommands,
+                                 ReportTable, ReportPicture>;
 
 /// Texts are plain; `words between backticks` are set as code.
 struct ReportDocument {
@@ -56,9 +58,8 @@ struct ReportDocument {
   std::vector<ReportBlock> blocks;
 };
 
-std::string report_markdown(const ReportDocument& document);
-
-/// Pictures are read from `folder` and built in. Throws as read_file does where one cannot be read.
+/// One page of HTML that needs nothing beside it: pictures are read from `folder` and built in. Throws as
+/// read_file does where one cannot be read.
 std::string report_html(const ReportDocument& document, const std::string& folder);
 
 }  // namespace talus

@@ -1,3 +1,4 @@
+#include <cctype>
 #include <filesystem>
 #include <fmt/core.h>
 
@@ -16,6 +17,9 @@ h1, h2, h3 { font-family: "Helvetica Neue", Arial, "DejaVu Sans", sans-serif; li
 h1 { font-size: 1.7rem; } h2 { font-size: 1.3rem; margin-top: 2.4rem; border-bottom: 1px solid #ccc; }
 h3 { font-size: 1.05rem; margin-top: 1.6rem; }
 p, li { max-width: 46rem; }
+nav { border: 1px solid #ddd; background: #fafaf8; padding: 0.6rem 1rem; font-size: 0.92rem; max-width: 44rem; }
+nav ol { margin: 0; padding-left: 1.4rem; columns: 2; } nav a { color: #1f4e79; text-decoration: none; }
+nav a:hover { text-decoration: underline; }
 table { border-collapse: collapse; margin: 1rem 0; font-size: 0.86rem; }
 div.wide { overflow-x: auto; }
 th { text-align: left; vertical-align: bottom; border-bottom: 1.5px solid #444; font-weight: 600; }
@@ -86,12 +90,33 @@ std::string cell_html(const ReportCell& cell, bool number) {
   return element("td", inside, classes);
 }
 
+/// What a link to a heading goes by: its letters and digits, with hyphens between words.
+std::string anchor_of(const std::string& heading) {
+  std::string anchor;
+  for (const unsigned char c : heading)
+    if (std::isalnum(c) != 0)
+      anchor += static_cast<char>(std::tolower(c));
+    else if (!anchor.empty() && anchor.back() != '-')
+      anchor += '-';
+  return anchor;
+}
+
 /// Writes blocks of one document.
 struct HtmlWriter {
+  const ReportDocument& document;
   const std::string& folder;
 
   std::string operator()(const ReportHeading& heading) const {
-    return fmt::format("<h{0}>{1}</h{0}>\n", heading.level, escaped(heading.text));
+    return fmt::format("<h{0} id=\"{1}\">{2}</h{0}>\n", heading.level, anchor_of(heading.text),
+                       escaped(heading.text));
+  }
+  std::string operator()(const ReportContents&) const {
+    std::string text = "<nav><ol>\n";
+    for (const ReportBlock& block : document.blocks)
+      if (const auto* heading = std::get_if<ReportHeading>(&block); heading && heading->level == 2)
+        text += fmt::format("<li><a href=\"#{}\">{}</a></li>\n", anchor_of(heading->text),
+                            escaped(heading->text));
+    return text + "</ol></nav>\n";
   }
   std::string operator()(const ReportParagraph& paragraph) const {
     return fmt::format("<p>{}</p>\n", escaped(paragraph.text));
@@ -136,7 +161,7 @@ std::string report_html(const ReportDocument& document, const std::string& folde
       "<meta name=\"viewport\" content=\"width=device-width, "
       "initial-scale=1\">\n<title>{}</title>\n<style>{}</style>\n</head>\n<body>\n<h1>{}</h1>\n",
       escaped(document.title), style, escaped(document.title));
-  for (const ReportBlock& block : document.blocks) text += std::visit(HtmlWriter{folder}, block);
+  for (const ReportBlock& block : document.blocks) text += std::visit(HtmlWriter{document, folder}, block);
   return text + "</body>\n</html>\n";
 }
 

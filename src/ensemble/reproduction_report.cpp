@@ -275,34 +275,38 @@ std::vector<std::string> reproduction_summary(const ReproductionResult& result) 
     items.push_back(
         fmt::format("Between walls, k_L - k_0 = {:.2f} ± {:.2f} over {} runs; in the paper about 2.5.", fit.k,
                     fit.error, points.size()));
-  std::ranges::move(threshold_conclusion(result.plan, chain_results(result)), std::back_inserter(items));
+  std::ranges::move(threshold_verdict(result.plan, chain_results(result)), std::back_inserter(items));
   return items;
 }
 
-ReportDocument reproduction_report(const ReproductionResult& result,
-                                   const std::vector<ReportPicture>& pictures) {
+ReportDocument reproduction_report(const ReproductionResult& result, const ReproductionPictures& pictures) {
   ReportDocument document{"Talus beside the paper", {}};
   auto& blocks = document.blocks;
-  const auto append = [&blocks](std::vector<ReportBlock> more) {
-    std::ranges::move(more, std::back_inserter(blocks));
-  };
+  const auto append = [&blocks](auto more) { std::ranges::move(more, std::back_inserter(blocks)); };
   blocks.emplace_back(
       ReportParagraph{"What L. Staron, J.-P. Vilotte and F. Radjai report in \"Multiscale Analysis of the "
                       "Stress State in a Granular Slope in Transition to Failure\" (2005), and what Talus "
                       "finds in beds made and tilted in the same way. Written by `talus reproduce`."});
-  append({ReportHeading{2, "In short"}, ReportList{reproduction_summary(result)}});
+  append(std::vector<ReportBlock>{ReportContents{}, ReportHeading{2, "In short"},
+                                  ReportList{reproduction_summary(result)}});
+  append(pictures.agreement);
+  append(std::vector<ReportBlock>{ReportHeading{2, "The packing"}, packing_table(result)});
+  append(pictures.packing);
+  append(std::vector<ReportBlock>{ReportHeading{2, "Overloaded grains, lengths and the transition"},
+                                  chain_table(result)});
+  append(pictures.overload);
+  append(std::vector<ReportBlock>{
+      ReportHeading{2, "Beds between walls"},
+      ReportParagraph{"Deposition friction 0.5. The paper's Eq. 15: (sigma_T/sigma_N)/tan(theta) = 1 - "
+                      "(k_L - k_0)/3 H/L; its values for each length are this with k_L - k_0 = 2.5."},
+      wall_table(result)});
+  append(pictures.walls);
+  append(threshold_blocks(result));
+  if (!pictures.further.empty()) blocks.emplace_back(ReportHeading{2, "Further figures"});
+  append(pictures.further);
   append(run_blocks(result));
   append(rule_blocks());
-  append({ReportHeading{2, "The packing"}, packing_table(result)});
-  append({ReportHeading{2, "Overloaded grains, lengths and the transition"}, chain_table(result)});
-  append({ReportHeading{2, "Beds between walls"},
-          ReportParagraph{"Deposition friction 0.5. The paper's Eq. 15: (sigma_T/sigma_N)/tan(theta) = 1 - "
-                          "(k_L - k_0)/3 H/L; its values for each length are this with k_L - k_0 = 2.5."},
-          wall_table(result)});
-  append(threshold_blocks(result));
   append(definition_blocks());
-  if (!pictures.empty()) blocks.emplace_back(ReportHeading{2, "Figures"});
-  for (const ReportPicture& picture : pictures) blocks.emplace_back(picture);
   return document;
 }
 

@@ -9,18 +9,26 @@
 
 namespace talus {
 
-/// The whole report; `pictures` are the figures, in their order.
-ReportDocument reproduction_report(const ReproductionResult& result,
-                                   const std::vector<ReportPicture>& pictures);
+/// The figures of a report by the part that each stands in.
+struct ReproductionPictures {
+  std::vector<ReportPicture> agreement, packing, overload, walls, further;
+};
 
-/// What is said first: how many values agree in each preparation, and what the study of the threshold ends
-/// with. One sentence an item.
+/// The whole report: the result first, with its chart, then the parts, and last how it was made.
+ReportDocument reproduction_report(const ReproductionResult& result, const ReproductionPictures& pictures);
+
+/// What is said first: how many values agree in each preparation, the law of walls, and the reading that
+/// comes nearest. One sentence an item.
 std::vector<std::string> reproduction_summary(const ReproductionResult& result);
 
 /// The part on the threshold: tables, and what follows from them.
 std::vector<ReportBlock> threshold_blocks(const ReproductionResult& result);
 
-/// The sentences that follow from the scores of all readings and preparations.
+/// The reading that comes nearest, and whether it brings the paper's chain and ours together.
+std::vector<std::string> threshold_verdict(const ReproductionPlan& plan,
+                                           std::span<const ReadingResult> results);
+
+/// All sentences that follow from the scores of all readings and preparations.
 std::vector<std::string> threshold_conclusion(const ReproductionPlan& plan,
                                               std::span<const ReadingResult> results);
 

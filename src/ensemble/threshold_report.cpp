@@ -172,20 +172,29 @@ std::string listed(const std::vector<std::string>& words) {
   return text;
 }
 
-std::vector<std::string> threshold_conclusion(const ReproductionPlan& plan,
-                                              std::span<const ReadingResult> results) {
+std::vector<std::string> threshold_verdict(const ReproductionPlan& plan,
+                                           std::span<const ReadingResult> results) {
   if (results.empty()) return {"No periodic bed is complete: nothing is said about the threshold."};
   const ChainConclusion conclusion = conclude(results);
-  std::vector<std::string> sentences = {best_text(plan, results, conclusion)};
+  return {best_text(plan, results, conclusion),
+          conclusion.complete ? "So the nearest reading brings the paper's chain and ours together."
+                              : "So nothing that was tried brings the paper's chain and ours together."};
+}
+
+std::vector<std::string> threshold_conclusion(const ReproductionPlan& plan,
+                                              std::span<const ReadingResult> results) {
+  std::vector<std::string> sentences = threshold_verdict(plan, results);
+  if (results.empty()) return sentences;
+  const ChainConclusion conclusion = conclude(results);
+  const std::string verdict = sentences.back();
+  sentences.pop_back();
   const auto least = conclusion.least_deviation;
   if (least && std::isfinite(results[*least].deviation) && std::ranges::count(conclusion.best, *least) == 0)
     sentences.push_back(least_text(plan, results, *least));
   sentences.push_back(scores_text(plan, conclusion));
   sentences.push_back(changes_text(conclusion));
   if (!conclusion.missed.empty()) sentences.push_back(missed_text(plan, results, conclusion));
-  sentences.emplace_back(conclusion.complete
-                             ? "So the nearest reading brings the paper's chain and ours together."
-                             : "So nothing that was tried brings the paper's chain and ours together.");
+  sentences.push_back(verdict);
   return sentences;
 }
 

@@ -17,10 +17,14 @@ enum class Material {
   frames,         ///< maps and series, which are in the files of runs only
 };
 
+/// What a figure is about.
+enum class Subject { packing, overload, walls, further };
+
 struct FigureRecipe {
   std::string_view name;   ///< Figure::name
   std::string_view title;  ///< Figure::title
   Material material;
+  Subject subject;
   std::string_view needs;  ///< "a periodic bed that has failed": what a message says where it cannot be made
   /// No value where there is no run of the kind it needs.
   std::optional<Figure> (*make)(std::span<const RunGroup> groups);

@@ -50,6 +50,19 @@ TEST_F(TypedWords, a_command_is_suggested) {
   expect_refused({}, "a command is missing, such as talus run SCENARIO.toml; talus --help lists them");
 }
 
+TEST_F(TypedWords, a_number_out_of_its_range_is_told_with_the_range) {
+  expect_refused({"animate", "x.h5", "--fps", "abc"}, "--fps: expected a number from 0.1 to 120, found abc;");
+  expect_refused({"animate", "x.h5", "--fps", "nan"}, "--fps: expected a number from 0.1 to 120, found nan;");
+  expect_refused(
+      {"ensemble", "x.toml", "--jobs", "1.5"},
+      "--jobs: expected a whole number from 0 to 256, found 1.5; talus ensemble --help tells more");
+  expect_refused({"figures", "x.h5", "--columns", "3"},
+                 "--columns: expected a whole number from 1 to 2, found 3;");
+  expect_refused({"forces", "x.h5", "--seed", "abc"}, "--seed: expected a number, found abc;");
+  expect_refused({"render", "x.h5", "--map", "gamma", "--range", "a,b"},
+                 "--range: expected a number, found a,b;");
+}
+
 TEST_F(TypedWords, an_option_is_suggested_by_every_command) {
   expect_refused({"render", "x.h5", "--map", "gamma", "--colors", "viridis"},
                  "'--colors' is no option of talus render; did you mean '--colours'? talus render --help");

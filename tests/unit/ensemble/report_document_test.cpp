@@ -24,11 +24,26 @@ ReportDocument small_report() {
 TEST(Html, escapes_everything_and_marks_cells) {
   const std::string page = report_html(small_report(), ".");
   for (const char* part :
-       {"<title>Title &amp; more</title>", "<h2>Part</h2>", "<p>a &lt; b with <code>x_1 &lt; y</code></p>",
-        "<li>two_2</li>", "<pre>talus run a.toml\n</pre>", "<th class=\"number\">value</th>",
-        "<td>p_o | all</td>", "<td class=\"number good\">0.3<span class=\"note\">agrees</span></td>",
+       {"<title>Title &amp; more</title>", "<h2 id=\"part\">Part</h2>",
+        "<p>a &lt; b with <code>x_1 &lt; y</code></p>", "<li>two_2</li>", "<pre>talus run a.toml\n</pre>",
+        "<th class=\"number\">value</th>", "<td>p_o | all</td>",
+        "<td class=\"number good\">0.3<span class=\"note\">agrees</span></td>",
         "<td class=\"number muted\"><span class=\"note\">not run</span></td>"})
     EXPECT_NE(page.find(part), std::string::npos) << part << "\n" << page;
+}
+
+TEST(Html, contents_link_to_each_heading_of_the_second_level) {
+  const std::string page = report_html({"t",
+                                        {ReportContents{}, ReportHeading{2, "What was run?"},
+                                         ReportHeading{3, "Not in it"}, ReportHeading{2, "l_c & theta_d"}}},
+                                       ".");
+  EXPECT_NE(page.find("<nav><ol>\n<li><a href=\"#what-was-run-\">What was run?</a></li>\n"
+                      "<li><a href=\"#l-c-theta-d\">l_c &amp; theta_d</a></li>\n</ol></nav>"),
+            std::string::npos)
+      << page;
+  for (const char* heading :
+       {"<h2 id=\"what-was-run-\">", "<h2 id=\"l-c-theta-d\">", "<h3 id=\"not-in-it\">"})
+    EXPECT_NE(page.find(heading), std::string::npos) << heading;
 }
 
 class HtmlPicture : public testing::TestWithParam<std::pair<const char*, const char*>> {};

@@ -15,8 +15,9 @@
 namespace talus {
 namespace {
 
-/// Scripts that no figure of the catalogue has: what all begin with, and the figure of `talus perturb`.
-const std::set<std::string_view> others = {"style", "perturb"};
+/// Scripts that no figure of the catalogue has: what all begin with, and the figures of `talus perturb`
+/// and `talus reproduce`.
+const std::set<std::string_view> others = {"style", "perturb", "agreement"};
 
 TEST(Catalogue, EachFigureHasItsScript) {
   for (const FigureRecipe& recipe : figure_catalogue()) {
