@@ -6,6 +6,17 @@ function(talus_room name)
   target_link_libraries(talus_${name} PUBLIC talus_options ${ROOM_LINK})
   if(TARGET talus_headers)
     target_precompile_headers(talus_${name} REUSE_FROM talus_headers)
+    talus_join_sources(talus_${name})
+  endif()
+endfunction()
+
+# Compiles the sources of a target several at a time, as one text: most of the time goes into headers, which are read
+# once then. Names that sources keep to themselves must not clash within a target.
+function(talus_join_sources target)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${TALUS_UNITY})
+  if(TALUS_UNITY)
+    # gcc takes a type of such a source for one of a header.
+    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
   endif()
 endfunction()
 

@@ -14,7 +14,7 @@
 namespace talus {
 namespace {
 
-const std::string group = "/analysis";
+const std::string analysis_group = "/analysis";
 
 /// "lc_cut = 40; joining = contacts": the parameters that a quantity depends on, with their values.
 std::string parameters_text(const std::string& names_of_quantity, const Facts& parameters) {
@@ -33,12 +33,12 @@ void describe(hdf5::Writer& writer, const std::string& path, const std::string& 
 }
 
 void write_analysis(hdf5::Writer& writer, const Analysis& analysis, std::span<const Quantity> table) {
-  writer.write_scalar(group + "/version", analysis_version);
-  writer.write_text(group + "/key", analysis.key);
+  writer.write_scalar(analysis_group + "/version", analysis_version);
+  writer.write_text(analysis_group + "/key", analysis.key);
   for (const auto& [name, value] : analysis.parameters)
-    writer.write_text(fmt::format("{}/parameters/{}", group, name), value);
+    writer.write_text(fmt::format("{}/parameters/{}", analysis_group, name), value);
   for (const char* name : {"/version", "/key"})
-    describe(writer, group + name, field_of(group + name).help, "none");
+    describe(writer, analysis_group + name, field_of(analysis_group + name).help, "none");
   for (const Quantity& quantity : table) {
     if (!is_present(quantity, analysis)) continue;
     const DataSetField field = data_set_of(quantity);
@@ -63,7 +63,8 @@ std::vector<double> analysed_tilts(const std::string& path) {
 
 /// The frames and thresholds of a stored analysis, with nothing in them yet.
 void make_records(hdf5::Reader& reader, const std::vector<double>& tilts, Analysis& analysis) {
-  if (reader.has(group + "/threshold")) analysis.thresholds.resize(reader.row_count(group + "/threshold"));
+  if (reader.has(analysis_group + "/threshold"))
+    analysis.thresholds.resize(reader.row_count(analysis_group + "/threshold"));
   for (const double tilt : tilts) {
     analysis.frames.push_back({.tilt = tilt});
     analysis.frames.back().thresholds.resize(analysis.thresholds.size());
@@ -73,7 +74,8 @@ void make_records(hdf5::Reader& reader, const std::vector<double>& tilts, Analys
 /// Others take the rows of all these frames without looking.
 void check_frame_count(const hdf5::Reader& reader, std::size_t rows, std::size_t frames) {
   if (rows != frames)
-    reader.refuse(group, fmt::format("(a group) has rows for {} frames, the tilt has {}", rows, frames));
+    reader.refuse(analysis_group,
+                  fmt::format("(a group) has rows for {} frames, the tilt has {}", rows, frames));
 }
 
 /// The packed file at `path` without an analysis.
@@ -87,7 +89,7 @@ std::vector<std::byte> bare_bytes(const std::string& path, const std::string& st
     throw Error(ExitCode::cannot_create,
                 path + ": was replaced by another run while it was being analysed; analyse it again");
   // HDF5 leaves holes where something is removed from a file, so a file that has an analysis is packed again.
-  if (!reader.has(group)) return bytes;
+  if (!reader.has(analysis_group)) return bytes;
   const RunFile run = RunFile::open(path);
   return packed_bytes(content_of(run));
 }
@@ -97,14 +99,16 @@ std::vector<std::byte> bare_bytes(const std::string& path, const std::string& st
 std::optional<Analysis> read_analysis(const std::string& path, std::span<const Quantity> table) {
   verify_seal(path);
   hdf5::Reader reader = hdf5::Reader::from_file(path);
-  if (!reader.has(group) || reader.read_scalar<std::int32_t>(group + "/version") != analysis_version)
+  if (!reader.has(analysis_group) ||
+      reader.read_scalar<std::int32_t>(analysis_group + "/version") != analysis_version)
     return std::nullopt;
   Analysis analysis;
-  analysis.key = reader.read_text(group + "/key");
-  for (const std::string& name : reader.names(group + "/parameters"))
-    analysis.parameters.emplace_back(name, reader.read_text(fmt::format("{}/parameters/{}", group, name)));
+  analysis.key = reader.read_text(analysis_group + "/key");
+  for (const std::string& name : reader.names(analysis_group + "/parameters"))
+    analysis.parameters.emplace_back(name,
+                                     reader.read_text(fmt::format("{}/parameters/{}", analysis_group, name)));
   const std::vector<double> tilts = analysed_tilts(path);
-  check_frame_count(reader, reader.row_count(group + "/packing/volume"), tilts.size());
+  check_frame_count(reader, reader.row_count(analysis_group + "/packing/volume"), tilts.size());
   reader.row_count("/particles/grains/id");  // how many grains there are
   make_records(reader, tilts, analysis);
   for (const Quantity& quantity : table)
