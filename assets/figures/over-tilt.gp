@@ -10,7 +10,7 @@ set multiplot
 do for [k = 1:panels] {
   eval panel((k - 1) / 3 + 1, rows, (k - 1) % 3 + 1, 3)
   ordinate = value(sprintf("quantity_%d", k))
-  set label 1 sprintf("(%s) ", "abcdefghijkl"[k:k]) . value(sprintf("title_%d", k)) at graph 0, graph 1.09 left font ",6"
+  set label 1 sprintf("(%s) ", "abcdefghijklmnopqrstuvwxyz"[k:k]) . value(sprintf("title_%d", k)) at graph 0, graph 1.09 left font ",6"
   plot @curves
   unset key
 }

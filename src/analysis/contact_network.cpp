@@ -19,13 +19,6 @@ double mean_normal_force(const FrameContacts& contacts) {
   return contacts.count() > 0 ? sum / contacts.count() : not_known;
 }
 
-/// Calls visit(id) for the free grains at a contact.
-template <typename Visit>
-void for_each_free_end(const BedFrame& bed, Index c, const Visit& visit) {
-  if (bed.frame.contacts.a[c] < bed.statics.free_count) visit(bed.frame.contacts.a[c]);
-  if (bed.frame.contacts.b[c] < bed.statics.free_count) visit(bed.frame.contacts.b[c]);
-}
-
 /// Which free grains are no rattlers, and the contacts that these have among themselves and with what is
 /// fixed.
 struct Backbone {
@@ -144,7 +137,12 @@ void take_critical_contacts(const BedFrame& bed, FrameRecord& record) {
   std::vector<Index> size(clusters.size.size(), 0);
   for (Index c = 0; c < contacts.count(); ++c)
     if (contacts.status[c] == ContactStatus::sliding) ++size[clusters.label[contacts.a[c]]];
+  double squares = 0.0;
+  for (const Index each : size) squares += static_cast<double>(each) * each;
   record.critical_share = contacts.count() > 0 ? static_cast<double>(critical) / contacts.count() : not_known;
+  record.critical_clusters = static_cast<Index>(size.size());
+  record.critical_mean = size.empty() ? not_known : critical / static_cast<double>(size.size());
+  record.critical_weighted_mean = size.empty() ? not_known : squares / critical;
   record.critical_largest = size.empty() ? 0 : *std::max_element(size.begin(), size.end());
   record.critical_correlation_length = correlation_length(clusters, bed.frame.y);
 }

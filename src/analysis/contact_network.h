@@ -24,8 +24,8 @@ Histogram mobilised_friction(const BedFrame& bed, int bins);
 void take_networks(const BedFrame& bed, FrameRecord& record);
 
 /// Contacts where friction is fully mobilised (status sliding), joined where they share a free grain. Their
-/// share is NaN without contacts, their correlation length (clusters.h, of the grains that they join) NaN
-/// where none slides.
+/// share is NaN without contacts; the mean sizes of their clusters, in contacts, and their correlation length
+/// (clusters.h, of the grains that they join) are NaN where none slides.
 void take_critical_contacts(const BedFrame& bed, FrameRecord& record);
 
 }  // namespace talus

@@ -5,9 +5,11 @@
 
 #include "analysis/contact_network.h"
 #include "analysis/fabric.h"
+#include "analysis/failure_distance.h"
 #include "analysis/free_grains.h"
 #include "analysis/packing.h"
 #include "analysis/pair_correlation.h"
+#include "analysis/rigid_clusters.h"
 #include "core/trigonometry.h"
 
 namespace talus {
@@ -74,6 +76,8 @@ void take_contacts(const BedFrame& bed, int bins, FrameRecord& record) {
   take_coordination(bed, record);
   take_networks(bed, record);
   take_critical_contacts(bed, record);
+  take_failure_distance(bed, record.volume / bed.statics.length, record);
+  take_rigid_clusters(bed, record);
   record.force_density = normal_forces(bed.frame, Histogram(force_edges(bins))).density();
   record.mobilisation_density = mobilised_friction(bed, bins).density();
 }
@@ -169,6 +173,7 @@ Analysis begin_analysis(const RunStatics& statics, const AnalysisParameters& par
                                      .end_ratio = parameters.lc_factor.value_or(factor) * analysis.gamma_c});
   const int bins = parameters.bins;
   analysis.section_edge = equal_edges(0.0, statics.length, parameters.sections);
+  analysis.layer_edge = equal_edges(0.0, 1.0, critical_layers);
   analysis.gamma_edge = equal_edges(0.0, 1.0, bins);
   analysis.direction_edge = equal_edges(0.0, radians(180.0), bins);
   analysis.force_edge = force_edges(bins);

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "core/snapshot.h"
+#include "core/bed_frame.h"
 #include "core/tensor.h"
 
 namespace talus {
@@ -15,6 +15,13 @@ inline std::vector<double> of_free_grains(const std::vector<double>& values, con
 
 /// Period along x, m; 0 where the bed is not periodic.
 inline double period_of(const RunStatics& statics) { return statics.periodic ? statics.length : 0.0; }
+
+/// Calls visit(id) for the free grains at contact c.
+template <typename Visit>
+void for_each_free_end(const BedFrame& bed, Index c, const Visit& visit) {
+  if (bed.frame.contacts.a[c] < bed.statics.free_count) visit(bed.frame.contacts.a[c]);
+  if (bed.frame.contacts.b[c] < bed.statics.free_count) visit(bed.frame.contacts.b[c]);
+}
 
 inline void add_to(Tensor2& sum, const Tensor2& term) { matrix(sum) += matrix(term); }
 

@@ -204,12 +204,79 @@ QuantityRows contact_rows() {
       {&FrameRecord::weak_stress_ratio, "contacts/weak_stress_ratio", "T", "1",
        "Q/P of the stress of the weak network", ""},
       {&FrameRecord::critical_share, "contacts/critical_share", "T", "1",
-       "share of the force-carrying contacts whose friction is fully mobilised", ""},
+       "nu: share of the force-carrying contacts whose friction is fully mobilised (critical contacts)", "",
+       percent("ν", "ν, share of critical contacts")},
+      {&FrameRecord::critical_bound, "contacts/critical_bound", "T", "1",
+       "largest nu at which N grains can be in equilibrium with M contacts, 2 - 3 N / M: of the 2 M "
+       "components of forces each critical contact takes one away, and 3 N equations are to be met. N: free "
+       "grains that carry force; M: force-carrying contacts, those with the floor and walls included "
+       "(McNamara and Herrmann 2004)",
+       ""},
+      {&FrameRecord::critical_share_of_bound, "contacts/critical_share_of_bound", "T", "1",
+       "nu over that bound; NaN where the bound is not above 0: there are too few contacts for equilibrium",
+       "", curve("ν/ν_max", "ν over its bound 2 − 3N/M")},
+      {&FrameRecord::critical_clusters, "contacts/critical_clusters", "T", "1",
+       "clusters of critical contacts, joined where they share a free grain", ""},
+      {&FrameRecord::critical_mean, "contacts/critical_mean", "T", "1",
+       "mean size of these clusters, in contacts: critical contacts over clusters; NaN where there are none",
+       "", curve("mean", "Mean cluster of critical contacts")},
+      {&FrameRecord::critical_weighted_mean, "contacts/critical_weighted_mean", "T", "1",
+       "sum of s^2 / sum of s over their sizes s in contacts: the mean size of the cluster that a critical "
+       "contact is in",
+       ""},
       {&FrameRecord::critical_largest, "contacts/critical_largest", "T", "1",
-       "contacts in the largest cluster of critical contacts, joined where they share a free grain", ""},
+       "contacts in the largest of these clusters", ""},
       {&FrameRecord::critical_correlation_length, "contacts/critical_correlation_length", "T", "m",
        "correlation length of these clusters, sqrt(2 sum of s^2 R^2 / sum of s^2), R the radius of gyration "
        "of a cluster",
+       ""},
+      {&Analysis::critical_exponent, "contacts/critical_exponent", "2", "1",
+       "exponent a of the growth of these clusters towards failure, size = b (theta_c - theta)^-a, of the "
+       "mean size and of the weighted mean: least squares of the logarithms over the frames of the last 10 "
+       "deg before theta_c in which a contact is critical; NaN with fewer than 5 of these (Staron, Vilotte "
+       "and Radjai 2002)",
+       ""},
+      {&Analysis::critical_exponent_error, "contacts/critical_exponent_error", "2", "1",
+       "standard error of each, from the scatter of the frames around the line, as if they were independent",
+       ""},
+  };
+}
+
+QuantityRows layer_rows() {
+  return {
+      {&Analysis::layer_edge, "layers/edge", "Y+1", "1",
+       "edges of ten layers of equal thickness, from the floor, 0, to the mean height V / L of the bed, 1; a "
+       "grain belongs to the layer of its centre, a higher one to the last",
+       ""},
+      {&FrameRecord::layer_critical_share, "layers/critical_share", "T Y", "1",
+       "nu of each layer, of the contacts of its grains: those between two free grains count half for each "
+       "of "
+       "them; NaN where there are none",
+       ""},
+      {&FrameRecord::layer_critical_share_of_bound, "layers/critical_share_of_bound", "T Y", "1",
+       "nu of each layer over 2 - 3 N / M of the layer, its contacts M counted in the same way", ""},
+  };
+}
+
+QuantityRows rigidity_rows() {
+  return {
+      {&FrameRecord::rigid_clusters, "rigid/clusters", "T", "1",
+       "rigid clusters: sets of two bodies or more that can only move as one, where a sticking contact is a "
+       "pin (two constraints) and a sliding one a bar (one), counted by the double-bond pebble game (Henkes, "
+       "Quint, Fily and Schwarz 2016); floor and walls are one body",
+       ""},
+      {&FrameRecord::rigid_largest_share, "rigid/largest_share", "T", "1",
+       "share of the free grains that carry force in the largest rigid cluster", "",
+       curve("largest rigid cluster", "Share of the largest rigid cluster")},
+      {&FrameRecord::rigid_contact_share, "rigid/contact_share", "T", "1",
+       "share of the force-carrying contacts with both bodies in one rigid cluster", ""},
+      {&FrameRecord::rigid_floppy_modes, "rigid/floppy_modes", "T", "1",
+       "independent motions that the contacts leave, per free grain that carries force: 3 less its share of "
+       "the independent constraints",
+       ""},
+      {&FrameRecord::rigid_redundant, "rigid/redundant", "T", "1",
+       "constraints that others imply, per free grain that carries force: so many sets of contact forces "
+       "balance themselves",
        ""},
   };
 }
@@ -265,8 +332,9 @@ QuantityRows transition_rows() {
 const std::vector<Quantity>& quantities() {
   static const QuantityRows table = [] {
     QuantityRows all;
-    for (const QuantityRows& part : {general_rows(), packing_rows(), overload_rows(), cluster_rows(),
-                                     contact_rows(), correlation_rows(), transition_rows()})
+    for (const QuantityRows& part :
+         {general_rows(), packing_rows(), overload_rows(), cluster_rows(), contact_rows(), layer_rows(),
+          rigidity_rows(), correlation_rows(), transition_rows()})
       all.insert(all.end(), part.begin(), part.end());
     return all;
   }();

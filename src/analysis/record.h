@@ -68,8 +68,20 @@ struct FrameRecord {
   double strong_stress_ratio = not_known;
   double weak_stress_ratio = not_known;
   double critical_share = not_known;
+  double critical_bound = not_known;
+  double critical_share_of_bound = not_known;
+  Index critical_clusters = 0;
+  double critical_mean = not_known;
+  double critical_weighted_mean = not_known;
   Index critical_largest = 0;
   double critical_correlation_length = not_known;
+  std::vector<double> layer_critical_share{};
+  std::vector<double> layer_critical_share_of_bound{};
+  Index rigid_clusters = 0;
+  double rigid_largest_share = not_known;
+  double rigid_contact_share = not_known;
+  double rigid_floppy_modes = not_known;
+  double rigid_redundant = not_known;
   std::vector<double> normal_force_correlation{};
   std::vector<double> gamma_correlation{};
   std::vector<double> mean_stress_correlation{};
@@ -104,6 +116,9 @@ struct Analysis {
   std::vector<double> direction_edge{};
   std::vector<double> force_edge{};
   std::vector<double> mobilisation_edge{};
+  std::vector<double> layer_edge{};
+  std::array<double, 2> critical_exponent = two_not_known;  ///< of the mean size, of the weighted mean
+  std::array<double, 2> critical_exponent_error = two_not_known;
   std::vector<double> correlation_distance{};
   std::array<double, 2> dilation = two_not_known;  ///< by the volume, by the centre of mass
   std::array<double, 2> dilation_low = two_not_known;

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <vector>
 
 namespace talus {
 namespace {
 
 constexpr std::size_t lasting = 3;  // frames for which a cluster has to span
+constexpr std::size_t fewest_to_fit = 5;
 
 /// How many of the first tilts are not above theta_c; all where it is NaN.
 std::size_t count_up_to(std::span<const double> tilts, double theta_c) {
@@ -70,6 +72,31 @@ DilationOnset dilation_onset(std::span<const double> tilts, std::span<const doub
   if (std::next(high) == means.end()) return {not_known, not_known, not_known};
   const auto tilt_of = [&](auto place) { return tilts[static_cast<std::size_t>(place - means.begin())]; };
   return {tilt_of(lowest), tilt_of(low), tilt_of(high)};
+}
+
+GrowthExponent growth_exponent(std::span<const double> tilts, std::span<const double> sizes, double theta_c,
+                               double window) {
+  std::vector<double> x, y;
+  for (std::size_t k = 0; k < tilts.size(); ++k)
+    if (const double left = theta_c - tilts[k]; left > 0.0 && left <= window && sizes[k] > 0.0) {
+      x.push_back(std::log(left));
+      y.push_back(std::log(sizes[k]));
+    }
+  if (x.size() < fewest_to_fit) return {not_known, not_known};
+  const auto n = static_cast<double>(x.size());
+  const double mean_x = std::accumulate(x.begin(), x.end(), 0.0) / n;
+  const double mean_y = std::accumulate(y.begin(), y.end(), 0.0) / n;
+  double xx = 0.0, xy = 0.0, squares = 0.0;
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    xx += (x[k] - mean_x) * (x[k] - mean_x);
+    xy += (x[k] - mean_x) * (y[k] - mean_y);
+  }
+  const double slope = xy / xx;
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    const double residual = y[k] - mean_y - slope * (x[k] - mean_x);
+    squares += residual * residual;
+  }
+  return {-slope, std::sqrt(squares / (n - 2.0) / xx)};
 }
 
 double first_slide(std::span<const double> tilts, std::span<const double> displacements, double distance,

@@ -42,6 +42,19 @@ inline constexpr double dilation_window = 1.0;
 DilationOnset dilation_onset(std::span<const double> tilts, std::span<const double> strains, double theta_c,
                              double window);
 
+/// How a size diverges towards failure: size = b (theta_c - theta)^-exponent.
+struct GrowthExponent {
+  double exponent = 0.0;
+  double error = 0.0;  ///< standard, from the scatter around the line, as if frames were independent
+};
+/// deg before theta_c, the window of growth_exponent in analyses.
+inline constexpr double growth_window = 10.0;
+
+/// Least squares of the logarithm of the sizes over that of theta_c - theta, which is above 0 and not above
+/// `window` (rad); sizes that are not known are left out. NaN with fewer than 5 of them.
+GrowthExponent growth_exponent(std::span<const double> tilts, std::span<const double> sizes, double theta_c,
+                               double window);
+
 /// What counts as a slide: mean diameters by which the surface layer moves downslope, and degrees of tilt
 /// within which it does.
 inline constexpr double slide_distance = 0.5;

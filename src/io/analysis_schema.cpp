@@ -36,6 +36,7 @@ Sizes sizes_of(const Analysis& analysis) {
   Sizes sizes = {{'T', analysis.frames.size()},
                  {'F', analysis.thresholds.size()},
                  {'X', analysis.section_edge.size() - 1},
+                 {'Y', analysis.layer_edge.size() - 1},
                  {'B', analysis.gamma_edge.size() - 1}};
   if (!analysis.thresholds.empty()) sizes['N'] = analysis.frames.front().thresholds.front().lc.size();
   return sizes;

@@ -103,6 +103,21 @@ void find_transitions(Analysis& analysis) {
   }
 }
 
+void find_growth(Analysis& analysis) {
+  std::vector<double> tilts, means, weighted_means;
+  for (const FrameRecord& frame : analysis.frames) {
+    tilts.push_back(frame.tilt);
+    means.push_back(frame.critical_mean);
+    weighted_means.push_back(frame.critical_weighted_mean);
+  }
+  const std::vector<double>* const sizes[] = {&means, &weighted_means};
+  for (std::size_t s = 0; s < std::size(sizes); ++s) {
+    const GrowthExponent growth = growth_exponent(tilts, *sizes[s], analysis.theta_c, radians(growth_window));
+    analysis.critical_exponent[s] = growth.exponent;
+    analysis.critical_exponent_error[s] = growth.error;
+  }
+}
+
 }  // namespace
 
 std::string analysis_key(const RunFile& run, const AnalysisParameters& parameters) {
@@ -126,6 +141,7 @@ Analysis analyse_run(const RunFile& run, const AnalysisParameters& parameters, i
   find_dilation(rows, analysis);
   find_failure_ratio(rows, analysis);
   find_transitions(analysis);
+  find_growth(analysis);
   analysis.first_slide =
       first_slide(column(rows, Observable::tilt), column(rows, Observable::surface_displacement),
                   slide_distance * statics.mean_diameter, radians(slide_window));

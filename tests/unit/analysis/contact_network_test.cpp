@@ -122,6 +122,9 @@ TEST(CriticalContacts, are_joined_where_they_share_a_grain) {
   EXPECT_EQ(critical.critical_share, 0.5);
   // left-right and left-floor hang together at the left grain; link-end is alone. Both are pairs at
   // distance 1.
+  EXPECT_EQ(critical.critical_clusters, 2);
+  EXPECT_EQ(critical.critical_mean, 1.5);
+  EXPECT_EQ(critical.critical_weighted_mean, 5.0 / 3.0);
   EXPECT_EQ(critical.critical_largest, 2);
   EXPECT_NEAR(critical.critical_correlation_length, 1.0 / std::sqrt(2.0), 1e-12);
   // Neighbours that share no contact do not join: the top grain touches both, with contacts that stick.
@@ -135,6 +138,9 @@ TEST(CriticalContacts, of_a_frame_where_nothing_slides) {
   const Packing packing = triangle_with_chain();
   const FrameRecord critical = found(take_critical_contacts, packing);
   EXPECT_EQ(critical.critical_share, 0.0);
+  EXPECT_EQ(critical.critical_clusters, 0);
+  EXPECT_TRUE(std::isnan(critical.critical_mean));
+  EXPECT_TRUE(std::isnan(critical.critical_weighted_mean));
   EXPECT_EQ(critical.critical_largest, 0);
   EXPECT_TRUE(std::isnan(critical.critical_correlation_length));
 }

@@ -121,5 +121,28 @@ TEST(DilationOnset, looks_no_further_than_theta_c) {
   EXPECT_TRUE(std::isnan(dilation_onset({}, {}, none, 1.0).tilt));
 }
 
+TEST(GrowthExponent, of_a_power_law_is_its_power) {
+  const std::vector<double> at = {0.0, 10.0, 12.0, 14.0, 16.0, 18.0, 20.0, 21.0};
+  std::vector<double> sizes;
+  for (const double tilt : at) sizes.push_back(3.0 * std::pow(20.5 - tilt, -0.5));
+  sizes[0] = 1e6;  // out of the window
+  sizes[7] = 1e6;  // after theta_c
+  sizes[3] = none;
+  const GrowthExponent growth = growth_exponent(at, sizes, 20.5, 11.0);
+  EXPECT_NEAR(growth.exponent, 0.5, 1e-12);
+  EXPECT_NEAR(growth.error, 0.0, 1e-12);
+  EXPECT_TRUE(std::isnan(growth_exponent(at, sizes, 20.5, 9.0).exponent)) << "four are too few";
+  EXPECT_TRUE(std::isnan(growth_exponent(at, sizes, none, 9.0).error));
+}
+
+// x = ln 1, ln 2, ln 4, ln 8, ln 16: in units of ln 2 -2 ... 2 about its middle, of squares 10. One point in
+// the middle that is higher by ln 32 leaves the slope, and residuals 4 and -1 of each other: 20 / 3 / 10.
+TEST(GrowthExponent, has_the_standard_error_of_a_slope) {
+  const std::vector<double> at = {-16.0, -8.0, -4.0, -2.0, -1.0};
+  const GrowthExponent growth = growth_exponent(at, std::vector<double>{1.0, 1.0, 32.0, 1.0, 1.0}, 0.0, 16.0);
+  EXPECT_NEAR(growth.exponent, 0.0, 1e-12);
+  EXPECT_NEAR(growth.error, std::sqrt(2.0 / 3.0), 1e-12);
+}
+
 }  // namespace
 }  // namespace talus
