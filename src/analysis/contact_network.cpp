@@ -5,8 +5,11 @@
 #include <numeric>
 
 #include "analysis/clusters.h"
+#include "analysis/contact_moment.h"
+#include "analysis/fabric.h"
 #include "analysis/free_grains.h"
 #include "core/tensor.h"
+#include "core/trigonometry.h"
 #include "stress/bed.h"
 #include "stress/stress_state.h"
 
@@ -46,17 +49,6 @@ Backbone find_backbone(const BedFrame& bed, const std::vector<Index>& degree) {
       });
   }
   return backbone;
-}
-
-/// Part of contact c in the sum of the internal moments of the free grains (T19): branch vector times force.
-void add_moment(const BedFrame& bed, Index c, Tensor2& sum) {
-  const FrameContacts& contacts = bed.frame.contacts;
-  double branch = 0.0;  // along the normal, from centre to contact and on to the other centre
-  if (contacts.a[c] < bed.statics.free_count) branch += bed.statics.radius[contacts.a[c]];
-  if (contacts.b[c] < bed.statics.free_count) branch += bed.statics.radius[contacts.b[c]];
-  const Vector2 n{contacts.nx[c], contacts.ny[c]}, t{-contacts.ny[c], contacts.nx[c]};
-  const Vector2 f = contacts.fn[c] * n + contacts.ft[c] * t;
-  matrix(sum) += branch * n * f.transpose();
 }
 
 /// Scalar product of the deviators of the symmetric parts of two tensors, up to a factor.
@@ -105,10 +97,13 @@ void take_networks(const BedFrame& bed, FrameRecord& record) {
   record.mean_normal_force = mean_normal_force(bed.frame.contacts);
   Tensor2 strong, weak;
   Index strong_count = 0;
+  std::vector<double> in_strong, in_weak;
   for (Index c = 0; c < bed.frame.contacts.count(); ++c) {
     const bool is_strong = bed.frame.contacts.fn[c] > record.mean_normal_force;
     strong_count += is_strong ? 1 : 0;
     add_moment(bed, c, is_strong ? strong : weak);
+    in_strong.push_back(is_strong ? 1.0 : 0.0);
+    in_weak.push_back(is_strong ? 0.0 : 1.0);
   }
   Tensor2 all = strong;
   add_to(all, weak);
@@ -119,6 +114,12 @@ void take_networks(const BedFrame& bed, FrameRecord& record) {
   record.strong_share_of_deviator = deviator_product(strong, all) / deviator_product(all, all);
   record.strong_stress_ratio = stress_state(strong).ratio;
   record.weak_stress_ratio = stress_state(weak).ratio;
+  const FabricComponent components[] = {fabric_component(bed.frame.contacts, 2, in_strong),
+                                        fabric_component(bed.frame.contacts, 2, in_weak)};
+  for (std::size_t k = 0; k < std::size(components); ++k) {
+    record.network_fabric_amplitude[k] = components[k].amplitude;
+    record.network_fabric_angle[k] = radians(components[k].angle);
+  }
 }
 
 void take_critical_contacts(const BedFrame& bed, FrameRecord& record) {

@@ -20,7 +20,8 @@ Histogram mobilised_friction(const BedFrame& bed, int bins);
 
 /// The mean normal force, and the contacts with more than it beside the weak others (Radjai et al. 1998). The
 /// moment of contacts is the part that they have in the internal moments of the free grains; of the deviator
-/// Q of all contacts the strong ones have what lies along the principal axes of the whole.
+/// Q of all contacts the strong ones have what lies along the principal axes of the whole. The fabric of each
+/// network is the second Fourier component of its directions (fabric.h).
 void take_networks(const BedFrame& bed, FrameRecord& record);
 
 /// Contacts where friction is fully mobilised (status sliding), joined where they share a free grain. Their

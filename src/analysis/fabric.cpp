@@ -53,14 +53,20 @@ Histogram normal_directions(const Frame& frame, int bins, bool weighted_by_force
 }
 
 FabricComponent fabric_component(const Frame& frame, int m) {
-  double cosines = 0.0, sines = 0.0;
-  for (Index c = 0; c < frame.contacts.count(); ++c) {
-    const std::complex<double> turned = power({frame.contacts.nx[c], frame.contacts.ny[c]}, m);
-    cosines += turned.real();
-    sines += turned.imag();
+  return fabric_component(frame.contacts, m,
+                          std::vector<double>(static_cast<std::size_t>(frame.contacts.count()), 1.0));
+}
+
+FabricComponent fabric_component(const FrameContacts& contacts, int m, const std::vector<double>& weights) {
+  double cosines = 0.0, sines = 0.0, total = 0.0;
+  for (Index c = 0; c < contacts.count(); ++c) {
+    const std::complex<double> turned = power({contacts.nx[c], contacts.ny[c]}, m);
+    cosines += weights[c] * turned.real();
+    sines += weights[c] * turned.imag();
+    total += weights[c];
   }
-  if (frame.contacts.count() == 0) return {not_known, not_known};
-  return {2.0 * std::hypot(cosines, sines) / frame.contacts.count(),
+  if (!(total > 0.0)) return {not_known, not_known};
+  return {2.0 * std::hypot(cosines, sines) / total,
           wrapped(degrees(std::atan2(sines, cosines)) / m, 360.0 / m)};
 }
 

@@ -2,6 +2,7 @@
 /// The directions of the contacts of a frame.
 
 #include <array>
+#include <vector>
 
 #include "analysis/histogram.h"
 #include "core/snapshot.h"
@@ -20,6 +21,8 @@ struct FabricComponent {
   double angle = 0.0;
 };
 FabricComponent fabric_component(const Frame& frame, int m);
+/// The same where contact c counts as often as weights[c] says, none of them negative; NaN where all are 0.
+FabricComponent fabric_component(const FrameContacts& contacts, int m, const std::vector<double>& weights);
 
 /// Where contact normals concentrate: the angles nearest 0, 60 and 120 deg, each within 30 deg of them, at
 /// which the density of directions, smoothed with a normal distribution of 5 deg standard deviation, is

@@ -10,6 +10,8 @@
 #include "analysis/packing.h"
 #include "analysis/pair_correlation.h"
 #include "analysis/rigid_clusters.h"
+#include "analysis/texture.h"
+#include "analysis/topology.h"
 #include "core/trigonometry.h"
 
 namespace talus {
@@ -18,6 +20,7 @@ namespace {
 constexpr std::array<double, 2> directions = {60.0, 120.0};  // deg; paper, section V B
 constexpr double directed_within = 30.0;                     // deg
 constexpr double force_range[] = {1e-3, 20.0};               // mean normal forces
+constexpr double largest_network_threshold = 5.0;            // mean normal forces
 constexpr double largest_distance = 10.0;                    // D, of pair correlations
 
 double correlated_up_to(const RunStatics& statics) {
@@ -78,6 +81,7 @@ void take_contacts(const BedFrame& bed, int bins, FrameRecord& record) {
   take_critical_contacts(bed, record);
   take_failure_distance(bed, record.volume / bed.statics.length, record);
   take_rigid_clusters(bed, record);
+  take_texture(bed, record);
   record.force_density = normal_forces(bed.frame, Histogram(force_edges(bins))).density();
   record.mobilisation_density = mobilised_friction(bed, bins).density();
 }
@@ -178,6 +182,7 @@ Analysis begin_analysis(const RunStatics& statics, const AnalysisParameters& par
   analysis.direction_edge = equal_edges(0.0, radians(180.0), bins);
   analysis.force_edge = force_edges(bins);
   analysis.mobilisation_edge = equal_edges(0.0, 1.0, bins);
+  for (int b = 0; b < bins; ++b) analysis.network_threshold.push_back(largest_network_threshold * b / bins);
   for (int b = 0; b < bins; ++b)
     analysis.correlation_distance.push_back(correlated_up_to(statics) * (static_cast<double>(b) + 0.5) /
                                             bins);
@@ -208,6 +213,7 @@ FrameRecord analyse_frame(const BedFrame& bed, const AnalysisParameters& paramet
   take_gamma(bed, parameters.bins, record);
   take_directions(bed.frame, parameters.bins, record);
   take_contacts(bed, parameters.bins, record);
+  take_topology(bed, analysis.network_threshold, record);
   take_correlations(bed, parameters.bins, record);
   record.thresholds = analyse_thresholds(bed, parameters, analysis, record.volume);
   return record;

@@ -23,6 +23,14 @@ void for_each_free_end(const BedFrame& bed, Index c, const Visit& visit) {
   if (bed.frame.contacts.b[c] < bed.statics.free_count) visit(bed.frame.contacts.b[c]);
 }
 
+/// What the internal moments of the free grains have of the line between centres at contact c, m: from the
+/// centre to the contact and on to the other centre, of free grains only.
+inline double branch_length(const BedFrame& bed, Index c) {
+  double length = 0.0;
+  for_each_free_end(bed, c, [&](Index i) { length += bed.statics.radius[i]; });
+  return length;
+}
+
 inline void add_to(Tensor2& sum, const Tensor2& term) { matrix(sum) += matrix(term); }
 
 }  // namespace talus

@@ -203,6 +203,10 @@ QuantityRows contact_rows() {
        "Q/P of the stress of the strong network", ""},
       {&FrameRecord::weak_stress_ratio, "contacts/weak_stress_ratio", "T", "1",
        "Q/P of the stress of the weak network", ""},
+      {&FrameRecord::network_fabric_amplitude, "contacts/network_fabric_amplitude", "T 2", "1",
+       "amplitude of the Fourier component 2 of the directions of the strong and of the weak contacts", ""},
+      {&FrameRecord::network_fabric_angle, "contacts/network_fabric_angle", "T 2", "rad",
+       "direction in which each of these concentrate", ""},
       {&FrameRecord::critical_share, "contacts/critical_share", "T", "1",
        "nu: share of the force-carrying contacts whose friction is fully mobilised (critical contacts)", "",
        percent("ν", "ν, share of critical contacts")},
@@ -242,6 +246,50 @@ QuantityRows contact_rows() {
   };
 }
 
+QuantityRows texture_rows() {
+  return {
+      {&FrameRecord::texture_axis, "texture/axis", "T", "rad",
+       "direction of the major principal stress of the contact forces, to the bed: that to which the "
+       "anisotropies below refer",
+       ""},
+      {&FrameRecord::texture_contacts, "texture/contacts", "T", "1",
+       "a_c, anisotropy of the contact normals: their density is 1 + a_c cos 2 (direction - axis), relative "
+       "to a uniform one",
+       "", curve("a_c", "a_c, anisotropy of contacts")},
+      {&FrameRecord::texture_normal_forces, "texture/normal_forces", "T", "1",
+       "a_n, anisotropy of the normal forces: their mean over contacts of one direction is 1 + a_n cos 2 "
+       "(direction - axis), relative to that over all directions",
+       ""},
+      {&FrameRecord::texture_tangential_forces, "texture/tangential_forces", "T", "1",
+       "a_t, anisotropy of the tangential forces: their mean is -a_t sin 2 (direction - axis) of the mean "
+       "normal force",
+       ""},
+      {&FrameRecord::texture_branches, "texture/branches", "T", "1",
+       "a_l, anisotropy of the lengths between the centres of the grains in contact, as a_n of forces; of a "
+       "contact with the floor or a wall the part in the free grain",
+       ""},
+      {&FrameRecord::texture_stress_ratio, "texture/stress_ratio", "T", "1",
+       "(a_c + a_n + a_t + a_l) / 2, which is Gamma to first order in the anisotropies (Rothenburg and "
+       "Bathurst 1989)",
+       ""},
+  };
+}
+
+QuantityRows topology_rows() {
+  return {
+      {&Analysis::network_threshold, "network/threshold", "B", "1",
+       "thresholds of f_n over its mean, equally spaced from 0 up to 5", "bins"},
+      {&FrameRecord::network_components, "network/components", "T B", "1",
+       "components of the network of the contacts between free grains with at least that force: sets of "
+       "grains that hang together by them, two or more",
+       "bins"},
+      {&FrameRecord::network_loops, "network/loops", "T B", "1",
+       "independent loops of this network, its first Betti number: contacts less grains plus components; one "
+       "that goes around the period counts",
+       "bins"},
+  };
+}
+
 QuantityRows layer_rows() {
   return {
       {&Analysis::layer_edge, "layers/edge", "Y+1", "1",
@@ -277,7 +325,7 @@ QuantityRows rigidity_rows() {
       {&FrameRecord::rigid_redundant, "rigid/redundant", "T", "1",
        "constraints that others imply, per free grain that carries force: so many sets of contact forces "
        "balance themselves",
-       ""},
+       "", curve("redundant", "Redundant constraints per grain")},
   };
 }
 
@@ -333,8 +381,8 @@ const std::vector<Quantity>& quantities() {
   static const QuantityRows table = [] {
     QuantityRows all;
     for (const QuantityRows& part :
-         {general_rows(), packing_rows(), overload_rows(), cluster_rows(), contact_rows(), layer_rows(),
-          rigidity_rows(), correlation_rows(), transition_rows()})
+         {general_rows(), packing_rows(), overload_rows(), cluster_rows(), contact_rows(), texture_rows(),
+          topology_rows(), layer_rows(), rigidity_rows(), correlation_rows(), transition_rows()})
       all.insert(all.end(), part.begin(), part.end());
     return all;
   }();

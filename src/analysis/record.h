@@ -67,6 +67,14 @@ struct FrameRecord {
   double strong_share_of_deviator = not_known;
   double strong_stress_ratio = not_known;
   double weak_stress_ratio = not_known;
+  std::array<double, 2> network_fabric_amplitude = two_not_known;  ///< strong, weak
+  std::array<double, 2> network_fabric_angle = two_not_known;
+  double texture_axis = not_known;
+  double texture_contacts = not_known;
+  double texture_normal_forces = not_known;
+  double texture_tangential_forces = not_known;
+  double texture_branches = not_known;
+  double texture_stress_ratio = not_known;
   double critical_share = not_known;
   double critical_bound = not_known;
   double critical_share_of_bound = not_known;
@@ -82,6 +90,8 @@ struct FrameRecord {
   double rigid_contact_share = not_known;
   double rigid_floppy_modes = not_known;
   double rigid_redundant = not_known;
+  std::vector<double> network_components{};
+  std::vector<double> network_loops{};
   std::vector<double> normal_force_correlation{};
   std::vector<double> gamma_correlation{};
   std::vector<double> mean_stress_correlation{};
@@ -119,6 +129,7 @@ struct Analysis {
   std::vector<double> layer_edge{};
   std::array<double, 2> critical_exponent = two_not_known;  ///< of the mean size, of the weighted mean
   std::array<double, 2> critical_exponent_error = two_not_known;
+  std::vector<double> network_threshold{};
   std::vector<double> correlation_distance{};
   std::array<double, 2> dilation = two_not_known;  ///< by the volume, by the centre of mass
   std::array<double, 2> dilation_low = two_not_known;

@@ -67,6 +67,8 @@ std::span<const FigureRecipe> figure_catalogue() {
        quantities_over_tilt},
       {"before-failure", "Quantities of the analysis over the angle left to failure", values,
        Subject::further, "a run that has failed", quantities_before_failure},
+      {"precursors", "What precedes failure in the contacts", values, Subject::further,
+       "a run that has failed", precursors_figure},
       {"difference-over-tilt", "Difference of two groups of runs over tilt", values, Subject::further,
        "two groups of runs, no more and no fewer", differences_over_tilt},
       {"difference-before-failure", "Difference of two groups of runs over the angle left to failure", values,

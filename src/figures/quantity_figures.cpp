@@ -68,14 +68,20 @@ const char* angle_text(Abscissa abscissa) {
   return abscissa == Abscissa::tilt ? "the tilt theta" : "theta_c - theta, the angle that is left to failure";
 }
 
-std::optional<Figure> quantities_over(Figure figure, std::span<const RunGroup> groups, Abscissa abscissa) {
-  const std::vector<FrameColumn> columns = shown_columns();
+/// A panel for each of `columns`, of all groups that have runs over this abscissa.
+bool add_panels(Figure& figure, std::span<const RunGroup> groups, const std::vector<FrameColumn>& columns,
+                Abscissa abscissa) {
   for (const RunGroup& group : groups)
     if (const RunChoice runs = runs_over(group, abscissa); !runs.empty())
       add_group_curves(figure, group, runs, columns, abscissa);
-  if (figure.groups == 0) return std::nullopt;
+  if (figure.groups == 0) return false;
   set_more_keys(figure, 0);
   set_panels(figure);
+  return true;
+}
+
+std::optional<Figure> quantities_over(Figure figure, std::span<const RunGroup> groups, Abscissa abscissa) {
+  if (!add_panels(figure, groups, shown_columns(), abscissa)) return std::nullopt;
   figure.caption = fmt::format(
       "Quantities of the packing, of its overloaded grains and of their clusters over {}; at the "
       "first threshold where they depend on one. {}",
@@ -165,6 +171,27 @@ std::optional<Figure> quantities_before_failure(std::span<const RunGroup> groups
   return quantities_over(
       titled("before-failure", "Quantities of the analysis over the angle left to failure"), groups,
       Abscissa::angle_left);
+}
+
+std::optional<Figure> precursors_figure(std::span<const RunGroup> groups) {
+  const QuantityMember shown_here[] = {&FrameRecord::critical_share,  &FrameRecord::critical_share_of_bound,
+                                       &FrameRecord::critical_mean,   &FrameRecord::texture_contacts,
+                                       &FrameRecord::rigid_redundant, &FrameRecord::rigid_largest_share};
+  std::vector<FrameColumn> columns = shown_columns();
+  std::erase_if(columns, [&](const FrameColumn& column) {
+    return std::ranges::none_of(
+        shown_here, [&](const QuantityMember& member) { return quantity_of(member).name == column.name; });
+  });
+  Figure figure = titled("precursors", "What precedes failure in the contacts");
+  if (!add_panels(figure, groups, columns, Abscissa::angle_left)) return std::nullopt;
+  figure.caption = fmt::format(
+      "Share of the contacts whose friction is fully mobilised (critical contacts), the same over the "
+      "largest "
+      "that equilibrium allows, and the mean number of contacts in their clusters; anisotropy of the "
+      "contacts; "
+      "redundant constraints and largest cluster of the network as a frictional rigid structure: over {}. {}",
+      angle_text(Abscissa::angle_left), means_caption);
+  return figure;
 }
 
 std::optional<Figure> differences_over_tilt(std::span<const RunGroup> groups) {

@@ -14,6 +14,9 @@ namespace talus {
 std::optional<Figure> quantities_over_tilt(std::span<const RunGroup> groups);
 std::optional<Figure> quantities_before_failure(std::span<const RunGroup> groups);
 
+/// Of these, those of the contacts that tell how far failure is, over theta_c - theta.
+std::optional<Figure> precursors_figure(std::span<const RunGroup> groups);
+
 /// The means of the second group less those of the first, with the errors of both, at the angles that both
 /// have; nothing unless there are two groups.
 std::optional<Figure> differences_over_tilt(std::span<const RunGroup> groups);

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/trigonometry.h"
 #include "stress/internal_moment.h"
 #include "stress/stress_state.h"
 #include "unit/analysis/packings.h"
@@ -92,6 +93,10 @@ TEST(Networks, share_the_stress) {
   EXPECT_EQ(result.strong_share_of_deviator, 1.5);
   EXPECT_EQ(result.strong_stress_ratio, 1.0);
   EXPECT_EQ(result.weak_stress_ratio, 1.0);
+  // All strong contacts are across the bed, all weak ones along it: the amplitude of a single direction is 2.
+  EXPECT_EQ(result.network_fabric_amplitude, (std::array<double, 2>{2.0, 2.0}));
+  EXPECT_NEAR(result.network_fabric_angle[0], radians(90.0), 1e-12);
+  EXPECT_EQ(result.network_fabric_angle[1], 0.0);
 }
 
 TEST(Networks, have_together_the_moments_of_the_grains) {

@@ -329,7 +329,7 @@ TEST_F(Curves, AreCalledAsInTheCatalogue) {
   for (const std::string_view name :
        {"fig04-shear-stress", "fig05-stress-ratio", "fig08-stress-ratio-density", "fig09-overloaded-fraction",
         "fig12-coarse-graining-length", "fig14-volume-strain", "overloaded-over-scale", "over-tilt",
-        "before-failure"}) {
+        "before-failure", "precursors"}) {
     const auto recipe = std::ranges::find(figure_catalogue(), name, &FigureRecipe::name);
     ASSERT_NE(recipe, figure_catalogue().end()) << name;
     const auto figure = recipe->make(groups_);
