@@ -33,7 +33,7 @@ Places lay_out_window(const ViewModel& model, const ImVec2& size, float em) {
   Places places;
   const bool wide = size.x >= 75.0f * em;
   if (state.show_controls) places.left = std::min(19.0f * em, 0.5f * size.x);
-  if (state.show_inspector && state.selected && wide) places.right = std::min(20.0f * em, 0.3f * size.x);
+  if (state.show_inspector && wide) places.right = std::min(20.0f * em, 0.3f * size.x);
   places.bottom = height_of_plots(model, size.x - places.left - places.right, size.y, em);
   return places;
 }

@@ -31,7 +31,7 @@ constexpr KeyLine key_lines[] = {
     {"w a x z, drag", "move the picture"},
     {"f", "whole bed"},
     {"n", "select the next grain; escape: none"},
-    {"i, y", "mark its cluster; draw its neighbourhoods"},
+    {"i, y", "outline its cluster; draw its neighbourhoods"},
     {"g, b", "run to the angle; deposit the bed"},
     {"r", "reset, with the seed given"},
     {"s", "save the state of a run that is computed"},

@@ -112,17 +112,33 @@ void draw_state(const Inspection& grain, double diameter, double l_min) {
     fact("ℓ_c", fmt::format("{:.2f} D", *grain.coarse_graining_length / diameter));
 }
 
+/// What the curves say of the frame shown, while no grain is selected.
+void draw_frame_values(Gui& gui) {
+  ImGui::TextWrapped("Click a grain to see its stress, its contacts and its neighbourhood.");
+  ImGui::Separator();
+  const double tilt = degrees(gui.model.frame().tilt);
+  fact("θ", fmt::format("{:.3f}°", tilt));
+  for (const Plot& plot : gui.model.plots())
+    for (const PlotSeries& series : plot.series) {
+      if (!series.quantity || series.law) continue;
+      const double value = value_near(series, tilt);
+      if (std::isfinite(value)) fact(series.name, fmt::format("{:.4g}", value));
+    }
+}
+
 }  // namespace
 
 void draw_inspector(Gui& gui) {
   const Inspection* grain = gui.model.inspection();
   if (!grain) {
-    ImGui::TextWrapped("Click a grain to see its stress, its contacts and its neighbourhood.");
+    draw_frame_values(gui);
     return;
   }
   ImGui::Text("%s %d", grain->free ? "grain" : "floor grain", grain->grain);
   ImGui::Separator();
   draw_state(*grain, gui.model.mean_diameter(), gui.model.state.map.l_min);
+  if (grain->cluster >= 0)
+    named_checkbox(gui, "outline", "outline its cluster", gui.model.state.highlight_cluster, "i");
   if (!grain->contacts.empty()) draw_contacts(*grain, grain->mass * gui.model.statics().gravity);
   if (!grain->free || std::isnan(grain->gamma)) return;
   draw_mohr_circle(gui, *grain, gui.model.theta_c());

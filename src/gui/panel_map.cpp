@@ -102,7 +102,7 @@ void draw_map_panel(Gui& gui) {
   named_checkbox(
       gui, "neighbours", "clusters of neighbours", state.map.joined_by_neighbours,
       "clusters join grains closer than 1.1 times the sum of their radii, instead of those that touch");
-  named_checkbox(gui, "cluster", "mark the grain's cluster", state.highlight_cluster);
+  named_checkbox(gui, "cluster", "outline the grain's cluster", state.highlight_cluster);
   named_checkbox(gui, "neighbourhoods", "draw its neighbourhoods", state.show_neighbourhoods);
   ImGui::Separator();
   if (named_button(gui, "whole bed", "Whole bed", "f")) show_whole_bed(gui);

@@ -128,15 +128,6 @@ void draw_curve(ImDrawList& list, const Axes& axes, const PlotSeries& series, Im
   end_column();
 }
 
-/// The value of a curve nearest to x.
-double value_near(const PlotSeries& series, double x) {
-  if (series.x.empty()) return std::numeric_limits<double>::quiet_NaN();
-  const auto above = std::ranges::lower_bound(series.x, x);
-  auto k = static_cast<std::size_t>(above - series.x.begin());
-  if (k == series.x.size() || (k > 0 && x - series.x[k - 1] < series.x[k] - x)) --k;
-  return series.y[k];
-}
-
 void show_values(const Plot& plot, const Axes& axes) {
   const float share = (ImGui::GetIO().MousePos.x - axes.low.x) / (axes.high.x - axes.low.x);
   if (share < 0.0f || share > 1.0f) return;
@@ -176,6 +167,14 @@ void draw_marks(ImDrawList& list, const Axes& axes, const PlotMarks& marks, floa
 }
 
 }  // namespace
+
+double value_near(const PlotSeries& series, double x) {
+  if (series.x.empty()) return std::numeric_limits<double>::quiet_NaN();
+  const auto above = std::ranges::lower_bound(series.x, x);
+  auto k = static_cast<std::size_t>(above - series.x.begin());
+  if (k == series.x.size() || (k > 0 && x - series.x[k - 1] < series.x[k] - x)) --k;
+  return series.y[k];
+}
 
 void draw_plot(Gui& gui, const Plot& plot, const ImVec2& size, const PlotMarks& marks) {
   const ImVec2 corner = ImGui::GetCursorScreenPos();

@@ -13,6 +13,9 @@ struct PlotMarks {
   std::optional<double> theta_c;  ///< dashed
 };
 
+/// The value of a curve nearest to x; NaN where it has none.
+double value_near(const PlotSeries& series, double x);
+
 /// Draws a plot into a box of that size at the cursor. Noted as "plot NAME".
 void draw_plot(Gui& gui, const Plot& plot, const ImVec2& size, const PlotMarks& marks);
 

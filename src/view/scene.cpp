@@ -1,11 +1,11 @@
 #include "view/scene.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
 #include "analysis/free_grains.h"
+#include "analysis/links.h"
 #include "core/errors.h"
 #include "core/trigonometry.h"
 #include "pictures/bed_view.h"
@@ -18,46 +18,34 @@ constexpr Colour selection_colour{0, 90, 220}, length_colour{220, 50, 0}, circle
 constexpr Colour cluster_colour{240, 130, 0};
 constexpr int circle_lines = 64;
 
-/// A disc of a grain of the highlighted cluster, in single precision as it is drawn.
-using DrawnGrain = std::array<float, 3>;  // x, y, radius
-
-/// Sorted, with images that reach across a periodic edge.
-std::vector<DrawnGrain> drawn_cluster(const BedFrame& bed, const Clusters& clusters, Index cluster) {
-  const auto period = static_cast<float>(period_of(bed.statics));
-  std::vector<DrawnGrain> drawn;
-  for (Index i = 0; cluster >= 0 && i < bed.statics.free_count; ++i) {
-    if (clusters.label[i] != cluster) continue;
-    const Disc disc = disc_of(bed, i);
-    drawn.push_back({disc.x, disc.y, disc.radius});
-    if (disc.x - disc.radius < 0.0f) drawn.push_back({disc.x + period, disc.y, disc.radius});
-    if (disc.x + disc.radius > period) drawn.push_back({disc.x - period, disc.y, disc.radius});
-  }
-  std::ranges::sort(drawn);
-  return drawn;
-}
-
-/// A disc with a broad rim in the colour of the cluster: one in that colour, and its own fill within.
-void add_highlighted(FrameView& view, const Disc& disc) {
-  constexpr float inner = 0.78f;
-  Disc rim = disc, within = disc;
-  rim.fill = rim.rim = cluster_colour;
-  within.rim = within.fill;
-  within.radius *= inner;
-  view.discs.push_back(rim);
-  view.discs.push_back(within);
-}
-
-void add_grains(FrameView& view, const FrameView& map, const std::vector<DrawnGrain>& highlighted) {
-  view.discs.reserve(map.discs.size() + highlighted.size());
-  for (const Disc& disc : map.discs) {
-    if (!is_seen(view, disc)) continue;
-    if (std::ranges::binary_search(highlighted, DrawnGrain{disc.x, disc.y, disc.radius}))
-      add_highlighted(view, disc);
-    else
-      view.discs.push_back(disc);
-  }
+void add_grains(FrameView& view, const FrameView& map) {
+  view.discs.reserve(map.discs.size());
+  for (const Disc& disc : map.discs)
+    if (is_seen(view, disc)) view.discs.push_back(disc);
   for (const Line& line : map.lines)
     if (is_seen(view, line)) view.lines.push_back(line);
+}
+
+/// A stroke between each grain of a cluster and each neighbour that is not of it. Fills and rims of grains
+/// stay as they are: a cluster can be most of the bed.
+void add_outline(FrameView& view, const BedFrame& bed, const Clusters& clusters, Index cluster) {
+  if (cluster < 0) return;
+  const RunStatics& statics = bed.statics;
+  const double period = period_of(statics);
+  for (const Link& link : neighbour_links(bed)) {
+    if ((clusters.label[link.a] == cluster) == (clusters.label[link.b] == cluster)) continue;
+    const double r = statics.radius[link.a], x = bed.frame.x[link.a], y = bed.frame.y[link.a];
+    const double dx = bed.frame.x[link.b] + link.shift * period - x, dy = bed.frame.y[link.b] - y;
+    const double distance = std::hypot(dx, dy);
+    const double ux = dx / distance, uy = dy / distance;
+    const double reach = r + 0.5 * (distance - r - statics.radius[link.b]);
+    const double half = 0.6 * std::min(r, statics.radius[link.b]);
+    add_line(view,
+             {static_cast<float>(x + reach * ux - half * uy), static_cast<float>(y + reach * uy + half * ux),
+              static_cast<float>(x + reach * ux + half * uy), static_cast<float>(y + reach * uy - half * ux),
+              static_cast<float>(0.07 * statics.mean_diameter), cluster_colour},
+             statics);
+  }
 }
 
 void add_circle(FrameView& view, Vec2 centre, double radius, double half_width, const Colour& colour,
@@ -155,8 +143,9 @@ FrameView shown_map(const FrameView& map, const MapExtent& part, const BedFrame&
   view.tilt = map.tilt;
   view.coloured = true;  // one target for all that is shown
   view.transparent = map.transparent;
-  add_grains(view, map, drawn_cluster(bed, clusters, overlay.cluster));
+  add_grains(view, map);
   add_boundary(view, bed);
+  add_outline(view, bed, clusters, overlay.cluster);
   add_overlay(view, bed, overlay);
   return view;
 }

@@ -35,7 +35,7 @@ FrameView draw_map(const PictureSeries& series, std::size_t k, const Frame& fram
 /// What is drawn over the map of a frame.
 struct Overlay {
   std::optional<Index> selected;
-  Index cluster = -1;                     ///< to be highlighted; -1: none
+  Index cluster = -1;                     ///< to be outlined; -1: none
   std::vector<double> diameters;          ///< of circles about the selected grain, m
   std::optional<double> critical_length;  ///< l_c of the selected grain, m: a circle in another colour
 };

@@ -23,7 +23,7 @@ struct ViewState {
   std::optional<Index> selected;  ///< grain
   double neighbourhood = 10.0;    ///< D: diameter of the neighbourhood drawn about the selected grain
   bool show_neighbourhoods = true;
-  bool highlight_cluster = true;
+  bool highlight_cluster = false;
   bool show_help = false;
   bool show_controls = true, show_inspector = true, show_plots = true;
   float picture_share = 0.0f;  ///< of the height, for the map; 0: as high as the bed, the plots get the rest

@@ -160,6 +160,20 @@ TEST_F(Replay, a_grain_is_selected_where_it_is_clicked) {
   EXPECT_FALSE(model_.state.selected.has_value());
 }
 
+TEST_F(Replay, the_first_click_moves_nothing) {
+  const std::vector<WidgetPlace> before = gui_.places();
+  const auto [x, y] = share_of(7);
+  gui_.click("map", x, y);
+  ASSERT_EQ(model_.state.selected, std::optional<Index>(7));
+  for (const WidgetPlace& place : before) {
+    const WidgetPlace now = gui_.place(place.name);
+    EXPECT_TRUE(now.x0 == place.x0 && now.y0 == place.y0 && now.x1 == place.x1 && now.y1 == place.y1)
+        << place.name;
+  }
+  gui_.click("map", x, y);
+  EXPECT_EQ(model_.state.selected, std::optional<Index>(7)) << "the same place is the same grain";
+}
+
 TEST_F(Replay, the_wheel_zooms_about_the_mouse) {
   const auto [x, y] = share_of(12);
   gui_.scroll("map", 4.0f, x, y);

@@ -205,19 +205,26 @@ TEST_F(ViewOfRun, inspects_the_selected_grain) {
   EXPECT_EQ(model_->inspection(), nullptr);
 }
 
-TEST_F(ViewOfRun, draws_the_selection_and_its_cluster) {
+TEST_F(ViewOfRun, draws_the_selection_and_its_cluster_where_it_is_asked_for) {
   model_->go_to(3);
   const FrameView bare = model_->map(2.0);
   EXPECT_TRUE(bare.lines.empty());
   model_->state.selected = 10;
   model_->state.show_neighbourhoods = false;
   const FrameView selected = model_->map(2.0);
-  EXPECT_EQ(selected.discs.size(), bare.discs.size() + 4) << "a broad rim for each grain of the cluster";
+  ASSERT_EQ(selected.discs.size(), bare.discs.size());
+  for (std::size_t k = 0; k < bare.discs.size(); ++k)
+    EXPECT_TRUE(selected.discs[k].fill == bare.discs[k].fill);
   EXPECT_GE(selected.lines.size(), 2u * 64u) << "a ring on white";
-  model_->state.highlight_cluster = false;
+  for (const Line& line : selected.lines)
+    EXPECT_LT(std::hypot(std::remainder(line.x0 - 0.5, 10.0), line.y0 - 1.5), 0.75)
+        << "nothing about the cluster";
+  model_->state.highlight_cluster = true;
+  EXPECT_GE(model_->map(2.0).lines.size(), selected.lines.size() + 8u)
+      << "four grains, each with two neighbours";
   EXPECT_EQ(model_->map(2.0).discs.size(), bare.discs.size());
   model_->state.show_neighbourhoods = true;
-  EXPECT_GT(model_->map(2.0).lines.size(), selected.lines.size());
+  EXPECT_GT(model_->map(2.0).lines.size(), selected.lines.size() + 8u);
 }
 
 TEST_F(ViewOfRun, has_the_density_of_the_frame_shown) {
