@@ -89,7 +89,20 @@ void draw_tabs(Gui& gui, bool with_inspector) {
   ImGui::EndTabBar();
 }
 
-void draw_message(const ViewState& state) {
+/// An announcement stays until it is clicked, which shows the last frame before failure.
+void draw_message(Gui& gui) {
+  ViewState& state = gui.model.state;
+  if (!state.announcement.empty()) {
+    ImGui::PushStyleColor(ImGuiCol_Button, ImVec4(0.62f, 0.08f, 0.0f, 1.0f));
+    ImGui::PushStyleColor(ImGuiCol_ButtonHovered, ImVec4(0.75f, 0.15f, 0.05f, 1.0f));
+    ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(1.0f, 1.0f, 1.0f, 1.0f));
+    if (named_button(gui, "announcement", state.announcement.c_str(), "click: the last frame before it")) {
+      gui.model.go_to(Landmark::theta_c);
+      state.announcement.clear();
+    }
+    ImGui::PopStyleColor(3);
+    ImGui::SameLine();
+  }
   if (state.message.empty())
     ImGui::TextDisabled("? lists the keys");
   else
@@ -104,7 +117,8 @@ GuiRequests draw_gui(ViewModel& model, const DrawMap& draw_map, std::vector<Widg
   handle_keys(gui);
   const ImVec2 size = ImGui::GetIO().DisplaySize;
   const float line = 1.9f * gui.em;  // the message at the bottom
-  const float height = size.y - line;
+  const float time_line = size.y >= 30.0f * gui.em ? 3.9f * gui.em : 0.0f;
+  const float height = size.y - line - time_line;
   const Places at = lay_out_window(model, {size.x, height}, gui.em);
   const float middle = size.x - at.left - at.right;
   part("controls", {0.0f, 0.0f}, {at.left, height}, 0, [&] { draw_tabs(gui, at.right == 0.0f); });
@@ -121,7 +135,8 @@ GuiRequests draw_gui(ViewModel& model, const DrawMap& draw_map, std::vector<Widg
     draw_plots(gui);
     ImGui::EndChild();
   });
-  part("message", {0.0f, height}, {size.x, line}, 0, [&] { draw_message(model.state); });
+  part("time line", {0.0f, height}, {size.x, time_line}, 0, [&] { draw_time_line(gui); });
+  part("message", {0.0f, height + time_line}, {size.x, line}, 0, [&] { draw_message(gui); });
   if (model.state.show_help) draw_help(gui);
   return requests;
 }

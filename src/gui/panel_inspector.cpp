@@ -122,7 +122,9 @@ void draw_frame_values(Gui& gui) {
     for (const PlotSeries& series : plot.series) {
       if (!series.quantity || series.law) continue;
       const double value = value_near(series, tilt);
-      if (std::isfinite(value)) fact(series.name, fmt::format("{:.4g}", value));
+      if (std::isfinite(value))
+        fact(plot.series.size() == 2 ? plot.title + ", " + series.name : series.name,
+             fmt::format("{:.4g}{}", value, series.quantity->display.percent ? " %" : ""));
     }
 }
 

@@ -17,6 +17,8 @@ void draw_file_panel(Gui& gui);
 void draw_inspector(Gui& gui);
 /// The curves.
 void draw_plots(Gui& gui);
+/// The time line: the frames of the run and what happened in it.
+void draw_time_line(Gui& gui);
 /// The map with its title and legend, the mouse on it.
 void draw_map_area(Gui& gui);
 /// What the map tells of a grain under the mouse: its gamma on maps that show it.

@@ -20,8 +20,10 @@ void toggle_playing(Gui& gui) {
 void advance(Gui& gui, int count) {
   ViewModel& model = gui.model;
   if (LiveRun* live = model.live()) {
-    if (count > 0) live->step(count);
-    return;
+    if (count > 0 && !model.looks_back()) return live->step(count);
+    const auto to = static_cast<long>(model.frame_index()) + count;
+    if (to >= static_cast<long>(model.frame_count())) return model.follow();
+    return model.go_to(static_cast<std::size_t>(std::max(to, 0L)));
   }
   model.play(false);
   const auto last = static_cast<long>(model.frame_count()) - 1;
@@ -32,6 +34,7 @@ void advance(Gui& gui, int count) {
 void send(Gui& gui, const Command& command) {
   LiveRun* live = gui.model.live();
   if (!live) return;
+  gui.model.follow();  // a command is to the run as it is now
   try {
     live->apply(command);
     gui.model.state.message = fmt::format("Applied before step {}.", live->status().step + 1);
@@ -81,6 +84,7 @@ void push_selected(Gui& gui) {
 }
 
 void drop_here(Gui& gui) {
+  gui.model.follow();
   const ViewState& state = gui.model.state;
   const Frame& frame = gui.model.frame();
   const double x = state.selected ? frame.x[*state.selected] : state.camera.centre_x;

@@ -6,7 +6,8 @@
 namespace talus {
 
 void toggle_playing(Gui& gui);
-/// Advances a run that is computed by that many steps, a replay by that many frames, also backwards.
+/// Advances a run that is computed by that many steps, a replay by that many frames, also backwards: through
+/// the frames recorded so far of a run that is computed, after the last of which it is followed again.
 void advance(Gui& gui, int count);
 /// Sends a command to the run; the reason of a refusal becomes the message.
 void send(Gui& gui, const Command& command);

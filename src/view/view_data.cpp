@@ -1,8 +1,12 @@
 #include "view/view_data.h"
 
+#include <algorithm>
 #include <cmath>
+#include <fmt/core.h>
+#include <utility>
 
 #include "core/errors.h"
+#include "core/trigonometry.h"
 #include "pictures/frame_choice.h"
 
 namespace talus {
@@ -19,12 +23,13 @@ void ViewModel::Data::open_replay() {
   rows = file.observables();
   plot_observables(rows, statics(), plots);
   plot_steps(file.steps(), plots);
-  dilation = dilation_frame(rows, file.frame_tilts(), theta_c.value_or(std::nan("")));
+  commands = file.commands();
   // The bed is highest at its beginning or at its end.
   bed = bed_extent(statics());
   extend(bed, {*frames->read(replay->count() - 1), statics()});
   show(replay->frame(0));
   begin_series();
+  find_events();
 }
 
 void ViewModel::Data::begin_series() {
@@ -51,7 +56,13 @@ void ViewModel::Data::start_live(const std::string& next_output, bool overwrite)
   theta_c.reset();
   rows.clear();
   plots = empty_plots();
-  show(live->frame());
+  newest = live->frame();
+  held.reset();
+  ended = false;
+  events.clear();
+  commands.clear();
+  dilation.reset();
+  show(newest);
   recorded = std::make_shared<RecordedFrames>();
   begin_series();
 }
@@ -98,15 +109,51 @@ bool ViewModel::Data::take_live() {
   auto next = live->frame();
   const LiveStatus status = live->status();
   theta_c = status.theta_c;
-  if (next == stored) return false;
-  recorded->add(live->recorded_frames(recorded->all().size()));
+  if (next == newest) return false;
+  newest = std::move(next);
+  const std::size_t before = recorded->all().size();
+  recorded->add(live->recorded_frames(before));
   series->set_counts(recorded->all().size(), recorded->all().size());
   const std::vector<ObservableRow> more = live->observables(rows.size());
   rows.insert(rows.end(), more.begin(), more.end());
   if (!more.empty()) plot_observables(rows, statics(), plots);
   plot_steps(live->steps(0), plots);
-  show(std::move(next));
+  const std::size_t commands_before = std::exchange(commands, live->commands()).size();
+  if (recorded->all().size() != before || commands.size() != commands_before || !status.running)
+    find_events();
+  if (!held) show(newest);
   return true;
+}
+
+void ViewModel::Data::hold_at(std::optional<std::size_t> frame_held) {
+  if (!live || recorded->all().empty()) frame_held.reset();
+  held = frame_held;
+  if (held) held = std::min(*held, recorded->all().size() - 1);
+  show(held ? recorded->all()[*held] : newest);
+}
+
+std::string ViewModel::Data::take_end() {
+  if (!live || ended) return {};
+  const LiveStatus status = live->status();
+  if (!status.theta_c && !status.done) return {};
+  ended = true;
+  if (status.theta_c) return fmt::format("The slope failed at {:.2f}°.", degrees(*status.theta_c));
+  return fmt::format("The run ended at {:.2f}°; the slope has not failed.", degrees(status.tilt));
+}
+
+void ViewModel::Data::find_events() {
+  TimelineSource source;
+  source.tilts = frame_tilts();
+  source.rows = rows;
+  source.values = series->values();
+  source.commands = commands;
+  source.theta_c = theta_c;
+  source.mean_diameter = statics().mean_diameter;
+  source.cut = length_cut(statics(), series->rule().l_min);
+  source.may_change = live && !live->status().done;
+  events = timeline_events(source);
+  const auto found = std::ranges::find(events, "dilation", &TimelineEvent::name);
+  dilation = found == events.end() ? std::nullopt : nearest_frame(source.tilts, found->tilt);
 }
 
 bool ViewModel::Data::follow_frames(const OverloadRule& rule) {
@@ -120,18 +167,23 @@ bool ViewModel::Data::follow_frames(const OverloadRule& rule) {
     if (!series->error().empty()) error = series->error();
     changed = true;
   }
-  if (changed) plot_frames(series->values(), statics().mean_diameter, plots);
+  if (changed) {
+    plot_frames(series->values(), statics().mean_diameter, plots);
+    find_events();
+  }
   return changed;
 }
 
+std::size_t ViewModel::Data::frame_count() const { return replay ? replay->count() : recorded->all().size(); }
+
 std::optional<std::size_t> ViewModel::Data::place_of(Landmark landmark) const {
-  if (!replay) return std::nullopt;
-  const std::vector<double>& tilts = frames->file().frame_tilts();
+  const std::vector<double> tilts = frame_tilts();
+  if (tilts.empty()) return std::nullopt;
   switch (landmark) {
     case Landmark::first:
       return 0;
     case Landmark::last:
-      return replay->count() - 1;
+      return frame_count() - 1;
     case Landmark::theta_c:
       if (!theta_c || tilts.front() > *theta_c) return std::nullopt;
       return frame_at_repose(tilts, *theta_c);
@@ -140,7 +192,7 @@ std::optional<std::size_t> ViewModel::Data::place_of(Landmark landmark) const {
     case Landmark::theta_d:
       return dilation;
     case Landmark::length_jump:
-      if (!series->has_all_values()) return std::nullopt;
+      if (!series->has_all_values() || (live && !live->status().done)) return std::nullopt;
       return length_jump_frame(series->values(), length_cut(statics(), series->rule().l_min),
                                theta_c.value_or(std::nan("")));
   }

@@ -6,6 +6,7 @@
 #include "view/frame_series.h"
 #include "view/replay.h"
 #include "view/scene.h"
+#include "view/timeline.h"
 #include "view/view_model.h"
 
 namespace talus {
@@ -47,7 +48,6 @@ struct ViewModel::Data {
   std::shared_ptr<RunFrames> frames;
   std::optional<Replay> replay;
   std::optional<Analysis> analysis;
-  std::optional<std::size_t> dilation;  ///< the frame at which it begins
 
   // Of a run that is computed.
   Scenario scenario;
@@ -56,6 +56,13 @@ struct ViewModel::Data {
   std::string first_output, output;  ///< asked for at first; of this run: empty, it is not recorded
   std::unique_ptr<LiveRun> live;
   std::shared_ptr<RecordedFrames> recorded;
+  std::shared_ptr<const Frame> newest;  ///< of the run as it is now
+  std::optional<std::size_t> held;      ///< the recorded frame that is shown instead
+  bool ended = false;                   ///< that has been told
+
+  std::optional<std::size_t> dilation;  ///< the frame at which it begins
+  std::vector<Command> commands;
+  std::vector<TimelineEvent> events;
 
   std::unique_ptr<FrameSeries> series;
 
@@ -93,10 +100,17 @@ struct ViewModel::Data {
   void make_frame();
   /// Takes over what a live run has made; true where its frame is another.
   bool take_live();
+  /// Shows a recorded frame of a live run, or again what it computes.
+  void hold_at(std::optional<std::size_t> frame);
+  /// What there is to say of a live run that has just failed or ended; empty else.
+  std::string take_end();
+  /// The events anew.
+  void find_events();
   /// Begins the series of frames anew where `rule` is another, and takes in what it has made; true where
   /// something has changed.
   bool follow_frames(const OverloadRule& rule);
   std::optional<std::size_t> place_of(Landmark landmark) const;
+  std::size_t frame_count() const;
 
   // view_shown.cpp: what is made of it.
   const RunStatics& statics() const { return pictures.run.statics; }

@@ -64,6 +64,7 @@ void ViewModel::restart(std::uint64_t seed) {
   data_->scenario.seed = seed;
   data_->start_live(data_->output.empty() ? "" : next_output(data_->first_output), false);
   state.selected.reset();
+  state.announcement.clear();
 }
 
 void ViewModel::record(const std::string& output) {
@@ -94,11 +95,19 @@ Recording ViewModel::recording() const {
 
 // --- replay ---
 
-std::size_t ViewModel::frame_count() const { return data_->replay ? data_->replay->count() : 0; }
-std::size_t ViewModel::frame_index() const { return data_->replay ? data_->replay->index() : 0; }
+std::size_t ViewModel::frame_count() const { return data_->frame_count(); }
+std::size_t ViewModel::frame_index() const { return data_->shown_index(); }
+std::vector<double> ViewModel::frame_tilts() const {
+  return data_->replay ? data_->frames->file().all_frame_tilts() : data_->frame_tilts();
+}
+std::span<const TimelineEvent> ViewModel::events() const { return data_->events; }
+bool ViewModel::looks_back() const { return data_->held.has_value(); }
+void ViewModel::follow() {
+  if (data_->held) data_->hold_at(std::nullopt);
+}
 
 void ViewModel::go_to(std::size_t frame) {
-  if (!data_->replay) return;
+  if (!data_->replay) return data_->hold_at(frame);
   data_->replay->go_to(frame);
   data_->show_replayed();
 }
@@ -111,6 +120,7 @@ void ViewModel::go_to_angle(const std::string& angle) {
 }
 
 void ViewModel::go_to(Landmark landmark) {
+  if (is_live() && landmark == Landmark::last) return follow();
   if (const auto frame = data_->place_of(landmark)) go_to(*frame);
 }
 
@@ -140,6 +150,7 @@ bool ViewModel::update(double seconds) {
   changed = data.read_with(std::clamp(state.map.l_min, 0.0, 100.0)) || changed;
   changed = data.follow_frames(data.map_settings(state)) || changed;
   state.camera = centred(clamped(state.camera, data.bed, mean_diameter()), data.part(state, data.aspect));
+  if (const std::string end = data.take_end(); !end.empty()) state.announcement = end;
   if (!data.error.empty()) state.message = std::exchange(data.error, {});
   return changed;
 }

@@ -14,6 +14,7 @@
 #include "view/landmarks.h"
 #include "view/live_run.h"
 #include "view/plots.h"
+#include "view/timeline.h"
 #include "view/view_state.h"
 
 namespace talus {
@@ -55,10 +56,15 @@ class ViewModel {
   /// as HDF5 is for one thread at a time.
   void hold();
 
-  // Replay. Frames are those of RunFile::all_frame_tilts().
-  std::size_t frame_count() const;  ///< 0 for a live run
-  std::size_t frame_index() const;
+  // Frames: of a replay those of RunFile::all_frame_tilts(), of a live run those recorded so far.
+  std::size_t frame_count() const;
+  std::size_t frame_index() const;  ///< of a live run that is followed, the count
+  std::vector<double> frame_tilts() const;
+  std::span<const TimelineEvent> events() const;
+  /// In a live run, which goes on, until it is followed again; nothing where it has no frame yet.
   void go_to(std::size_t frame);
+  bool looks_back() const;  ///< whether a live run is not followed
+  void follow();
   /// The frame nearest to an angle in degrees, or "repose": as frames_at, which says what is thrown. Throws
   /// Error(usage) for a live run.
   void go_to_angle(const std::string& angle);

@@ -27,6 +27,7 @@ struct ViewState {
   bool show_help = false;
   bool show_controls = true, show_inspector = true, show_plots = true;
   float picture_share = 0.0f;  ///< of the height, for the map; 0: as high as the bed, the plots get the rest
+  std::string announcement;    ///< of a run that has failed or ended, until it is clicked away
   std::string message;         ///< last thing worth telling: a file written, an error
 
   // What the action widgets hold.

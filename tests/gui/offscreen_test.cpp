@@ -90,6 +90,30 @@ TEST_F(Replay, scrubs_with_the_mouse) {
   EXPECT_EQ(model_.frame_index(), 2u);
 }
 
+TEST_F(Replay, the_time_line_goes_where_it_is_clicked) {
+  const WidgetPlace line = gui_.place("time line");
+  EXPECT_GT(line.x1 - line.x0, 1200.0f);
+  gui_.click("time line", 0.76f);
+  EXPECT_EQ(model_.frame_index(), 3u);
+  gui_.drag("time line", 0.76f, 0.5f, 0.01f, 0.5f);
+  EXPECT_EQ(model_.frame_index(), 0u);
+  const auto dilation = std::ranges::find(model_.events(), "dilation", &TimelineEvent::name);
+  if (dilation == model_.events().end()) return;  // these five frames need not have it
+  gui_.click("event dilation");
+  EXPECT_EQ(model_.frame_index(), dilation->frame);
+}
+
+TEST_F(Replay, an_announcement_stays_until_it_is_clicked) {
+  EXPECT_FALSE(gui_.has("announcement"));
+  model_.state.announcement = "The slope failed at 1.00°.";
+  gui_.settle();
+  model_.state.message = "something else";
+  gui_.settle();
+  ASSERT_TRUE(gui_.has("announcement"));
+  gui_.click("announcement");
+  EXPECT_FALSE(gui_.has("announcement"));
+}
+
 TEST_F(Replay, moves_by_keys) {
   gui_.key(key_right);
   gui_.key(key_right);
@@ -362,6 +386,23 @@ TEST_F(Live, steps_are_counted) {
   gui_.click("step 10");
   EXPECT_TRUE(wait_until([&] { return status().step == 11 && !status().running; }));
   EXPECT_TRUE(wait_until([&] { return model_.frame().step == 11; })) << "the picture follows";
+}
+
+TEST_F(Live, is_looked_back_at_while_it_goes_on) {
+  EXPECT_FALSE(model_.looks_back());
+  gui_.click("play");
+  ASSERT_TRUE(wait_until([&] { return model_.frame_count() >= 3; }));
+  gui_.click("time line", 0.02f);
+  EXPECT_TRUE(model_.looks_back());
+  EXPECT_EQ(model_.frame_index(), 0u);
+  gui_.key(key_right);
+  EXPECT_EQ(model_.frame_index(), 1u);
+  EXPECT_TRUE(model_.looks_back());
+  gui_.click("follow");
+  EXPECT_FALSE(model_.looks_back());
+  gui_.click("time line", 0.02f);
+  gui_.key(key_end);
+  EXPECT_FALSE(model_.looks_back());
 }
 
 TEST_F(Live, plays_pauses_and_begins_anew) {

@@ -62,6 +62,49 @@ TEST_F(ViewOfScenario, follows_the_run) {
   EXPECT_NE(model_->furnished_map().title.find("per degree"), std::string::npos);
 }
 
+TEST_F(ViewOfScenario, looks_back_while_the_run_goes_on) {
+  model_->go_to(0);
+  EXPECT_FALSE(model_->looks_back()) << "no frame is recorded yet";
+  model_->live()->run_to(radians(0.6));
+  ASSERT_TRUE(comes_true(*model_, [this] { return model_->frame_count() == 3; }));
+  model_->go_to(1);
+  EXPECT_TRUE(model_->looks_back());
+  EXPECT_EQ(model_->frame_index(), 1u);
+  EXPECT_NEAR(degrees(model_->frame().tilt), 0.25, 0.02);
+  EXPECT_TRUE(model_->state.announcement.empty());
+  const double shown = model_->frame().tilt;
+  model_->live()->play();
+  ASSERT_TRUE(comes_true(*model_, [this] { return model_->frame_count() == 5 && has_ended(*model_); }));
+  EXPECT_EQ(model_->frame().tilt, shown) << "what is looked at stays";
+  EXPECT_NE(model_->state.announcement.find("ended at 1.00°"), std::string::npos)
+      << model_->state.announcement;
+  EXPECT_EQ(model_->frame_tilts().size(), 5u);
+  model_->follow();
+  EXPECT_FALSE(model_->looks_back());
+  EXPECT_NEAR(degrees(model_->frame().tilt), 1.0, 1e-9);
+  model_->go_to(Landmark::first);
+  EXPECT_EQ(model_->frame_index(), 0u);
+  model_->restart(5);
+  EXPECT_FALSE(model_->looks_back());
+  EXPECT_EQ(model_->frame_count(), 0u);
+  EXPECT_TRUE(model_->state.announcement.empty());
+}
+
+TEST_F(ViewOfScenario, tells_that_the_slope_has_failed) {
+  ViewModel model = ViewModel::open(folder_.path("a.toml"),
+                                    {"contact.friction=0.05", "tilt.end_angle=40", "tilt.step=0.05"}, "",
+                                    false, "talus view");
+  model.live()->play();
+  ASSERT_TRUE(comes_true(model, [&model] { return model.theta_c_known(); }));
+  EXPECT_NE(model.state.announcement.find("The slope failed at "), std::string::npos);
+  ASSERT_TRUE(comes_true(model, [&model] {
+    return std::ranges::find(model.events(), "theta_c", &TimelineEvent::name) != model.events().end();
+  }));
+  model.go_to(Landmark::theta_c);
+  EXPECT_TRUE(model.looks_back());
+  EXPECT_LE(model.frame().tilt, model.theta_c());
+}
+
 TEST_F(ViewOfScenario, measures_displacements_from_the_frame_recorded_before) {
   model_->state.map.layers = {MapKind::displacement};
   model_->state.map.range_low = 1e-12;  // the bed is small, and creeps

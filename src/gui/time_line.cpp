@@ -1,0 +1,164 @@
+#include <algorithm>
+#include <cmath>
+#include <fmt/core.h>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "core/trigonometry.h"
+#include "gui/panels.h"
+#include "pictures/texts.h"
+
+namespace talus {
+namespace {
+
+constexpr ImU32 line_ink = IM_COL32(0, 0, 0, 255), line_gray = IM_COL32(110, 110, 110, 255);
+
+ImU32 event_colour(TimelineEvent::Kind kind) {
+  switch (kind) {
+    case TimelineEvent::Kind::failure:
+      return IM_COL32(170, 20, 0, 255);
+    case TimelineEvent::Kind::command:
+      return IM_COL32(0, 114, 178, 255);
+    case TimelineEvent::Kind::transition:
+      break;
+  }
+  return line_ink;
+}
+
+/// From frames to pixels.
+struct Track {
+  ImVec2 low, high;   ///< corners
+  double last = 1.0;  ///< the place at the right end, in frames
+
+  float px(double place) const {
+    return low.x + static_cast<float>(std::clamp(place / last, 0.0, 1.0)) * (high.x - low.x);
+  }
+  double place(float x) const {
+    return std::clamp(static_cast<double>((x - low.x) / (high.x - low.x)), 0.0, 1.0) * last;
+  }
+};
+
+/// Angles below the track, of the frames of the tilt, which ascend.
+void draw_angles(ImDrawList& list, const Track& track, const std::vector<double>& tilts, float em) {
+  const auto end = std::ranges::is_sorted_until(tilts);
+  const std::span<const double> ascending(tilts.begin(), end);
+  if (ascending.size() < 2 || !(ascending.front() < ascending.back())) return;
+  const int most = std::max(2, static_cast<int>((track.high.x - track.low.x) / (5.0f * em)));
+  for (const RoundTick& tick : round_ticks(degrees(ascending.front()), degrees(ascending.back()), most)) {
+    const float x = track.px(place_among(ascending, radians(tick.value)));
+    list.AddLine({x, track.high.y}, {x, track.high.y + 0.3f * em}, line_ink);
+    const std::string label = tick.label + "°";
+    list.AddText({x - 0.5f * ImGui::CalcTextSize(label.c_str()).x, track.high.y + 0.25f * em}, line_ink,
+                 label.c_str());
+  }
+}
+
+/// Labels above the track, theta_c before all others: each where it has room.
+void draw_labels(ImDrawList& list, const Track& track, std::span<const TimelineEvent> events, float em) {
+  std::vector<std::pair<float, float>> taken;
+  for (const bool failure : {true, false})
+    for (const TimelineEvent& event : events) {
+      if (event.label.empty() || (event.kind == TimelineEvent::Kind::failure) != failure) continue;
+      const float width = rich_width(*ImGui::GetFont(), ImGui::GetFontSize(), event.label);
+      const float low = std::min(track.px(event.place) - 0.5f * width, track.high.x - width);
+      const float high = low + width + 0.4f * em;
+      if (std::ranges::any_of(taken, [=](const auto& of) { return low < of.second && of.first < high; }))
+        continue;
+      taken.emplace_back(low, high);
+      add_rich_text(list, {low, track.low.y - 1.25f * em}, event_colour(event.kind), event.label);
+    }
+}
+
+/// A stroke for each event; a command has an arrow.
+void draw_events(Gui& gui, ImDrawList& list, const Track& track) {
+  const float em = gui.em, top = track.low.y;
+  for (const TimelineEvent& event : gui.model.events()) {
+    const float x = track.px(event.place);
+    const ImU32 colour = event_colour(event.kind);
+    list.AddLine({x, top - 0.15f * em}, {x, track.high.y}, colour, 0.14f * em);
+    note_place(gui, "event " + event.name, {x - 0.2f * em, top}, {x + 0.2f * em, track.high.y});
+    if (event.kind == TimelineEvent::Kind::command)
+      list.AddTriangleFilled({x, top + 0.3f * em}, {x - 0.3f * em, top - 0.2f * em},
+                             {x + 0.3f * em, top - 0.2f * em}, colour);
+  }
+  draw_labels(list, track, gui.model.events(), em);
+}
+
+/// The event under the mouse.
+const TimelineEvent* event_near(const Gui& gui, const Track& track, float x) {
+  const TimelineEvent* nearest = nullptr;
+  float least = 0.4f * gui.em;
+  for (const TimelineEvent& event : gui.model.events()) {
+    const float distance = std::abs(track.px(event.place) - x);
+    if (distance > least) continue;
+    least = distance;
+    nearest = &event;
+  }
+  return nearest;
+}
+
+/// All events so near to each other that they cannot be told apart by pointing are told.
+void tell(const Gui& gui, const Track& track, const std::vector<double>& tilts) {
+  const float x = ImGui::GetIO().MousePos.x;
+  const auto frame = static_cast<std::size_t>(std::lround(track.place(x)));
+  ImGui::BeginTooltip();
+  if (!event_near(gui, track, x)) {
+    const std::size_t k = std::min(frame, tilts.size() - 1);
+    rich_text(fmt::format("frame {} of {}, {:.2f}°", k + 1, tilts.size(), degrees(tilts[k])));
+  }
+  for (const TimelineEvent& event : gui.model.events())
+    if (std::abs(track.px(event.place) - x) <= 0.4f * gui.em)
+      rich_text(fmt::format("{:.2f}°: {}", degrees(event.tilt), event.what));
+  ImGui::EndTooltip();
+}
+
+void use_line(Gui& gui, const Track& track, const std::vector<double>& tilts) {
+  const float x = ImGui::GetIO().MousePos.x;
+  if (ImGui::IsItemHovered()) tell(gui, track, tilts);
+  if (!ImGui::IsItemActive()) return;
+  const TimelineEvent* event = ImGui::IsItemActivated() ? event_near(gui, track, x) : nullptr;
+  const bool moved = ImGui::IsItemActivated() || ImGui::GetIO().MouseDelta.x != 0.0f;
+  if (!moved) return;
+  gui.model.play(false);
+  gui.model.go_to(event ? event->frame : static_cast<std::size_t>(std::lround(track.place(x))));
+}
+
+}  // namespace
+
+void draw_time_line(Gui& gui) {
+  const float em = gui.em;
+  float width = ImGui::GetContentRegionAvail().x;
+  const ImVec2 corner = ImGui::GetCursorScreenPos();
+  if (gui.model.is_live()) {
+    width -= 6.0f * em;
+    ImGui::SetCursorScreenPos({corner.x + width + em, corner.y + 0.6f * em});
+    ImGui::BeginDisabled(!gui.model.looks_back());
+    if (named_button(gui, "follow", gui.model.looks_back() ? "follow" : "live",
+                     "show the run as it is now: end"))
+      gui.model.follow();
+    ImGui::EndDisabled();
+  }
+  ImGui::SetCursorScreenPos(corner);
+  ImGui::InvisibleButton("time line", {std::max(width, 1.0f), 3.2f * em});
+  note_place(gui, "time line");
+  const std::vector<double> tilts = gui.model.frame_tilts();
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  if (tilts.empty()) {
+    list.AddText({corner.x + em, corner.y + em}, line_gray, "The time line begins with the tilt.");
+    return;
+  }
+  const Track track{{corner.x + 1.2f * em, corner.y + 1.2f * em},
+                    {corner.x + width - 1.2f * em, corner.y + 2.0f * em},
+                    std::max(1.0, static_cast<double>(tilts.size()) - 1.0)};
+  list.AddRectFilled(track.low, track.high, IM_COL32(225, 225, 225, 255));
+  const float now = track.px(static_cast<double>(gui.model.frame_index()));
+  list.AddRectFilled(track.low, {now, track.high.y}, IM_COL32(150, 190, 230, 255));
+  draw_angles(list, track, tilts, em);
+  draw_events(gui, list, track);
+  list.AddLine({now, track.low.y - 0.3f * em}, {now, track.high.y + 0.3f * em}, IM_COL32(0, 90, 180, 255),
+               0.2f * em);
+  use_line(gui, track, tilts);
+}
+
+}  // namespace talus

@@ -1,0 +1,105 @@
+#include "view/timeline.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/core.h>
+
+#include "analysis/transition.h"
+#include "core/trigonometry.h"
+#include "session/command.h"
+#include "view/landmarks.h"
+
+namespace talus {
+namespace {
+
+std::vector<double> column_of(std::span<const ObservableRow> rows, Observable field) {
+  std::vector<double> values;
+  values.reserve(rows.size());
+  for (const ObservableRow& row : rows) values.push_back(at(row, field));
+  return values;
+}
+
+/// The tilt (rad) after so many steps, between two rows; that of the first row before it.
+double tilt_after(std::span<const ObservableRow> rows, std::int64_t step) {
+  const auto wanted = static_cast<double>(step);
+  const auto after = std::ranges::partition_point(
+      rows, [wanted](const ObservableRow& row) { return at(row, Observable::step) < wanted; });
+  if (after == rows.begin()) return rows.empty() ? 0.0 : at(rows.front(), Observable::tilt);
+  if (after == rows.end()) return at(rows.back(), Observable::tilt);
+  const ObservableRow& before = *(after - 1);
+  const double share =
+      (wanted - at(before, Observable::step)) / (at(*after, Observable::step) - at(before, Observable::step));
+  return std::lerp(at(before, Observable::tilt), at(*after, Observable::tilt), share);
+}
+
+/// Adds what has a tilt.
+struct EventList {
+  const TimelineSource& source;
+  std::vector<TimelineEvent> events;
+
+  void add(const char* name, const char* label, const std::string& what, double tilt,
+           TimelineEvent::Kind kind = TimelineEvent::Kind::transition) {
+    if (!std::isfinite(tilt)) return;
+    const double place = place_among(source.tilts, tilt);
+    events.push_back({name, label, what, kind, tilt, place, static_cast<std::size_t>(std::lround(place))});
+  }
+};
+
+void add_of_rows(EventList& list, double theta_c) {
+  const auto& rows = list.source.rows;
+  const std::vector<double> tilts = column_of(rows, Observable::tilt);
+  const auto onset = [&](Observable strain) {
+    return dilation_onset(tilts, column_of(rows, strain), theta_c, radians(dilation_window)).tilt;
+  };
+  list.add("dilation", "θ_d", "the volume begins to grow", onset(Observable::volume_strain));
+  list.add("centre of mass", "θ_d", "the centre of mass begins to rise",
+           onset(Observable::centre_of_mass_strain));
+  list.add("first slide", "slide", "the surface layer slides first",
+           first_slide(tilts, column_of(rows, Observable::surface_displacement),
+                       slide_distance * list.source.mean_diameter, radians(slide_window)));
+}
+
+void add_of_frames(EventList& list, double theta_c) {
+  const TimelineSource& source = list.source;
+  if (const auto first = percolation_frame(source.values))
+    list.add("spans", "spans", "a cluster first spans from floor to surface", source.values[*first].tilt);
+  if (source.may_change || source.values.size() < source.tilts.size()) return;
+  std::vector<double> tilts, lengths;
+  std::vector<Index> spans;
+  for (const FrameRecord& frame : source.values) {
+    tilts.push_back(frame.tilt);
+    lengths.push_back(frame.thresholds.front().lc_max);
+    spans.push_back(frame.thresholds.front().spans_depth);
+  }
+  list.add("length jump", "ℓ_c", "the largest ℓ_c jumps",
+           length_jump(tilts, lengths, theta_c, source.cut).tilt);
+  list.add("percolation", "θ_d", "clusters percolate from here on",
+           percolation_onset(tilts, spans, theta_c).tilt);
+}
+
+}  // namespace
+
+double place_among(std::span<const double> tilts, double tilt) {
+  const auto after = std::ranges::lower_bound(tilts, tilt);
+  if (after == tilts.begin()) return 0.0;
+  if (after == tilts.end()) return static_cast<double>(tilts.size() - 1);
+  const double before = *(after - 1);
+  return static_cast<double>(after - tilts.begin()) - (*after - tilt) / (*after - before);
+}
+
+std::vector<TimelineEvent> timeline_events(const TimelineSource& source) {
+  if (source.tilts.empty()) return {};
+  EventList list{source, {}};
+  const double theta_c = source.theta_c.value_or(std::nan(""));
+  add_of_rows(list, theta_c);
+  add_of_frames(list, theta_c);
+  if (source.theta_c)
+    list.add("theta_c", "θ_c", "the slope fails", *source.theta_c, TimelineEvent::Kind::failure);
+  for (std::size_t k = 0; k < source.commands.size(); ++k)
+    list.add(fmt::format("command {}", k).c_str(), "", command_text(source.commands[k]),
+             tilt_after(source.rows, source.commands[k].step), TimelineEvent::Kind::command);
+  std::ranges::stable_sort(list.events, {}, &TimelineEvent::place);
+  return std::move(list.events);
+}
+
+}  // namespace talus

@@ -1,0 +1,94 @@
+/// What happened in a run, from rows and frames made by hand.
+
+#include "view/timeline.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/trigonometry.h"
+
+namespace talus {
+namespace {
+
+/// Frames every 5 deg up to 25; rows every 0.4 deg, each ten steps after the one before. The volume is least
+/// at 8 deg, the surface moves by 1 D after 11.2 deg, a cluster spans from 10 deg on, and l_c jumps at 15
+/// deg.
+struct ExampleRun {
+  std::vector<ObservableRow> rows;
+  std::vector<FrameRecord> values;
+  std::vector<Command> commands = {{25, CommandKind::push, 3, 0.1, 0.0}};
+  TimelineSource source;
+
+  ExampleRun() {
+    for (int k = 0; k <= 62; ++k) {
+      ObservableRow& row = rows.emplace_back();
+      const double angle = 0.4 * k;
+      at(row, Observable::step) = 10.0 * k;
+      at(row, Observable::tilt) = radians(angle);
+      at(row, Observable::volume_strain) = 0.01 * std::abs(angle - 8.0);
+      at(row, Observable::centre_of_mass_strain) = -0.01 * angle;
+      at(row, Observable::surface_displacement) = angle > 11.4 ? 2.0 : 0.0;
+    }
+    for (int k = 0; k <= 5; ++k) {
+      source.tilts.push_back(radians(5.0 * k));
+      values.push_back({.tilt = radians(5.0 * k),
+                        .thresholds = {{.lc_max = k < 3 ? 1.0 + k : 9.0, .spans_depth = k < 2 ? 0 : 1}}});
+    }
+    source.rows = rows;
+    source.values = values;
+    source.commands = commands;
+    source.theta_c = radians(20.0);
+    source.mean_diameter = 2.0;
+    source.cut = 100.0;
+  }
+};
+
+std::vector<std::string> names_of(const std::vector<TimelineEvent>& events) {
+  std::vector<std::string> names;
+  for (const TimelineEvent& event : events) names.push_back(event.name);
+  return names;
+}
+
+TEST(PlaceAmong, is_between_two_frames_and_not_beyond_the_ends) {
+  const std::vector<double> tilts = {0.0, 1.0, 3.0};
+  EXPECT_EQ(place_among(tilts, 1.0), 1.0);
+  EXPECT_EQ(place_among(tilts, 1.5), 1.25);
+  EXPECT_EQ(place_among(tilts, -1.0), 0.0);
+  EXPECT_EQ(place_among(tilts, 9.0), 2.0);
+  EXPECT_EQ(place_among({}, 1.0), 0.0);
+}
+
+TEST(Timeline, has_what_happened_in_its_order) {
+  const ExampleRun run;
+  const auto events = timeline_events(run.source);
+  ASSERT_EQ(names_of(events), (std::vector<std::string>{"command 0", "dilation", "spans", "percolation",
+                                                        "first slide", "length jump", "theta_c"}));
+  const double angles[] = {1.0, 8.0, 10.0, 10.0, 11.2, 15.0, 20.0};
+  const std::size_t frames[] = {0, 2, 2, 2, 2, 3, 4};
+  for (std::size_t k = 0; k < events.size(); ++k) {
+    EXPECT_NEAR(degrees(events[k].tilt), angles[k], 1e-9) << events[k].name;
+    EXPECT_NEAR(events[k].place, angles[k] / 5.0, 1e-9) << events[k].name;
+    EXPECT_EQ(events[k].frame, frames[k]) << events[k].name;
+  }
+  EXPECT_EQ(events[0].kind, TimelineEvent::Kind::command);
+  EXPECT_NE(events[0].what.find("grain 3"), std::string::npos);
+  EXPECT_EQ(events.back().kind, TimelineEvent::Kind::failure);
+}
+
+TEST(Timeline, of_a_run_that_goes_on_has_no_largest_jump_yet) {
+  ExampleRun run;
+  run.source.may_change = true;
+  run.source.theta_c.reset();
+  EXPECT_EQ(names_of(timeline_events(run.source)),
+            (std::vector<std::string>{"command 0", "dilation", "spans", "first slide"}));
+}
+
+TEST(Timeline, is_empty_before_the_first_frame) {
+  ExampleRun run;
+  run.source.tilts.clear();
+  EXPECT_TRUE(timeline_events(run.source).empty());
+}
+
+}  // namespace
+}  // namespace talus
