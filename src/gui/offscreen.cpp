@@ -103,6 +103,13 @@ void OffscreenGui::click(std::string_view name, float share_x, float share_y) {
   settle();
 }
 
+void OffscreenGui::double_click(std::string_view name, float share_x, float share_y) {
+  const WidgetPlace at = place(name);
+  move(between(at.x0, at.x1, share_x), between(at.y0, at.y1, share_y));
+  for (const bool down : {true, false, true, false}) press(0, down);
+  settle();
+}
+
 void OffscreenGui::drag(std::string_view name, float from_x, float from_y, float to_x, float to_y,
                         int button) {
   const WidgetPlace at = place(name);

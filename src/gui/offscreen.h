@@ -35,6 +35,7 @@ class OffscreenGui {
   // Actions of a user; each settles. A place inside a widget is given as shares of its width and height.
   void move(float x, float y);
   void click(std::string_view name, float share_x = 0.5f, float share_y = 0.5f);
+  void double_click(std::string_view name, float share_x = 0.5f, float share_y = 0.5f);
   void drag(std::string_view name, float from_x, float from_y, float to_x, float to_y, int button = 0);
   void scroll(std::string_view name, float steps, float share_x = 0.5f, float share_y = 0.5f);
   /// A printable ASCII character, or a number of KeyCode.

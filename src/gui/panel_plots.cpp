@@ -4,6 +4,7 @@
 #include "core/trigonometry.h"
 #include "gui/panels.h"
 #include "gui/plot_widget.h"
+#include "pictures/frame_choice.h"
 
 namespace talus {
 namespace {
@@ -24,6 +25,27 @@ PlotGrid lay_out_plots(const ImVec2& room, int count, float em) {
   return grid;
 }
 
+/// A click on a curve over the tilt goes to the frame nearest to it.
+void draw_and_answer(Gui& gui, const Plot& plot, const ImVec2& size, const PlotMarks& marks) {
+  const auto clicked = draw_plot(gui, plot, size, plot.over_tilt ? marks : PlotMarks{});
+  if (!clicked || !plot.over_tilt) return;
+  if (const auto frame = nearest_frame(gui.model.frame_tilts(), radians(*clicked))) {
+    gui.model.play(false);
+    gui.model.go_to(*frame);
+  }
+}
+
+/// One plot in all of the room, with what can be chosen of it.
+void draw_enlarged(Gui& gui, const Plot& plot, const PlotMarks& marks) {
+  ViewState& state = gui.model.state;
+  if (named_button(gui, "all plots", "All plots", "a double click on the plot")) state.enlarged_plot.clear();
+  ImGui::SameLine();
+  PlotLook& look = state.plot_looks[plot.name];
+  bool logarithmic = look.log_y.value_or(plot.log_y);
+  if (named_checkbox(gui, "logarithmic", "logarithmic", logarithmic)) look.log_y = logarithmic;
+  draw_and_answer(gui, plot, ImGui::GetContentRegionAvail(), marks);
+}
+
 }  // namespace
 
 void draw_plots(Gui& gui) {
@@ -33,10 +55,12 @@ void draw_plots(Gui& gui) {
   PlotMarks marks;
   marks.shown = degrees(gui.model.frame().tilt);
   if (gui.model.theta_c_known()) marks.theta_c = degrees(gui.model.theta_c());
+  const auto enlarged = std::ranges::find(plots, gui.model.state.enlarged_plot, &Plot::name);
+  if (enlarged != plots.end()) return draw_enlarged(gui, *enlarged, marks);
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0.0f, 0.0f});
   for (std::size_t k = 0; k < plots.size(); ++k) {
     if (k % static_cast<std::size_t>(grid.columns) != 0) ImGui::SameLine();
-    draw_plot(gui, plots[k], grid.cell, plots[k].over_tilt ? marks : PlotMarks{});
+    draw_and_answer(gui, plots[k], grid.cell, marks);
   }
   ImGui::PopStyleVar();
 }

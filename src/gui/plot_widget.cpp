@@ -1,5 +1,7 @@
 #include "gui/plot_widget.h"
 
+#include <imgui_internal.h>
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/core.h>
@@ -54,10 +56,11 @@ struct Axes {
   }
 };
 
-void find_ranges(const Plot& plot, Axes& axes) {
+void find_ranges(const Plot& plot, const PlotLook& look, Axes& axes) {
   for (const PlotSeries& series : plot.series)
     for (std::size_t k = 0; k < series.x.size(); ++k) {
-      if (!std::isfinite(series.y[k]) || (plot.log_y && !(series.y[k] > 0.0))) continue;
+      if (!std::isfinite(series.y[k]) || (axes.log_y && !(series.y[k] > 0.0))) continue;
+      if (look.zoomed && (series.x[k] < (*look.zoomed)[0] || series.x[k] > (*look.zoomed)[1])) continue;
       axes.x.take(series.x[k]);
       axes.y.take(axes.shown_y(series.y[k]));
     }
@@ -128,15 +131,69 @@ void draw_curve(ImDrawList& list, const Axes& axes, const PlotSeries& series, Im
   end_column();
 }
 
+double x_at(const Axes& axes, float px) {
+  const float share = std::clamp((px - axes.low.x) / (axes.high.x - axes.low.x), 0.0f, 1.0f);
+  return axes.x.low + static_cast<double>(share) * (axes.x.high - axes.x.low);
+}
+
 void show_values(const Plot& plot, const Axes& axes) {
-  const float share = (ImGui::GetIO().MousePos.x - axes.low.x) / (axes.high.x - axes.low.x);
-  if (share < 0.0f || share > 1.0f) return;
-  const double x = axes.x.low + static_cast<double>(share) * (axes.x.high - axes.x.low);
+  const float px = ImGui::GetIO().MousePos.x;
+  if (px < axes.low.x || px > axes.high.x) return;
+  const double x = x_at(axes, px);
   ImGui::BeginTooltip();
   rich_text(fmt::format("{}: {:.4g}", plot.x_title, x));
   for (const PlotSeries& series : plot.series)
     rich_text(fmt::format("{}: {:.4g}", series.name, value_near(series, x)));
   ImGui::EndTooltip();
+}
+
+/// The range chosen, and a line for each curve that was measured.
+void draw_chosen(ImDrawList& list, const Plot& plot, const PlotLook& look, const Axes& axes, float em) {
+  float y = axes.low.y + 0.1f * em;
+  const float left = axes.low.x + 0.4f * em;
+  if (!plot.note.empty()) {
+    add_rich_text(list, {left, y}, mark_colour, plot.note);
+    y += 1.1f * em;
+  }
+  if (!look.chosen) return;
+  const auto [low, high] = *look.chosen;
+  list.AddRectFilled({axes.px(low), axes.low.y}, {axes.px(high), axes.high.y}, IM_COL32(0, 90, 180, 40));
+  for (std::size_t k = 0; k < plot.series.size(); ++k) {
+    if (plot.series[k].law) continue;
+    const RangeStatistics of = statistics_of(plot.series[k], low, high);
+    const std::string text =
+        fmt::format("{:.4g} ± {:.2g}, slope {:.3g}, {} values", of.mean, of.deviation, of.slope, of.count);
+    const float width = ImGui::CalcTextSize(text.c_str()).x;
+    list.AddRectFilled({left, y}, {left + width, y + 1.1f * em}, IM_COL32(255, 255, 255, 200));
+    list.AddText({left, y}, curve_colour(k), text.c_str());
+    y += 1.1f * em;
+  }
+}
+
+/// Along x, about the mouse; not beyond what there is.
+void zoom_plot(PlotLook& look, const Axes& axes, const Axes& all, float steps) {
+  const double x = x_at(axes, ImGui::GetIO().MousePos.x), factor = std::pow(0.8, static_cast<double>(steps));
+  const double low = std::max(all.x.low, x + factor * (axes.x.low - x));
+  const double high = std::min(all.x.high, x + factor * (axes.x.high - x));
+  look.zoomed.reset();
+  if (low > all.x.low || high < all.x.high) look.zoomed = {low, high};
+}
+
+/// What the mouse does to the plot that was drawn last; the x that was clicked.
+std::optional<double> use_plot(ViewState& state, const Plot& plot, const Axes& axes, const Axes& all) {
+  const ImGuiIO& io = ImGui::GetIO();
+  PlotLook& look = state.plot_looks[plot.name];
+  const bool dragged = io.MouseDragMaxDistanceSqr[0] > 16.0f;
+  if (ImGui::IsItemHovered() && io.MouseWheel != 0.0f) zoom_plot(look, axes, all, io.MouseWheel);
+  if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0))
+    state.enlarged_plot = state.enlarged_plot == plot.name ? std::string() : plot.name;
+  if (ImGui::IsItemActive() && dragged) {
+    const double from = x_at(axes, io.MouseClickedPos[0].x), to = x_at(axes, io.MousePos.x);
+    look.chosen = {std::min(from, to), std::max(from, to)};
+  }
+  if (!ImGui::IsItemDeactivated() || dragged || !ImGui::IsItemHovered()) return std::nullopt;
+  look.chosen.reset();
+  return x_at(axes, io.MousePos.x);
 }
 
 /// The title, and the names of several curves in their colours: beside it where there is room, else alone.
@@ -176,15 +233,17 @@ double value_near(const PlotSeries& series, double x) {
   return series.y[k];
 }
 
-void draw_plot(Gui& gui, const Plot& plot, const ImVec2& size, const PlotMarks& marks) {
+std::optional<double> draw_plot(Gui& gui, const Plot& plot, const ImVec2& size, const PlotMarks& marks) {
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   ImGui::InvisibleButton(std::string("plot ").append(plot.name).c_str(), size);
   note_place(gui, std::string("plot ").append(plot.name));
-  if (!ImGui::IsItemVisible()) return;
+  if (!ImGui::IsItemVisible()) return std::nullopt;
+  if (ImGui::IsItemHovered()) ImGui::SetItemUsingMouseWheel();  // or the plots would be scrolled as well
+  const PlotLook look = gui.model.state.plot_looks[plot.name];
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const float em = gui.em;
   Axes axes;
-  axes.log_y = plot.log_y;
+  axes.log_y = look.log_y.value_or(plot.log_y);
   axes.low = {corner.x + 3.4f * em, corner.y + 1.5f * em};
   axes.high = {corner.x + size.x - 0.8f * em, corner.y + size.y - 2.5f * em};
   list.PushClipRect(corner, {corner.x + size.x, corner.y + size.y}, true);
@@ -194,20 +253,30 @@ void draw_plot(Gui& gui, const Plot& plot, const ImVec2& size, const PlotMarks& 
   const float title = rich_width(*ImGui::GetFont(), ImGui::GetFontSize(), plot.x_title);
   add_rich_text(list, {0.5f * (axes.low.x + axes.high.x - title), axes.high.y + 1.1f * em}, ink,
                 plot.x_title);
-  find_ranges(plot, axes);
-  if (axes.x.empty()) {
+  Axes all = axes;
+  find_ranges(plot, {}, all);
+  find_ranges(plot, look, axes);
+  if (all.x.empty()) {
     list.AddText({axes.low.x + 0.5f * em, axes.low.y + 0.5f * em}, faint, "nothing yet");
-    return;
+    return std::nullopt;
   }
-  axes.x.widen();
+  all.x.widen();
+  if (axes.x.empty()) axes.y = all.y;  // it is zoomed between two values
+  axes.x = all.x;
+  if (look.zoomed) {
+    axes.x.low = (*look.zoomed)[0];
+    axes.x.high = (*look.zoomed)[1];
+  }
   axes.y.widen();
   draw_ticks(list, axes, em);
   list.PushClipRect(axes.low, axes.high, true);
   draw_marks(list, axes, marks, em);
   for (std::size_t k = plot.series.size(); k-- > 0;)
     draw_curve(list, axes, plot.series[k], curve_colour(k), (plot.series[k].law ? 0.06f : 0.1f) * em);
+  draw_chosen(list, plot, look, axes, em);
   list.PopClipRect();
-  if (ImGui::IsItemHovered()) show_values(plot, axes);
+  if (ImGui::IsItemHovered() && !ImGui::IsItemActive()) show_values(plot, axes);
+  return use_plot(gui.model.state, plot, axes, all);
 }
 
 }  // namespace talus

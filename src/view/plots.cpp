@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/core.h>
 
 #include "analysis/packing.h"
 #include "core/trigonometry.h"
@@ -104,6 +105,43 @@ void plot_frames(std::span<const FrameRecord> frames, double mean_diameter, std:
         add(series, degrees(frame.tilt),
             shown(*series.quantity, number_of(*series.quantity, frame), mean_diameter));
     }
+}
+
+void note_threshold(double factor, std::optional<double> assumed, std::vector<Plot>& plots) {
+  const std::string note = fmt::format("at {:.3g} Γ_c", factor) +
+                           (assumed ? fmt::format(", if θ_c = {:.3g}°", degrees(*assumed)) : std::string());
+  const auto has_one = [](const PlotSeries& series) {
+    return series.quantity && needs_threshold(*series.quantity);
+  };
+  for (Plot& plot : plots)
+    if (std::ranges::any_of(plot.series, has_one)) plot.note = note;
+}
+
+RangeStatistics statistics_of(const PlotSeries& series, double low, double high) {
+  RangeStatistics of;
+  double x_sum = 0.0, y_sum = 0.0;
+  const auto counts = [&](std::size_t k) {
+    return series.x[k] >= low && series.x[k] <= high && std::isfinite(series.y[k]);
+  };
+  for (std::size_t k = 0; k < series.x.size(); ++k) {
+    if (!counts(k)) continue;
+    ++of.count;
+    x_sum += series.x[k];
+    y_sum += series.y[k];
+  }
+  const auto count = static_cast<double>(of.count);
+  of.mean = of.count > 0 ? y_sum / count : not_known;
+  double xx = 0.0, xy = 0.0, yy = 0.0;
+  for (std::size_t k = 0; k < series.x.size(); ++k) {
+    if (!counts(k)) continue;
+    const double dx = series.x[k] - x_sum / count, dy = series.y[k] - of.mean;
+    xx += dx * dx;
+    xy += dx * dy;
+    yy += dy * dy;
+  }
+  of.deviation = of.count > 1 ? std::sqrt(yy / (count - 1.0)) : not_known;
+  of.slope = xx > 0.0 ? xy / xx : not_known;
+  return of;
 }
 
 void plot_gamma(const BedFrame& bed, std::vector<Plot>& plots) {

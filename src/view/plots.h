@@ -30,6 +30,7 @@ struct Plot {
   bool over_tilt = true;  ///< the line at the frame shown stands at its tilt
   bool log_y = false;
   std::vector<PlotSeries> series;  ///< the first is what was measured, others laws or measures beside it
+  std::string note{};              ///< rich text: what the curves depend on, "at 0.9 Γ_c"
 };
 
 /// "stress", "overloaded", "cluster", "lengths", "strain", "energy", "gamma", "residual", "iterations": the
@@ -61,6 +62,18 @@ void plot_observables(std::span<const ObservableRow> rows, const RunStatics& sta
                       std::vector<Plot>& plots);
 /// Fills the curves of all other quantities, from frames with one threshold. Values that are NaN make a gap.
 void plot_frames(std::span<const FrameRecord> frames, double mean_diameter, std::vector<Plot>& plots);
+/// Notes the threshold, in Gamma_c, of the plots whose quantities have one; `assumed` (rad): the theta_c that
+/// it follows from while the slope has not failed.
+void note_threshold(double factor, std::optional<double> assumed, std::vector<Plot>& plots);
+
+/// Of the values of a curve between two x, both included; those that are NaN do not count.
+struct RangeStatistics {
+  std::size_t count = 0;
+  double mean = 0.0;       ///< NaN without values
+  double deviation = 0.0;  ///< standard deviation, over count - 1; NaN below two values
+  double slope = 0.0;      ///< of the least squares, per unit of x; NaN where all x are one
+};
+RangeStatistics statistics_of(const PlotSeries& series, double low, double high);
 /// Fills gamma; a frame in which no grain carries anything leaves it empty.
 void plot_gamma(const BedFrame& bed, std::vector<Plot>& plots);
 /// Fills residual and iterations. Of many steps, groups in a row are drawn as one, at the largest value.

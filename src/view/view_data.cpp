@@ -152,8 +152,7 @@ void ViewModel::Data::find_events() {
   source.cut = length_cut(statics(), series->rule().l_min);
   source.may_change = live && !live->status().done;
   events = timeline_events(source);
-  const auto found = std::ranges::find(events, "dilation", &TimelineEvent::name);
-  dilation = found == events.end() ? std::nullopt : nearest_frame(source.tilts, found->tilt);
+  dilation = dilation_frame(rows, source.tilts, theta_c.value_or(std::nan("")));
 }
 
 bool ViewModel::Data::follow_frames(const OverloadRule& rule) {
@@ -169,6 +168,7 @@ bool ViewModel::Data::follow_frames(const OverloadRule& rule) {
   }
   if (changed) {
     plot_frames(series->values(), statics().mean_diameter, plots);
+    note_threshold(rule.threshold_factor, theta_c ? std::nullopt : std::optional(rule.theta_c), plots);
     find_events();
   }
   return changed;

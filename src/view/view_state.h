@@ -2,6 +2,7 @@
 /// What the interactive view shows, and how: plain data that widgets change and drawing reads.
 
 #include <array>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -16,6 +17,13 @@ struct ViewCamera {
   double zoom = 1.0;                      ///< 1: all of the bed is seen
 };
 
+/// How a plot is looked at.
+struct PlotLook {
+  std::optional<std::array<double, 2>> zoomed;  ///< from and to, of x; without: all
+  std::optional<std::array<double, 2>> chosen;  ///< a range of x whose statistics are told
+  std::optional<bool> log_y;                    ///< instead of what the plot has
+};
+
 struct ViewState {
   MapSettings map;  ///< layers, colours, threshold, length, turned, ...
   ViewCamera camera;
@@ -26,6 +34,8 @@ struct ViewState {
   bool highlight_cluster = false;
   bool show_help = false;
   bool show_controls = true, show_inspector = true, show_plots = true;
+  std::map<std::string, PlotLook> plot_looks;  ///< by the names of plots
+  std::string enlarged_plot;                   ///< its name; empty: all are shown
   float picture_share = 0.0f;  ///< of the height, for the map; 0: as high as the bed, the plots get the rest
   std::string announcement;    ///< of a run that has failed or ended, until it is clicked away
   std::string message;         ///< last thing worth telling: a file written, an error

@@ -103,6 +103,30 @@ TEST_F(Replay, the_time_line_goes_where_it_is_clicked) {
   EXPECT_EQ(model_.frame_index(), dilation->frame);
 }
 
+TEST_F(Replay, a_plot_answers) {
+  gui_.click("plot stress", 0.86f);
+  EXPECT_GE(model_.frame_index(), 3u);
+  gui_.drag("plot stress", 0.3f, 0.5f, 0.7f, 0.5f);
+  EXPECT_GE(model_.frame_index(), 3u) << "a drag goes nowhere";
+  const auto chosen = model_.state.plot_looks["stress"].chosen;
+  ASSERT_TRUE(chosen.has_value());
+  EXPECT_GT((*chosen)[0], 0.0);
+  EXPECT_LT((*chosen)[0], (*chosen)[1]);
+  EXPECT_LT((*chosen)[1], 1.0);
+  gui_.scroll("plot stress", 3.0f);
+  const auto zoomed = model_.state.plot_looks["stress"].zoomed;
+  ASSERT_TRUE(zoomed.has_value());
+  EXPECT_LT((*zoomed)[1] - (*zoomed)[0], 0.7);
+  gui_.scroll("plot stress", -9.0f);
+  EXPECT_FALSE(model_.state.plot_looks["stress"].zoomed.has_value());
+  gui_.double_click("plot stress", 0.5f);
+  EXPECT_FALSE(gui_.has("plot energy"));
+  gui_.click("logarithmic");
+  EXPECT_EQ(model_.state.plot_looks["stress"].log_y, std::optional(true));
+  gui_.double_click("plot stress", 0.5f);
+  EXPECT_TRUE(gui_.has("plot energy"));
+}
+
 TEST_F(Replay, an_announcement_stays_until_it_is_clicked) {
   EXPECT_FALSE(gui_.has("announcement"));
   model_.state.announcement = "The slope failed at 1.00°.";

@@ -92,6 +92,28 @@ TEST(Plots, are_of_any_quantity) {
   EXPECT_EQ(plots[0].series[0].y, std::vector{7.0});
 }
 
+TEST(Plots, say_the_threshold_that_they_are_of) {
+  std::vector<Plot> plots = empty_plots();
+  note_threshold(0.9, std::nullopt, plots);
+  EXPECT_EQ(plot(plots, "overloaded").note, "at 0.9 Γ_c");
+  EXPECT_EQ(plot(plots, "lengths").note, "at 0.9 Γ_c");
+  EXPECT_EQ(plot(plots, "strain").note, "");
+  note_threshold(1.0, radians(20.0), plots);
+  EXPECT_EQ(plot(plots, "cluster").note, "at 1 Γ_c, if θ_c = 20°");
+}
+
+TEST(Plots, have_statistics_of_a_range) {
+  const PlotSeries series{"", {0.0, 1.0, 2.0, 3.0, 4.0}, {9.0, 2.0, not_known, 6.0, 9.0}, false, {}};
+  const RangeStatistics of = statistics_of(series, 1.0, 3.0);
+  EXPECT_EQ(of.count, 2u);
+  EXPECT_DOUBLE_EQ(of.mean, 4.0);
+  EXPECT_DOUBLE_EQ(of.deviation, std::sqrt(8.0));
+  EXPECT_DOUBLE_EQ(of.slope, 2.0);
+  EXPECT_TRUE(std::isnan(statistics_of(series, 5.0, 6.0).mean));
+  EXPECT_TRUE(std::isnan(statistics_of(series, 0.5, 1.5).deviation));
+  EXPECT_TRUE(std::isnan(statistics_of(series, 0.5, 1.5).slope));
+}
+
 TEST(Plots, of_gamma_are_a_density_of_the_frame) {
   std::vector<Plot> plots = empty_plots();
   plot_gamma({example::bed_frame(0.0, 4), example::bed_statics()}, plots);
