@@ -14,8 +14,7 @@ struct KeyLine {
 
 constexpr KeyLine key_lines[] = {
     {"space", "play, pause"},
-    {"right, left",
-     "one step or frame forward; one frame back, also in a run that goes on (shift 10, ctrl 100)"},
+    {"right, left", "one step or frame forward; one frame back (shift 10, ctrl 100)"},
     {"home, end", "first, last frame; of a run that goes on, as it is now"},
     {"d, j, p, c", "to θ_d; to the jump of ℓ_c; to where a cluster first spans; to θ_c"},
     {"< >", "speed of a replay"},

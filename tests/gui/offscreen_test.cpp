@@ -5,26 +5,20 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <fmt/core.h>
-#include <functional>
 #include <random>
-#include <thread>
 
-#include "cli/process.h"
 #include "core/trigonometry.h"
+#include "gui/offscreen_fixture.h"
 #include "gui/panels.h"
 
 namespace talus {
 namespace {
 
-using test::run_talus;
+using test::Live;
+using test::Replay;
+using test::small_bed;
 using test::TemporaryFolder;
-
-/// 40 grains, tilted to 1 deg in five frames.
-const char* const small_bed =
-    "seed = 3\n[bed]\nlength = 10\ndepth = 4\n[tilt]\nstep = 0.01\nend_angle = 1.0\n[output]\nframe_every = "
-    "0.25\n";
 
 /// The share of the pixels of a place that differ.
 double difference(const Image& a, const Image& b, const WidgetPlace& place) {
@@ -42,33 +36,6 @@ double difference(const Image& a, const Image& b, const WidgetPlace& place) {
     }
   return all == 0 ? 0.0 : static_cast<double>(differing) / all;
 }
-
-/// A small run that is replayed in a window of 1400 x 900 px.
-class Replay : public testing::Test {
- protected:
-  Replay() : model_(open_run()), gui_(model_, 1400, 900) {}
-
-  ViewModel open_run() {
-    test::write_file(folder_, "bed.toml", small_bed);
-    const test::Outcome run = run_talus({"run", "bed.toml", "-q"}, folder_.path());
-    if (run.exit_code != 0) throw std::runtime_error(run.err);
-    return ViewModel::open(folder_.path("bed.h5"), {}, "", false, "");
-  }
-
-  /// Where a grain is in the map: shares of its width and height.
-  std::pair<float, float> share_of(Index grain) {
-    const WidgetPlace map = gui_.place("map");
-    const double aspect = static_cast<double>(map.x1 - map.x0) / static_cast<double>(map.y1 - map.y0);
-    const auto [x_min, x_max, y_min, y_max] = model_.shown_region(aspect);
-    const auto k = static_cast<std::size_t>(grain);
-    return {static_cast<float>((model_.frame().x[k] - x_min) / (x_max - x_min)),
-            static_cast<float>((y_max - model_.frame().y[k]) / (y_max - y_min))};
-  }
-
-  TemporaryFolder folder_;
-  ViewModel model_;
-  OffscreenGui gui_;
-};
 
 TEST_F(Replay, plays_and_pauses) {
   gui_.click("play");
@@ -88,54 +55,6 @@ TEST_F(Replay, scrubs_with_the_mouse) {
   EXPECT_GT(difference(before, gui_.frame(), gui_.place("map")), 0.001);
   gui_.drag("frame", 0.98f, 0.5f, 0.5f, 0.5f);
   EXPECT_EQ(model_.frame_index(), 2u);
-}
-
-TEST_F(Replay, the_time_line_goes_where_it_is_clicked) {
-  const WidgetPlace line = gui_.place("time line");
-  EXPECT_GT(line.x1 - line.x0, 1200.0f);
-  gui_.click("time line", 0.76f);
-  EXPECT_EQ(model_.frame_index(), 3u);
-  gui_.drag("time line", 0.76f, 0.5f, 0.01f, 0.5f);
-  EXPECT_EQ(model_.frame_index(), 0u);
-  const auto dilation = std::ranges::find(model_.events(), "dilation", &TimelineEvent::name);
-  if (dilation == model_.events().end()) return;  // these five frames need not have it
-  gui_.click("event dilation");
-  EXPECT_EQ(model_.frame_index(), dilation->frame);
-}
-
-TEST_F(Replay, a_plot_answers) {
-  gui_.click("plot stress", 0.86f);
-  EXPECT_GE(model_.frame_index(), 3u);
-  gui_.drag("plot stress", 0.3f, 0.5f, 0.7f, 0.5f);
-  EXPECT_GE(model_.frame_index(), 3u) << "a drag goes nowhere";
-  const auto chosen = model_.state.plot_looks["stress"].chosen;
-  ASSERT_TRUE(chosen.has_value());
-  EXPECT_GT((*chosen)[0], 0.0);
-  EXPECT_LT((*chosen)[0], (*chosen)[1]);
-  EXPECT_LT((*chosen)[1], 1.0);
-  gui_.scroll("plot stress", 3.0f);
-  const auto zoomed = model_.state.plot_looks["stress"].zoomed;
-  ASSERT_TRUE(zoomed.has_value());
-  EXPECT_LT((*zoomed)[1] - (*zoomed)[0], 0.7);
-  gui_.scroll("plot stress", -9.0f);
-  EXPECT_FALSE(model_.state.plot_looks["stress"].zoomed.has_value());
-  gui_.double_click("plot stress", 0.5f);
-  EXPECT_FALSE(gui_.has("plot energy"));
-  gui_.click("logarithmic");
-  EXPECT_EQ(model_.state.plot_looks["stress"].log_y, std::optional(true));
-  gui_.double_click("plot stress", 0.5f);
-  EXPECT_TRUE(gui_.has("plot energy"));
-}
-
-TEST_F(Replay, an_announcement_stays_until_it_is_clicked) {
-  EXPECT_FALSE(gui_.has("announcement"));
-  model_.state.announcement = "The slope failed at 1.00°.";
-  gui_.settle();
-  model_.state.message = "something else";
-  gui_.settle();
-  ASSERT_TRUE(gui_.has("announcement"));
-  gui_.click("announcement");
-  EXPECT_FALSE(gui_.has("announcement"));
 }
 
 TEST_F(Replay, moves_by_keys) {
@@ -377,32 +296,6 @@ TEST(Scale, two_doubles_text_and_widgets) {
   EXPECT_LE(large.place("map").x1, 1400.0f);
 }
 
-/// A bed that is computed, in a window of 1200 x 800 px.
-class Live : public testing::Test {
- protected:
-  Live() : model_(ViewModel::open(scenario(), {}, "", false, "")), gui_(model_, 1200, 800) {}
-
-  std::string scenario() {
-    test::write_file(folder_, "bed.toml", small_bed);
-    return folder_.path("bed.toml");
-  }
-
-  /// Draws until it is so; false after ten seconds.
-  bool wait_until(const std::function<bool()>& so) {
-    for (int wait = 0; wait < 1000; ++wait) {
-      gui_.frame();
-      if (so()) return true;
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    }
-    return false;
-  }
-  LiveStatus status() { return model_.live()->status(); }
-
-  TemporaryFolder folder_;
-  ViewModel model_;
-  OffscreenGui gui_;
-};
-
 TEST_F(Live, steps_are_counted) {
   EXPECT_EQ(status().step, 0);
   gui_.click("step 1");
@@ -410,23 +303,6 @@ TEST_F(Live, steps_are_counted) {
   gui_.click("step 10");
   EXPECT_TRUE(wait_until([&] { return status().step == 11 && !status().running; }));
   EXPECT_TRUE(wait_until([&] { return model_.frame().step == 11; })) << "the picture follows";
-}
-
-TEST_F(Live, is_looked_back_at_while_it_goes_on) {
-  EXPECT_FALSE(model_.looks_back());
-  gui_.click("play");
-  ASSERT_TRUE(wait_until([&] { return model_.frame_count() >= 3; }));
-  gui_.click("time line", 0.02f);
-  EXPECT_TRUE(model_.looks_back());
-  EXPECT_EQ(model_.frame_index(), 0u);
-  gui_.key(key_right);
-  EXPECT_EQ(model_.frame_index(), 1u);
-  EXPECT_TRUE(model_.looks_back());
-  gui_.click("follow");
-  EXPECT_FALSE(model_.looks_back());
-  gui_.click("time line", 0.02f);
-  gui_.key(key_end);
-  EXPECT_FALSE(model_.looks_back());
 }
 
 TEST_F(Live, plays_pauses_and_begins_anew) {

@@ -1,0 +1,76 @@
+#pragma once
+/// A small run in a window without a display, for tests.
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <functional>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include "cli/process.h"
+#include "gui/offscreen.h"
+
+namespace talus::test {
+
+/// 40 grains, tilted to 1 deg in five frames.
+inline const char* const small_bed =
+    "seed = 3\n[bed]\nlength = 10\ndepth = 4\n[tilt]\nstep = 0.01\nend_angle = 1.0\n[output]\nframe_every = "
+    "0.25\n";
+
+/// A small run that is replayed in a window of 1400 x 900 px.
+class Replay : public testing::Test {
+ protected:
+  Replay() : model_(open_run()), gui_(model_, 1400, 900) {}
+
+  ViewModel open_run() {
+    write_file(folder_, "bed.toml", small_bed);
+    const Outcome run = run_talus({"run", "bed.toml", "-q"}, folder_.path());
+    if (run.exit_code != 0) throw std::runtime_error(run.err);
+    return ViewModel::open(folder_.path("bed.h5"), {}, "", false, "");
+  }
+
+  /// Where a grain is in the map: shares of its width and height.
+  std::pair<float, float> share_of(Index grain) {
+    const WidgetPlace map = gui_.place("map");
+    const double aspect = static_cast<double>(map.x1 - map.x0) / static_cast<double>(map.y1 - map.y0);
+    const auto [x_min, x_max, y_min, y_max] = model_.shown_region(aspect);
+    const auto k = static_cast<std::size_t>(grain);
+    return {static_cast<float>((model_.frame().x[k] - x_min) / (x_max - x_min)),
+            static_cast<float>((y_max - model_.frame().y[k]) / (y_max - y_min))};
+  }
+
+  TemporaryFolder folder_;
+  ViewModel model_;
+  OffscreenGui gui_;
+};
+
+/// A bed that is computed, in a window of 1200 x 800 px.
+class Live : public testing::Test {
+ protected:
+  Live() : model_(ViewModel::open(scenario(), {}, "", false, "")), gui_(model_, 1200, 800) {}
+
+  std::string scenario() {
+    write_file(folder_, "bed.toml", small_bed);
+    return folder_.path("bed.toml");
+  }
+
+  /// Draws until it is so; false after ten seconds.
+  bool wait_until(const std::function<bool()>& so) {
+    for (int wait = 0; wait < 1000; ++wait) {
+      gui_.frame();
+      if (so()) return true;
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    return false;
+  }
+  LiveStatus status() { return model_.live()->status(); }
+
+  TemporaryFolder folder_;
+  ViewModel model_;
+  OffscreenGui gui_;
+};
+
+}  // namespace talus::test

@@ -1,0 +1,81 @@
+/// The time line, plots that answer, and what a run announces, in a window without a display.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "gui/offscreen_fixture.h"
+
+namespace talus {
+namespace {
+
+using test::Live;
+using test::Replay;
+
+TEST_F(Replay, the_time_line_goes_where_it_is_clicked) {
+  const WidgetPlace line = gui_.place("time line");
+  EXPECT_GT(line.x1 - line.x0, 1200.0f);
+  gui_.click("time line", 0.76f);
+  EXPECT_EQ(model_.frame_index(), 3u);
+  gui_.drag("time line", 0.76f, 0.5f, 0.01f, 0.5f);
+  EXPECT_EQ(model_.frame_index(), 0u);
+  const auto dilation = std::ranges::find(model_.events(), "dilation", &TimelineEvent::name);
+  if (dilation == model_.events().end()) return;  // these five frames need not have it
+  gui_.click("event dilation");
+  EXPECT_EQ(model_.frame_index(), dilation->frame);
+}
+
+TEST_F(Replay, a_plot_answers) {
+  gui_.click("plot stress", 0.86f);
+  EXPECT_GE(model_.frame_index(), 3u);
+  gui_.drag("plot stress", 0.3f, 0.5f, 0.7f, 0.5f);
+  EXPECT_GE(model_.frame_index(), 3u) << "a drag goes nowhere";
+  const auto chosen = model_.state.plot_looks["stress"].chosen;
+  ASSERT_TRUE(chosen.has_value());
+  EXPECT_GT((*chosen)[0], 0.0);
+  EXPECT_LT((*chosen)[0], (*chosen)[1]);
+  EXPECT_LT((*chosen)[1], 1.0);
+  gui_.scroll("plot stress", 3.0f);
+  const auto zoomed = model_.state.plot_looks["stress"].zoomed;
+  ASSERT_TRUE(zoomed.has_value());
+  EXPECT_LT((*zoomed)[1] - (*zoomed)[0], 0.7);
+  gui_.scroll("plot stress", -9.0f);
+  EXPECT_FALSE(model_.state.plot_looks["stress"].zoomed.has_value());
+  gui_.double_click("plot stress", 0.5f);
+  EXPECT_FALSE(gui_.has("plot energy"));
+  gui_.click("logarithmic");
+  EXPECT_EQ(model_.state.plot_looks["stress"].log_y, std::optional(true));
+  gui_.double_click("plot stress", 0.5f);
+  EXPECT_TRUE(gui_.has("plot energy"));
+}
+
+TEST_F(Replay, an_announcement_stays_until_it_is_clicked) {
+  EXPECT_FALSE(gui_.has("announcement"));
+  model_.state.announcement = "The slope failed at 1.00°.";
+  gui_.settle();
+  model_.state.message = "something else";
+  gui_.settle();
+  ASSERT_TRUE(gui_.has("announcement"));
+  gui_.click("announcement");
+  EXPECT_FALSE(gui_.has("announcement"));
+}
+
+TEST_F(Live, is_looked_back_at_while_it_goes_on) {
+  EXPECT_FALSE(model_.looks_back());
+  gui_.click("play");
+  ASSERT_TRUE(wait_until([&] { return model_.frame_count() >= 3; }));
+  gui_.click("time line", 0.02f);
+  EXPECT_TRUE(model_.looks_back());
+  EXPECT_EQ(model_.frame_index(), 0u);
+  gui_.key(key_right);
+  EXPECT_EQ(model_.frame_index(), 1u);
+  EXPECT_TRUE(model_.looks_back());
+  gui_.click("follow");
+  EXPECT_FALSE(model_.looks_back());
+  gui_.click("time line", 0.02f);
+  gui_.key(key_end);
+  EXPECT_FALSE(model_.looks_back());
+}
+
+}  // namespace
+}  // namespace talus
