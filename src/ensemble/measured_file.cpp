@@ -16,12 +16,12 @@ std::string key_line(const std::string& analysis_key) {
   return fmt::format("# values {} of analysis {}\n", measure_version, analysis_key);
 }
 
-constexpr const char* head = "threshold,quantity,value,at_most\n";
+constexpr const char* head_line = "threshold,quantity,value,at_most\n";
 
 }  // namespace
 
 std::string measured_text(const std::string& analysis_key, const std::vector<MeasuredValues>& thresholds) {
-  std::string text = key_line(analysis_key) + head;
+  std::string text = key_line(analysis_key) + head_line;
   for (std::size_t f = 0; f < thresholds.size(); ++f)
     for (std::size_t q = 0; q < quantity_count; ++q) {
       const auto& [value, at_most] = thresholds[f][q];

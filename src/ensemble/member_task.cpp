@@ -8,13 +8,13 @@
 namespace talus {
 namespace {
 
-constexpr const char* readings = "readings";
-constexpr const char* trials = "trials ";
+constexpr const char* readings_word = "readings";
+constexpr const char* trials_word = "trials ";
 
 struct TaskText {
   std::string operator()(const PlainTask&) const { return ""; }
-  std::string operator()(const ReadingsTask&) const { return readings; }
-  std::string operator()(const PerturbationPlan& plan) const { return trials + plan_text(plan); }
+  std::string operator()(const ReadingsTask&) const { return readings_word; }
+  std::string operator()(const PerturbationPlan& plan) const { return trials_word + plan_text(plan); }
 };
 
 }  // namespace
@@ -23,9 +23,9 @@ std::string task_text(const MemberTask& task) { return std::visit(TaskText{}, ta
 
 MemberTask parse_task(const std::string& text, const std::string& path) {
   if (text.empty()) return PlainTask{};
-  if (text == readings) return ReadingsTask{};
-  if (text.starts_with(trials))
-    if (const auto plan = parse_plan(text.substr(std::char_traits<char>::length(trials)))) return *plan;
+  if (text == readings_word) return ReadingsTask{};
+  if (text.starts_with(trials_word))
+    if (const auto plan = parse_plan(text.substr(std::char_traits<char>::length(trials_word)))) return *plan;
   throw Error(ExitCode::bad_data,
               fmt::format("{}: members with the task '{}' are not known to this version of Talus", path,
                           visible_word(text)));

@@ -282,24 +282,28 @@ std::vector<std::string> reproduction_summary(const ReproductionResult& result) 
 ReportDocument reproduction_report(const ReproductionResult& result, const ReproductionPictures& pictures) {
   ReportDocument document{"Talus beside the paper", {}};
   auto& blocks = document.blocks;
-  const auto append = [&blocks](auto more) { std::ranges::move(more, std::back_inserter(blocks)); };
+  const auto append = [&blocks](const auto& more) {
+    for (const auto& block : more) blocks.emplace_back(block);
+  };
   blocks.emplace_back(
       ReportParagraph{"What L. Staron, J.-P. Vilotte and F. Radjai report in \"Multiscale Analysis of the "
                       "Stress State in a Granular Slope in Transition to Failure\" (2005), and what Talus "
                       "finds in beds made and tilted in the same way. Written by `talus reproduce`."});
-  append(std::vector<ReportBlock>{ReportContents{}, ReportHeading{2, "In short"},
-                                  ReportList{reproduction_summary(result)}});
+  blocks.emplace_back(ReportContents{});
+  blocks.emplace_back(ReportHeading{2, "In short"});
+  blocks.emplace_back(ReportList{reproduction_summary(result)});
   append(pictures.agreement);
-  append(std::vector<ReportBlock>{ReportHeading{2, "The packing"}, packing_table(result)});
+  blocks.emplace_back(ReportHeading{2, "The packing"});
+  blocks.emplace_back(packing_table(result));
   append(pictures.packing);
-  append(std::vector<ReportBlock>{ReportHeading{2, "Overloaded grains, lengths and the transition"},
-                                  chain_table(result)});
+  blocks.emplace_back(ReportHeading{2, "Overloaded grains, lengths and the transition"});
+  blocks.emplace_back(chain_table(result));
   append(pictures.overload);
-  append(std::vector<ReportBlock>{
-      ReportHeading{2, "Beds between walls"},
+  blocks.emplace_back(ReportHeading{2, "Beds between walls"});
+  blocks.emplace_back(
       ReportParagraph{"Deposition friction 0.5. The paper's Eq. 15: (sigma_T/sigma_N)/tan(theta) = 1 - "
-                      "(k_L - k_0)/3 H/L; its values for each length are this with k_L - k_0 = 2.5."},
-      wall_table(result)});
+                      "(k_L - k_0)/3 H/L; its values for each length are this with k_L - k_0 = 2.5."});
+  blocks.emplace_back(wall_table(result));
   append(pictures.walls);
   append(threshold_blocks(result));
   if (!pictures.further.empty()) blocks.emplace_back(ReportHeading{2, "Further figures"});

@@ -16,7 +16,7 @@
 namespace talus {
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
+constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
 double failure_angle(const FigureRun& run) { return degrees(run.analysis.theta_c); }
 
@@ -37,13 +37,13 @@ void append_state(Table& table, const FigureRun& run, const PerturbedState& stat
                         failure_angle(run) - state.tilt,
                         threshold.held ? 1.0 : 0.0,
                         threshold.without,
-                        std::isinf(threshold.with) ? none : threshold.with,
+                        std::isinf(threshold.with) ? no_number : threshold.with,
                         without != nullptr ? without->energy : 0.0,
                         with != nullptr  ? with->energy
-                        : threshold.held ? none
+                        : threshold.held ? no_number
                                          : 0.0,
-                        without != nullptr ? without->moved : none,
-                        with != nullptr ? with->moved : none,
+                        without != nullptr ? without->moved : no_number,
+                        with != nullptr ? with->moved : no_number,
                         threshold.monotone ? 1.0 : 0.0,
                         static_cast<double>(state.trials.size())};
   for (std::size_t k = 0; k < table.columns.size(); ++k) table.columns[k].values.push_back(row[k]);

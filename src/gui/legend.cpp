@@ -5,7 +5,7 @@
 namespace talus {
 namespace {
 
-constexpr ImU32 ink = IM_COL32(0, 0, 0, 255);
+constexpr ImU32 legend_ink = IM_COL32(0, 0, 0, 255);
 
 ImU32 colour_of(const Colour& colour) {
   return IM_COL32(colour.red, colour.green, colour.blue, colour.alpha);
@@ -26,7 +26,7 @@ void draw_bar(const Bar& bar, float em) {
   make_room(width);
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  add_rich_text(list, corner, ink, bar.title);
+  add_rich_text(list, corner, legend_ink, bar.title);
   const float left = corner.x + title + 0.6f * em;
   const std::size_t pieces = bar.colours.size() - 1;
   for (std::size_t k = 0; k < pieces; ++k) {
@@ -34,15 +34,15 @@ void draw_bar(const Bar& bar, float em) {
     const float x1 = left + length * static_cast<float>(k + 1) / static_cast<float>(pieces);
     list.AddRectFilled({x0, corner.y}, {x1, corner.y + em}, colour_of(bar.colours[k]));
   }
-  list.AddRect({left, corner.y}, {left + length, corner.y + em}, ink);
+  list.AddRect({left, corner.y}, {left + length, corner.y + em}, legend_ink);
   float free_from = 0.0f;
   for (const BarTick& tick : bar.ticks) {
     const float x = left + static_cast<float>(tick.share) * length;
-    list.AddLine({x, corner.y + em}, {x, corner.y + 1.2f * em}, ink);
+    list.AddLine({x, corner.y + em}, {x, corner.y + 1.2f * em}, legend_ink);
     const float label = rich_width(font, size, tick.label), at = x - 0.5f * label;
     if (at < free_from) continue;
     free_from = at + label + 0.4f * em;
-    add_rich_text(list, {at, corner.y + 1.2f * em}, ink, tick.label);
+    add_rich_text(list, {at, corner.y + 1.2f * em}, legend_ink, tick.label);
   }
   ImGui::Dummy({width, 2.4f * em});
   ImGui::SameLine();
@@ -61,7 +61,7 @@ void draw_swatch(const Swatch& swatch, float em) {
     list.AddCircleFilled({corner.x + 1.0f * em, middle}, 0.45f * em, colour_of(swatch.rim));
     list.AddCircleFilled({corner.x + 1.0f * em, middle}, 0.36f * em, colour_of(swatch.fill));
   }
-  add_rich_text(list, {corner.x + 1.9f * em, corner.y}, ink, swatch.label);
+  add_rich_text(list, {corner.x + 1.9f * em, corner.y}, legend_ink, swatch.label);
   ImGui::Dummy({2.4f * em + label, 2.4f * em});
   ImGui::SameLine();
 }

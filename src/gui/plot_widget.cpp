@@ -12,7 +12,7 @@
 namespace talus {
 namespace {
 
-constexpr ImU32 ink = IM_COL32(0, 0, 0, 255);
+constexpr ImU32 plot_ink = IM_COL32(0, 0, 0, 255);
 constexpr ImU32 faint = IM_COL32(0, 0, 0, 90);
 constexpr ImU32 mark_colour = IM_COL32(90, 90, 90, 255);
 
@@ -70,19 +70,19 @@ void draw_ticks(ImDrawList& list, const Axes& axes, float em) {
   const int most_x = std::max(2, static_cast<int>((axes.high.x - axes.low.x) / (4.0f * em)));
   for (const RoundTick& tick : round_ticks(axes.x.low, axes.x.high, most_x)) {
     const float x = axes.px(tick.value);
-    list.AddLine({x, axes.high.y}, {x, axes.high.y - 0.3f * em}, ink);
+    list.AddLine({x, axes.high.y}, {x, axes.high.y - 0.3f * em}, plot_ink);
     const float width = ImGui::CalcTextSize(tick.label.c_str()).x;
-    list.AddText({x - 0.5f * width, axes.high.y + 0.1f * em}, ink, tick.label.c_str());
+    list.AddText({x - 0.5f * width, axes.high.y + 0.1f * em}, plot_ink, tick.label.c_str());
   }
   const int most_y = std::max(2, static_cast<int>((axes.high.y - axes.low.y) / (2.0f * em)));
   for (const RoundTick& tick : round_ticks(axes.y.low, axes.y.high, most_y)) {
     const float share = static_cast<float>((tick.value - axes.y.low) / (axes.y.high - axes.y.low));
     const float y = axes.high.y - share * (axes.high.y - axes.low.y);
-    list.AddLine({axes.low.x, y}, {axes.low.x + 0.3f * em, y}, ink);
+    list.AddLine({axes.low.x, y}, {axes.low.x + 0.3f * em, y}, plot_ink);
     if (axes.log_y && tick.value != std::round(tick.value)) continue;
     const std::string label = axes.log_y ? fmt::format("1e{:.0f}", tick.value) : tick.label;
     const float width = ImGui::CalcTextSize(label.c_str()).x;
-    list.AddText({axes.low.x - width - 0.2f * em, y - 0.5f * ImGui::GetFontSize()}, ink, label.c_str());
+    list.AddText({axes.low.x - width - 0.2f * em, y - 0.5f * ImGui::GetFontSize()}, plot_ink, label.c_str());
   }
 }
 
@@ -205,7 +205,7 @@ void draw_names(ImDrawList& list, const Plot& plot, const ImVec2& place, float r
   for (const PlotSeries& series : plot.series) names += width_of(series.name) + 0.8f * em;
   const bool several = plot.series.size() > 1;
   const float title = width_of(plot.title);
-  if (!several || title + names < right - place.x) add_rich_text(list, place, ink, plot.title);
+  if (!several || title + names < right - place.x) add_rich_text(list, place, plot_ink, plot.title);
   if (!several) return;
   float x = std::max(place.x, right - names + 0.8f * em);
   for (std::size_t k = 0; k < plot.series.size(); ++k) {
@@ -249,9 +249,9 @@ std::optional<double> draw_plot(Gui& gui, const Plot& plot, const ImVec2& size, 
   list.PushClipRect(corner, {corner.x + size.x, corner.y + size.y}, true);
   draw_names(list, plot, {axes.low.x, corner.y + 0.2f * em}, axes.high.x, em);
   list.PopClipRect();
-  list.AddRect(axes.low, axes.high, ink);
+  list.AddRect(axes.low, axes.high, plot_ink);
   const float title = rich_width(*ImGui::GetFont(), ImGui::GetFontSize(), plot.x_title);
-  add_rich_text(list, {0.5f * (axes.low.x + axes.high.x - title), axes.high.y + 1.1f * em}, ink,
+  add_rich_text(list, {0.5f * (axes.low.x + axes.high.x - title), axes.high.y + 1.1f * em}, plot_ink,
                 plot.x_title);
   Axes all = axes;
   find_ranges(plot, {}, all);
