@@ -2,7 +2,9 @@
 include(CheckCXXSourceCompiles)
 add_library(talus_options INTERFACE)
 target_compile_options(talus_options INTERFACE
-  -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual
+  -Wall -Wextra -Wpedantic -Wnon-virtual-dtor -Woverloaded-virtual
+  # Of sources that are compiled as one text, clang compares names that each keeps to itself.
+  $<$<NOT:$<AND:$<CXX_COMPILER_ID:Clang>,$<BOOL:${TALUS_UNITY}>>>:-Wshadow>
   # Same bits for every compiler and optimisation level: no fused multiply-add behind our back.
   -ffp-contract=off)
 string(TOUPPER "${CMAKE_BUILD_TYPE}" build_type)
