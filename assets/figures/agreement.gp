@@ -10,6 +10,7 @@ set multiplot
 do for [panel = 1:2] {
   name = word(names, panel)
   rows = value(name . "_rows")
+  if (rows == 0) { continue }  # nothing of it can be compared yet
   series = value(name . "_series")
   file = figure . "-" . name . ".csv"
   left = panel == 1 ? 0.265 : 0.735

@@ -8,7 +8,7 @@
 namespace talus {
 namespace {
 
-std::string joined(const std::vector<ProgressField>& fields, int largest_rank) {
+std::string joined_fields(const std::vector<ProgressField>& fields, int largest_rank) {
   std::string line;
   for (const ProgressField& field : fields)
     if (field.rank <= largest_rank) line.append(line.empty() ? "" : "  ").append(field.text);
@@ -20,10 +20,10 @@ std::string joined(const std::vector<ProgressField>& fields, int largest_rank) {
 std::string fitted_line(const std::vector<ProgressField>& fields, std::optional<int> width) {
   int rank = 0;
   for (const ProgressField& field : fields) rank = std::max(rank, field.rank);
-  std::string line = joined(fields, rank);
+  std::string line = joined_fields(fields, rank);
   if (!width) return line;
   const auto columns = static_cast<std::size_t>(std::max(0, *width));
-  while (rank > 0 && line.size() > columns) line = joined(fields, --rank);
+  while (rank > 0 && line.size() > columns) line = joined_fields(fields, --rank);
   line.resize(std::min(line.size(), columns));
   return line;
 }

@@ -17,6 +17,7 @@
 #include "app/jobs_option.h"
 #include "app/stop_signals.h"
 #include "core/errors.h"
+#include "core/text.h"
 #include "ensemble/reproduction_report.h"
 #include "ensemble/reproduction_values.h"
 #include "figures/agreement_figure.h"
@@ -72,6 +73,12 @@ std::string command_of(const Figure& figure, const std::string& folder) {
   return fmt::format("{} --only {} -o {}", text, figure.name, folder);
 }
 
+/// `talus reproduce` that makes the chart.
+std::string command_of(const ReproductionPlan& plan, const std::string& folder) {
+  return fmt::format("talus reproduce{} --seeds {} -o {}", plan.quick ? " --quick" : "",
+                     joined(plan.seeds, ","), folder);
+}
+
 bool holds(const fs::path& file, const std::string& text) {
   return fs::exists(file) && read_text(file.string()) == text;
 }
@@ -120,8 +127,8 @@ ReproductionPictures draw_figures(const ReproductionPlan& plan, const Reproducti
   const auto catalogue = figure_catalogue();
   ReproductionPictures pictures;
   CountProgress progress("figures", catalogue.size() + 1, false);
-  pictures.agreement.push_back(
-      drawn(agreement_figure(result), groups, into, {0, fmt::format("talus reproduce -o {}", folder)}));
+  if (const auto chart = agreement_figure(result))
+    pictures.agreement.push_back(drawn(*chart, groups, into, {0, command_of(plan, folder)}));
   for (std::size_t k = 0; k < catalogue.size(); ++k) {
     progress.show(k + 1);
     stop_if_asked();

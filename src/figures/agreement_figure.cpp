@@ -181,8 +181,9 @@ void add_chart(Figure& figure, const Chart& chart) {
 
 }  // namespace
 
-Figure agreement_figure(const ReproductionResult& result) {
+std::optional<Figure> agreement_figure(const ReproductionResult& result) {
   const Chart packing = packing_chart(result), chain = chain_chart(result);
+  if (packing.rows.empty() && chain.rows.empty()) return std::nullopt;
   Figure figure;
   figure.name = "agreement";
   figure.title = "Ours beside the paper's values";

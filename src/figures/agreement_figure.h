@@ -1,6 +1,8 @@
 #pragma once
 /// The chart of `talus reproduce`: how far each value of ours is from the paper's.
 
+#include <optional>
+
 #include "ensemble/reproduction.h"
 #include "figures/figure.h"
 
@@ -10,7 +12,8 @@ namespace talus {
 /// bed, and those of beds between walls; right: the chain of the paper's own preparation, one symbol for each
 /// of the three readings of "overloaded". Abscissa: ours less the paper's, over the tolerance of the
 /// comparison (judge), so that values within -1 ... 1 agree. Values of which the paper gives no number, and
-/// those that cannot be compared, are left out; what does not occur in any run stands beside the axis.
-Figure agreement_figure(const ReproductionResult& result);
+/// those that cannot be compared, are left out; what does not occur in any run stands beside the axis. No
+/// figure where nothing is left.
+std::optional<Figure> agreement_figure(const ReproductionResult& result);
 
 }  // namespace talus

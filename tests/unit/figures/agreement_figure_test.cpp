@@ -31,7 +31,7 @@ std::vector<double> values_in(const Table& table, std::size_t row, const std::st
 }
 
 TEST(AgreementFigure, of_the_papers_own_values_is_a_line_of_zeros) {
-  const Figure figure = agreement_figure(like_the_paper(0.0));
+  const Figure figure = agreement_figure(like_the_paper(0.0)).value();
   ASSERT_EQ(figure.tables.size(), 2u);
   for (const Table& table : figure.tables) {
     EXPECT_FALSE(table.columns.front().values.empty());
@@ -46,7 +46,7 @@ TEST(AgreementFigure, scores_are_differences_in_units_of_the_tolerance) {
   ReproductionResult result = like_the_paper(0.0);
   set_everywhere(result, PaperQuantity::theta_c, {20.0});  // of 21 +- 0.5
   set_everywhere(result, PaperQuantity::overloaded_at_0, {std::numeric_limits<double>::quiet_NaN()});
-  const Figure figure = agreement_figure(result);
+  const Figure figure = agreement_figure(result).value();
   const std::size_t theta_c = row_of(figure, "packing", "θ_c");
   EXPECT_EQ(values_in(figure.tables[0], theta_c, "score"), std::vector<double>(3, -2.0));
   EXPECT_EQ(values_in(figure.tables[0], theta_c, "agrees"), std::vector<double>(3, 0.0));
@@ -58,9 +58,21 @@ TEST(AgreementFigure, scores_are_differences_in_units_of_the_tolerance) {
 TEST(AgreementFigure, leaves_out_what_cannot_be_compared) {
   ReproductionResult result = like_the_paper(0.0);
   for (Variant& bed : result.plan.variants) bed.scenario.bed.depth = 20.0;  // lengths end at the depth
-  const Figure figure = agreement_figure(result);
+  const Figure figure = agreement_figure(result).value();
   EXPECT_EQ(row_of(figure, "chain", "mean {/:Italic ℓ}_c at 0°"), 0u);
   EXPECT_GT(row_of(figure, "chain", "p_o at 0°"), 0u);
+}
+
+TEST(AgreementFigure, needs_something_to_compare) {
+  ReproductionResult result = like_the_paper(0.0);
+  std::erase_if(result.outcomes, [&](const ReproducedOutcome& outcome) {
+    return is_periodic(result.plan.variants[result.plan.members[outcome.member].variant]);
+  });
+  const Figure figure = agreement_figure(result).value();
+  EXPECT_FALSE(figure.tables[0].columns.front().values.empty()) << "beds between walls";
+  EXPECT_TRUE(figure.tables[1].columns.front().values.empty());
+  result.outcomes.clear();
+  EXPECT_FALSE(agreement_figure(result).has_value());
 }
 
 }  // namespace
