@@ -6,4 +6,4 @@ __version__ = "0.1.0"
 SCHEMA = 4
 
 #: Version of the table of data sets in docs/analysis.md.
-ANALYSIS = 5
+ANALYSIS = 6

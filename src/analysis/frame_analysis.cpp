@@ -12,6 +12,7 @@
 #include "analysis/rigid_clusters.h"
 #include "analysis/texture.h"
 #include "analysis/topology.h"
+#include "analysis/weak_contacts.h"
 #include "core/trigonometry.h"
 
 namespace talus {
@@ -214,6 +215,7 @@ FrameRecord analyse_frame(const BedFrame& bed, const AnalysisParameters& paramet
   take_directions(bed.frame, parameters.bins, record);
   take_contacts(bed, parameters.bins, record);
   take_topology(bed, analysis.network_threshold, record);
+  take_weak_contacts(bed, analysis.mobilisation_edge, record);
   take_correlations(bed, parameters.bins, record);
   record.thresholds = analyse_thresholds(bed, parameters, analysis, record.volume);
   return record;

@@ -272,6 +272,21 @@ QuantityRows texture_rows() {
        "(a_c + a_n + a_t + a_l) / 2, which is Gamma to first order in the anisotropies (Rothenburg and "
        "Bathurst 1989)",
        ""},
+      {&FrameRecord::coherent_share, "texture/coherent_share", "T", "1",
+       "share of the force-carrying contacts that are weak and have at least 0.8 of their friction "
+       "mobilised, the coherent weak contacts (after Staron and Radjai 2005)",
+       "", percent("coherent", "Coherent weak contacts")},
+      {&FrameRecord::coherent_fabric, "texture/coherent_fabric", "T", "1",
+       "fabric of the coherent weak contacts along the strong ones, 2 <cos 2 (direction - d)>, d the "
+       "direction in which the strong contacts concentrate: below 0 where they stand across the force "
+       "chains",
+       "", curve("coherent", "Fabric of coherent weak contacts")},
+      {&FrameRecord::incoherent_fabric, "texture/incoherent_fabric", "T", "1",
+       "the same of the other weak contacts", ""},
+      {&FrameRecord::weak_fabric_by_friction, "texture/weak_fabric_by_friction", "T B", "1",
+       "the same of the weak contacts in each bin of the mobilised friction (contacts/mobilisation_edge); "
+       "NaN where there are none",
+       "bins"},
   };
 }
 
@@ -287,6 +302,20 @@ QuantityRows topology_rows() {
        "independent loops of this network, its first Betti number: contacts less grains plus components; one "
        "that goes around the period counts",
        "bins"},
+      {&FrameRecord::component_persistence, "network/component_persistence", "T", "1",
+       "total persistence of the components of this network, per free grain: the sum of birth - death, a "
+       "component born at the threshold of the largest force in it, over the mean, and dying where it "
+       "meets an older one as the threshold falls, at 0 where it meets none (Kramar and others 2014)",
+       ""},
+      {&FrameRecord::loop_persistence, "network/loop_persistence", "T", "1",
+       "total persistence of its loops, per free grain: a loop is born at the threshold of the smallest "
+       "force in it, over the mean, and lasts down to 0",
+       ""},
+      {&FrameRecord::network_change, "network/change", "T 2", "1",
+       "how far the persistence diagrams of this network are from those of the frame before, that of "
+       "components and that of loops, per free grain: sliced Wasserstein distance in sixteen directions "
+       "(Carriere, Cuturi and Oudot 2017); NaN in the first frame",
+       ""},
   };
 }
 

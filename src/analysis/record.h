@@ -75,6 +75,10 @@ struct FrameRecord {
   double texture_tangential_forces = not_known;
   double texture_branches = not_known;
   double texture_stress_ratio = not_known;
+  double coherent_share = not_known;
+  double coherent_fabric = not_known;
+  double incoherent_fabric = not_known;
+  std::vector<double> weak_fabric_by_friction{};
   double critical_share = not_known;
   double critical_bound = not_known;
   double critical_share_of_bound = not_known;
@@ -92,6 +96,9 @@ struct FrameRecord {
   double rigid_redundant = not_known;
   std::vector<double> network_components{};
   std::vector<double> network_loops{};
+  double component_persistence = not_known;
+  double loop_persistence = not_known;
+  std::array<double, 2> network_change = two_not_known;  ///< of components, of loops
   std::vector<double> normal_force_correlation{};
   std::vector<double> gamma_correlation{};
   std::vector<double> mean_stress_correlation{};

@@ -1,12 +1,15 @@
 #include "analysis/topology.h"
 
 #include <algorithm>
-#include <numeric>
+#include <cmath>
 
 #include "analysis/disjoint_sets.h"
+#include "core/trigonometry.h"
 
 namespace talus {
 namespace {
+
+constexpr int slices = 16;
 
 /// Contacts between free grains, the largest normal force first.
 std::vector<Index> contacts_by_force(const BedFrame& bed) {
@@ -18,58 +21,114 @@ std::vector<Index> contacts_by_force(const BedFrame& bed) {
   return order;
 }
 
-/// A graph that grows edge by edge.
+/// The components of a graph that grows edge by edge, and when each was born.
 class GrowingGraph {
  public:
   explicit GrowingGraph(Index vertices)
-      : sets_(static_cast<std::size_t>(vertices)), touched_(static_cast<std::size_t>(vertices), false) {}
+      : sets_(static_cast<std::size_t>(vertices)), birth_(static_cast<std::size_t>(vertices), not_known) {}
 
-  void add_edge(Index a, Index b) {
-    for (const Index end : {a, b}) {
-      if (!touched_[end]) ++count_.components;
-      touched_[end] = true;
-    }
-    if (sets_.find(a).root == sets_.find(b).root)
-      ++count_.loops;
-    else
-      --count_.components;
-    sets_.join(a, b, 0);
+  /// The root of the component of a vertex, which is born now if it is not there yet.
+  Index component(Index vertex, double now) {
+    const Index root = sets_.find(vertex).root;
+    if (std::isnan(birth_[root])) birth_[root] = now;
+    return root;
   }
 
-  GraphCount count() const { return count_; }
+  /// The younger of two components becomes part of the older one; returns when it was born.
+  double merge(Index one, Index other) {
+    const double younger = std::min(birth_[one], birth_[other]);
+    const double older = std::max(birth_[one], birth_[other]);
+    sets_.join(one, other, 0);
+    birth_[sets_.find(one).root] = older;
+    return younger;
+  }
+
+  /// When the components that are left were born.
+  std::vector<double> births() {
+    std::vector<double> births;
+    for (Index vertex = 0; vertex < static_cast<Index>(birth_.size()); ++vertex)
+      if (!std::isnan(birth_[vertex]) && sets_.find(vertex).root == vertex) births.push_back(birth_[vertex]);
+    return births;
+  }
 
  private:
   DisjointSets sets_;
-  std::vector<bool> touched_;
-  GraphCount count_;
+  std::vector<double> birth_;  ///< of roots
 };
+
+/// Where the points of one diagram, and those of another on the diagonal, lie on a line; in their order.
+std::vector<double> projections(std::span<const Lifetime> points, std::span<const Lifetime> on_diagonal,
+                                double line_x, double line_y) {
+  std::vector<double> places;
+  places.reserve(points.size() + on_diagonal.size());
+  for (const Lifetime& point : points) places.push_back(line_x * point.birth + line_y * point.death);
+  for (const Lifetime& point : on_diagonal)
+    places.push_back(0.5 * (line_x + line_y) * (point.birth + point.death));
+  std::ranges::sort(places);
+  return places;
+}
 
 }  // namespace
 
-std::vector<GraphCount> count_networks(const BedFrame& bed, std::span<const double> thresholds) {
+PersistenceDiagram force_persistence(const BedFrame& bed, double force) {
   const FrameContacts& contacts = bed.frame.contacts;
-  std::vector<std::size_t> descending(thresholds.size());
-  std::iota(descending.begin(), descending.end(), std::size_t{0});
-  std::ranges::stable_sort(descending, std::ranges::greater(), [&](std::size_t k) { return thresholds[k]; });
-  const std::vector<Index> order = contacts_by_force(bed);
+  PersistenceDiagram diagram;
   GrowingGraph graph(bed.statics.free_count);
-  std::vector<GraphCount> counts(thresholds.size());
-  auto next = order.begin();
-  for (const std::size_t k : descending) {
-    for (; next != order.end() && contacts.fn[*next] >= thresholds[k]; ++next)
-      graph.add_edge(contacts.a[*next], contacts.b[*next]);
-    counts[k] = graph.count();
+  for (const Index c : contacts_by_force(bed)) {
+    const double now = contacts.fn[c] / force;
+    const Index one = graph.component(contacts.a[c], now), other = graph.component(contacts.b[c], now);
+    if (one == other)
+      diagram.loops.push_back({now, 0.0});
+    else if (const double birth = graph.merge(one, other); birth > now)
+      diagram.components.push_back({birth, now});
   }
-  return counts;
+  for (const double birth : graph.births()) diagram.components.push_back({birth, 0.0});
+  return diagram;
+}
+
+GraphCount count_at(const PersistenceDiagram& diagram, double threshold) {
+  // At the threshold at which a component meets another it is gone; one that lasts down to 0 is there at 0.
+  const auto is_there = [&](const Lifetime& lifetime) {
+    return lifetime.birth >= threshold && (lifetime.death < threshold || lifetime.death == 0.0);
+  };
+  return {static_cast<Index>(std::ranges::count_if(diagram.components, is_there)),
+          static_cast<Index>(std::ranges::count_if(diagram.loops, is_there))};
+}
+
+double total_persistence(std::span<const Lifetime> lifetimes) {
+  double sum = 0.0;
+  for (const Lifetime& lifetime : lifetimes) sum += lifetime.birth - lifetime.death;
+  return sum;
+}
+
+double sliced_distance(std::span<const Lifetime> one, std::span<const Lifetime> other) {
+  double sum = 0.0;
+  for (int slice = 0; slice < slices; ++slice) {
+    const double direction = pi * (static_cast<double>(slice) / slices - 0.5);
+    const double x = cosine(direction), y = sine(direction);
+    const std::vector<double> mine = projections(one, other, x, y), its = projections(other, one, x, y);
+    for (std::size_t k = 0; k < mine.size(); ++k) sum += std::abs(mine[k] - its[k]);
+  }
+  return sum / slices;
 }
 
 void take_topology(const BedFrame& bed, std::span<const double> thresholds, FrameRecord& record) {
-  std::vector<double> forces(thresholds.begin(), thresholds.end());
-  for (double& force : forces) force *= record.mean_normal_force;
-  for (const GraphCount& count : count_networks(bed, forces)) {
+  const PersistenceDiagram diagram = force_persistence(bed, record.mean_normal_force);
+  for (const double threshold : thresholds) {
+    const GraphCount count = count_at(diagram, threshold);
     record.network_components.push_back(count.components);
     record.network_loops.push_back(count.loops);
   }
+  record.component_persistence = total_persistence(diagram.components) / bed.statics.free_count;
+  record.loop_persistence = total_persistence(diagram.loops) / bed.statics.free_count;
+}
+
+void take_network_changes(const std::vector<PersistenceDiagram>& diagrams, Index free_count,
+                          std::vector<FrameRecord>& frames) {
+  for (std::size_t k = 1; k < frames.size(); ++k)
+    frames[k].network_change = {
+        sliced_distance(diagrams[k - 1].components, diagrams[k].components) / free_count,
+        sliced_distance(diagrams[k - 1].loops, diagrams[k].loops) / free_count};
 }
 
 }  // namespace talus

@@ -10,6 +10,7 @@
 #include "figures/neighbourhoods_figure.h"
 #include "figures/overload_figures.h"
 #include "figures/packing_stress_figures.h"
+#include "figures/persistence_figure.h"
 #include "figures/quantity_figures.h"
 #include "figures/volume_strain_figure.h"
 #include "figures/wall_figures.h"
@@ -69,6 +70,10 @@ std::span<const FigureRecipe> figure_catalogue() {
        Subject::further, "a run that has failed", quantities_before_failure},
       {"precursors", "What precedes failure in the contacts", values, Subject::further,
        "a run that has failed", precursors_figure},
+      {"weak-contacts", "Directions of weak contacts over their mobilised friction", distributions,
+       Subject::further, "a run that has failed", weak_contacts_figure},
+      {"persistence", "Persistence of the force network", frames, Subject::further, "a run that has failed",
+       persistence_figure},
       {"difference-over-tilt", "Difference of two groups of runs over tilt", values, Subject::further,
        "two groups of runs, no more and no fewer", differences_over_tilt},
       {"difference-before-failure", "Difference of two groups of runs over the angle left to failure", values,

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fmt/core.h>
 
+#include "analysis/weak_contacts.h"
 #include "core/statistics.h"
 #include "core/trigonometry.h"
 #include "figures/failed_group.h"
@@ -157,6 +158,29 @@ std::optional<Figure> correlations(std::span<const RunGroup> groups) {
   add_means(table, failed->runs, &FrameRecord::mean_stress_correlation,
             {"stress", "1", "correlation of the mean stress of grains", {}});
   figure.tables = {std::move(table)};
+  return figure;
+}
+
+std::optional<Figure> weak_contacts_figure(std::span<const RunGroup> groups) {
+  const auto failed = first_group_with_distributions(groups);
+  if (!failed) return std::nullopt;
+  Figure figure = figure_of(*failed);
+  figure.name = "weak-contacts";
+  figure.title = "Directions of weak contacts over their mobilised friction";
+  figure.caption = fmt::format(
+      "Fabric of the weak contacts (normal force not above its mean) along the strong ones, 2 <cos 2 "
+      "(direction - d)>, d the direction in which the strong contacts concentrate, over their mobilised "
+      "friction,{}{}. Below 0 they stand across the force chains. Weak contacts right of the dashed line "
+      "count "
+      "as coherent.",
+      states_text(*failed), error_text);
+  figure.height_over_width = 0.7;
+  const std::vector<double>& edges = failed->first().analysis.mobilisation_edge;
+  Table table{"", edge_columns(edges, 1.0, {"mobilised", "1", "the mobilised friction", {}})};
+  add_means(table, failed->runs, &FrameRecord::weak_fabric_by_friction,
+            {"fabric", "1", "fabric of weak contacts along the strong ones", {}});
+  figure.tables = {std::move(table)};
+  set_variable(figure, "coherent", coherent_mobilisation);
   return figure;
 }
 

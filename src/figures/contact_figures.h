@@ -23,5 +23,7 @@ std::optional<Figure> contact_directions(std::span<const RunGroup> groups);
 std::optional<Figure> force_distribution(std::span<const RunGroup> groups);
 /// Correlation of normal forces, of gamma and of the mean stress of grains, over distance.
 std::optional<Figure> correlations(std::span<const RunGroup> groups);
+/// Fabric of the weak contacts along the strong ones, over their mobilised friction.
+std::optional<Figure> weak_contacts_figure(std::span<const RunGroup> groups);
 
 }  // namespace talus

@@ -7,6 +7,7 @@
 
 #include "analysis/failure_ratio.h"
 #include "analysis/frame_analysis.h"
+#include "analysis/topology.h"
 #include "analysis/transition.h"
 #include "core/errors.h"
 #include "core/hash.h"
@@ -22,6 +23,7 @@ namespace {
 void analyse_frames(const RunFile& run, const AnalysisParameters& parameters, int threads,
                     const AnalysisProgress& progress, Analysis& analysis) {
   analysis.frames.resize(run.frame_count());
+  std::vector<PersistenceDiagram> networks(run.frame_count());
   std::mutex reading;
   std::size_t next = 0, done = 0;
   const auto work = [&] {
@@ -31,7 +33,9 @@ void analyse_frames(const RunFile& run, const AnalysisParameters& parameters, in
       const std::size_t k = next++;
       const Frame frame = analysed_frame(run, parameters, k);
       lock.unlock();
-      analysis.frames[k] = analyse_frame({frame, run.header().statics}, parameters, analysis);
+      const BedFrame bed = {frame, run.header().statics};
+      analysis.frames[k] = analyse_frame(bed, parameters, analysis);
+      networks[k] = force_persistence(bed, analysis.frames[k].mean_normal_force);
       lock.lock();
       ++done;
       if (progress) progress(done);
@@ -41,6 +45,7 @@ void analyse_frames(const RunFile& run, const AnalysisParameters& parameters, in
   for (int t = 1; t < threads; ++t) others.push_back(std::async(std::launch::async, work));
   work();
   for (std::future<void>& other : others) other.get();
+  take_network_changes(networks, run.header().statics.free_count, analysis.frames);
 }
 
 /// What the run has observed already: for each frame that of the last row not after it.

@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 
 
-def betti_numbers(frame, thresholds):
-    """Of the graph of contacts between free grains with at least these forces, by the persistence of GUDHI."""
+def persistence(frame):
+    """Lifetimes of components and of loops of the graph of contacts between free grains as a threshold of their force
+    falls, by GUDHI: pairs of the force at which each is born, and that at which it dies, 0 if it does not."""
     gudhi = pytest.importorskip("gudhi", reason="GUDHI is not installed: python3-gudhi")
     pairs, force = frame.contacts.pair, frame.contacts.force[:, 0]
     between = (pairs < np.flatnonzero(frame.free)[-1] + 1).all(axis=1)
@@ -14,19 +15,47 @@ def betti_numbers(frame, thresholds):
         tree.insert(sorted(int(i) for i in pairs[c]), filtration=-force[c])
     tree.compute_persistence(homology_coeff_field=2, persistence_dim_max=True)
     return [
-        [((lives[:, 0] <= -t) & (-t < lives[:, 1])).sum() if len(lives) else 0 for t in thresholds]
+        np.where(np.isinf(lives), 0.0, -lives).reshape(-1, 2)
         for lives in (tree.persistence_intervals_in_dimension(d) for d in (0, 1))
     ]
+
+
+def sliced_distance(one, other, directions=16):
+    """Of two diagrams, as a plain sum over directions."""
+    angles = np.pi * (np.arange(directions) / directions - 0.5)
+    lines = np.stack([np.cos(angles), np.sin(angles)])
+
+    def projections(points, of_other):
+        on_diagonal = np.repeat(of_other.mean(axis=1)[:, None], 2, axis=1)
+        return np.sort(np.concatenate([points, on_diagonal]) @ lines, axis=0)
+
+    return np.abs(projections(one, other) - projections(other, one)).sum() / directions
 
 
 @pytest.mark.parametrize("k", [0, 11])
 def test_components_and_loops_are_the_betti_numbers_of_gudhi(run, k):
     analysis = run.analysis
     thresholds = analysis["network/threshold"] * analysis["contacts/mean_normal_force"][k]
-    components, loops = betti_numbers(run.frames[k], thresholds)
+    components, loops = [
+        [((lives[:, 0] >= t) & ((t > lives[:, 1]) | (lives[:, 1] == 0.0))).sum() for t in thresholds]
+        for lives in persistence(run.frames[k])
+    ]
     np.testing.assert_array_equal(analysis["network/components"][k], components)
     np.testing.assert_array_equal(analysis["network/loops"][k], loops)
     assert max(components) > 3 and max(loops) > 20
+
+
+def test_persistence_and_its_change_are_those_of_gudhi(run):
+    analysis, free = run.analysis, np.count_nonzero(run.frames[0].free)
+    before, after = (
+        [lives / analysis["contacts/mean_normal_force"][k] for lives in persistence(run.frames[k])] for k in (10, 11)
+    )
+    for name, lives in zip(("component", "loop"), after):
+        total = (lives[:, 0] - lives[:, 1]).sum() / free
+        assert analysis[f"network/{name}_persistence"][11] == pytest.approx(total, rel=1e-10)
+    expected = [sliced_distance(one, other) / free for one, other in zip(before, after)]
+    assert analysis["network/change"][11] == pytest.approx(expected, rel=1e-10)
+    assert np.isnan(analysis["network/change"][0]).all()
 
 
 def test_anisotropies_give_the_stress_ratio_of_a_bed_at_rest(run):

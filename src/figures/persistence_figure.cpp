@@ -1,0 +1,71 @@
+#include "figures/persistence_figure.h"
+
+#include <fmt/core.h>
+#include <string>
+
+#include "analysis/topology.h"
+#include "core/trigonometry.h"
+#include "figures/failed_group.h"
+
+namespace talus {
+namespace {
+
+/// The components of a frame; loops all die at 0.
+Table diagram_table(const FigureRun& run, const std::string& state, std::size_t frame) {
+  const PersistenceDiagram diagram = force_persistence({run.file->frame(frame), run.file->header().statics},
+                                                       run.analysis.frames.at(frame).mean_normal_force);
+  Table table{state,
+              {{"birth", "1", "largest normal force in a component, over the mean", {}},
+               {"death", "1", "that at which it meets an older one, or 0", {}}}};
+  for (const Lifetime& lifetime : diagram.components) {
+    table.columns[0].values.push_back(lifetime.birth);
+    table.columns[1].values.push_back(lifetime.death);
+  }
+  return table;
+}
+
+Table curve_table(const FigureRun& run) {
+  Table table{"",
+              {{"theta", "deg", "tilt", {}},
+               {"components", "1", "total persistence of components, per grain", {}},
+               {"loops", "1", "total persistence of loops, per grain", {}},
+               {"components_change", "1", "distance of the diagrams of components from the frame before", {}},
+               {"loops_change", "1", "distance of the diagrams of loops from the frame before", {}}}};
+  for (const FrameRecord& frame : run.analysis.frames) {
+    const double row[] = {degrees(frame.tilt), frame.component_persistence, frame.loop_persistence,
+                          frame.network_change[0], frame.network_change[1]};
+    for (std::size_t c = 0; c < std::size(row); ++c) table.columns[c].values.push_back(row[c]);
+  }
+  return table;
+}
+
+}  // namespace
+
+std::optional<Figure> persistence_figure(std::span<const RunGroup> groups) {
+  const auto failed = first_failed_group(groups);
+  if (!failed) return std::nullopt;
+  const FigureRun& run = failed->first();
+  const std::size_t repose = repose_frame(run);
+  Figure figure;
+  figure.name = "persistence";
+  figure.title = "Persistence of the force network";
+  figure.caption = fmt::format(
+      "The network of the contacts of {} with at least a threshold of their normal force, as the threshold "
+      "falls, in units of the mean force. (a) Its components, dots, of the first frame and of the last "
+      "before "
+      "theta_c: each is born at the largest force in it, and dies where it meets an older one. (b) Sum of "
+      "birth - death of the components and of the loops, per grain; loops last down to 0. (c) Distance of "
+      "the "
+      "diagrams of each frame from those of the frame before, per grain; the dashed line is theta_c.",
+      first_run_text(*failed));
+  figure.runs = {run.path};
+  figure.wide = true;
+  figure.height_over_width = 0.36;
+  figure.tables = {curve_table(run), diagram_table(run, "start", 0), diagram_table(run, "repose", repose)};
+  set_variable(figure, "theta_c", degrees(run.analysis.theta_c));
+  for (const auto& [name, frame] : {std::pair{"theta_start", std::size_t{0}}, {"theta_repose", repose}})
+    set_variable(figure, name, gnuplot_quoted(angle_text(run.analysis.frames[frame].tilt)));
+  return figure;
+}
+
+}  // namespace talus
