@@ -149,10 +149,15 @@ store() {
 }
 
 view() {
+  local run=$build/view.h5
+  "$build/talus" run assets/scenarios/paper-pbc.toml -o "$run" --overwrite --quiet
   {
-    heading "Pictures of the window a second, without a display" "$build/view_bench assets/scenarios/paper-pbc.toml"
+    heading "Pictures of the window a second, without a display" "$build/view_bench assets/scenarios/paper-pbc.toml, and $run"
     "$build/view_bench" assets/scenarios/paper-pbc.toml
+    echo
+    "$build/view_bench" "$run"
   } >"$results/view.md.part"
+  rm -f -- "$run"
   keep view.md
 }
 

@@ -1,5 +1,6 @@
-/// The window of `talus view`, drawn in memory while a scenario is computed beside it: how many pictures a
-/// second there are when 30 are asked for, and what they cost the solver. A row of a Markdown table each.
+/// The window of `talus view`, drawn in memory: while a scenario is computed beside it, how many pictures a
+/// second there are when 30 are asked for, and what they cost the solver; and of a run file, how long it
+/// takes from the wish for another frame to its picture. A row of a Markdown table each.
 
 #include <algorithm>
 #include <chrono>
@@ -25,15 +26,14 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-void print_row(const char* what, std::vector<double> pictures, double elapsed, std::int64_t steps) {
+/// The beginning of a row.
+void print_times(const char* what, std::vector<double> pictures, double elapsed) {
   std::ranges::sort(pictures);
   const auto ms = [&pictures](double share) {
     return 1e3 * pictures[static_cast<std::size_t>(share * static_cast<double>(pictures.size() - 1))];
   };
-  std::printf("| %s | %.1f | %.1f | %.1f | %.1f | %.0f |\n", what,
-              static_cast<double>(pictures.size()) / elapsed, ms(0.5), ms(0.95), ms(1.0),
-              static_cast<double>(steps) / elapsed);
-  std::fflush(stdout);
+  std::printf("| %s | %.1f | %.1f | %.1f | %.1f |", what, static_cast<double>(pictures.size()) / elapsed,
+              ms(0.5), ms(0.95), ms(1.0));
 }
 
 /// Draws at most 30 pictures a second for a while, each read back, as the run goes on.
@@ -47,15 +47,48 @@ void look(const char* what, ViewModel& model, OffscreenGui& gui) {
     pictures.push_back(seconds_since(begin));
     std::this_thread::sleep_for(std::chrono::duration<double>(picture_interval - pictures.back()));
   }
-  print_row(what, std::move(pictures), seconds_since(start), model.live()->status().step - first);
+  const double elapsed = seconds_since(start);
+  print_times(what, std::move(pictures), elapsed);
+  std::printf(" %.0f |\n", static_cast<double>(model.live()->status().step - first) / elapsed);
 }
 
-int run(int argc, char** argv) {
-  if (argc != 2) throw Error(ExitCode::usage, "usage: view_bench SCENARIO.toml");
-  ViewModel model = ViewModel::open(argv[1], {}, "", false, "view_bench");
+/// What is shown, from the least work to the most.
+template <typename Look>
+void look_at_all(ViewModel& model, const Look& look) {
+  look("gamma, all plots");
+  model.state.selected = model.statics().free_count / 2;
+  look("the same, a grain selected");
+  model.state.map.layers = {MapKind::clusters, MapKind::forces};
+  look("clusters and forces, a grain selected");
+}
+
+/// All frames of a run one after another, as fast as they can be drawn, each read back.
+void replay(const char* what, ViewModel& model, OffscreenGui& gui) {
+  std::vector<double> pictures;
+  const auto start = Clock::now();
+  for (std::size_t k = 0; k < model.frame_count(); ++k) {
+    const auto begin = Clock::now();
+    model.go_to(k);
+    (void)gui.frame();
+    pictures.push_back(seconds_since(begin));
+  }
+  print_times(what, pictures, seconds_since(start));
+  std::printf("\n");
+}
+
+void measure_replay(ViewModel& model) {
+  std::printf("Replay: window of %d x %d px, %zu frames of %d grains.\n\n", width, height,
+              model.frame_count(), model.statics().free_count);
+  std::printf("| what is shown | pictures/s | ms each, median | 95 %% | longest |\n|---|--:|--:|--:|--:|\n");
+  OffscreenGui gui(model, width, height);
+  look_at_all(model, [&](const char* what) { replay(what, model, gui); });
+}
+
+void measure_live(ViewModel& model) {
   model.live()->finish_deposition();
   while (model.live()->status().running) std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  std::printf("Window of %d x %d px, %d grains; the solver has one thread.\n\n", width, height,
+  model.update(0.0);
+  std::printf("Live: window of %d x %d px, %d grains; the solver has one thread.\n\n", width, height,
               model.statics().free_count);
   std::printf(
       "| what is shown | pictures/s | ms each, median | 95 %% | longest | steps/s "
@@ -67,11 +100,16 @@ int run(int argc, char** argv) {
   std::printf("| nothing is drawn | | | | | %.0f |\n",
               static_cast<double>(model.live()->status().step - first) / seconds_since(start));
   OffscreenGui gui(model, width, height);
-  look("gamma, all plots", model, gui);
-  model.state.selected = model.statics().free_count / 2;
-  look("the same, a grain selected", model, gui);
-  model.state.map.layers = {MapKind::clusters, MapKind::forces};
-  look("clusters and forces, a grain selected", model, gui);
+  look_at_all(model, [&](const char* what) { look(what, model, gui); });
+}
+
+int run(int argc, char** argv) {
+  if (argc != 2) throw Error(ExitCode::usage, "usage: view_bench SCENARIO.toml or RUN.h5");
+  ViewModel model = ViewModel::open(argv[1], {}, "", false, "view_bench");
+  if (model.is_live())
+    measure_live(model);
+  else
+    measure_replay(model);
   return 0;
 }
 
