@@ -9,7 +9,9 @@ constexpr double window = 0.02;  // s, several slices of the scheduler
 // Windows from a trial to the next: few, as long as trials change something, and twice as many each time that
 // they do not.
 constexpr int least_patience = 8;
-constexpr int most_patience = 64;
+constexpr int most_patience = 256;
+// Of a window in the usual cost: a single one may be slow by chance, and what is on trial seem to pay.
+constexpr double share_of_window = 0.25;
 
 }  // namespace
 
@@ -26,14 +28,15 @@ void TeamChoice::decide(double cost) {
   if (on_trial_) {
     on_trial_ = false;
     settled_ = 0;
-    const bool pays = cost < cost_before_trial_;
+    const bool pays = cost < usual_cost_;
+    if (pays) usual_cost_ = cost;
     patience_ = pays ? least_patience : std::clamp(2 * patience_, least_patience, most_patience);
     if (!pays) turn();
     return;
   }
+  usual_cost_ = usual_cost_ == 0.0 ? cost : (1.0 - share_of_window) * usual_cost_ + share_of_window * cost;
   // A team that is faster than one thread has ever been needs no trial.
   if (++settled_ <= patience_ || (in_team_ && least_alone_ > 0.0 && cost < least_alone_)) return;
-  cost_before_trial_ = cost;
   on_trial_ = true;
   turn();
 }

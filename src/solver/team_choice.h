@@ -22,7 +22,7 @@ class TeamChoice {
   bool in_team_ = true;
   bool on_trial_ = false;
   double seconds_ = 0.0, work_ = 0.0;  ///< of the window under way
-  double cost_before_trial_ = 0.0;     ///< s for a unit of work
+  double usual_cost_ = 0.0;            ///< s for a unit of work, of late windows; none on trial
   double least_alone_ = 0.0;           ///< the least that work has cost alone; 0: never tried
   int settled_ = 0;                    ///< windows since the last trial
   int patience_ = 0;                   ///< windows from a trial to the next
