@@ -51,6 +51,12 @@ Backbone find_backbone(const BedFrame& bed, const std::vector<Index>& degree) {
   return backbone;
 }
 
+/// |f_t| / (mu f_n), rounded down to 1.
+double mobilisation(const BedFrame& bed, Index c) {
+  return std::min(1.0,
+                  std::fabs(bed.frame.contacts.ft[c]) / (bed.statics.friction * bed.frame.contacts.fn[c]));
+}
+
 /// Scalar product of the deviators of the symmetric parts of two tensors, up to a factor.
 double deviator_product(const Tensor2& one, const Tensor2& other) {
   return (one.xx - one.yy) * (other.xx - other.yy) + (one.xy + one.yx) * (other.xy + other.yx);
@@ -87,10 +93,20 @@ Histogram normal_forces(const Frame& frame, Histogram bins) {
 
 Histogram mobilised_friction(const BedFrame& bed, int bins) {
   Histogram histogram(0.0, 1.0, bins);
-  for (Index c = 0; c < bed.frame.contacts.count(); ++c)
-    histogram.add(std::min(
-        1.0, std::fabs(bed.frame.contacts.ft[c]) / (bed.statics.friction * bed.frame.contacts.fn[c])));
+  for (Index c = 0; c < bed.frame.contacts.count(); ++c) histogram.add(mobilisation(bed, c));
   return histogram;
+}
+
+std::vector<double> mobilised_friction_of_grains(const BedFrame& bed) {
+  const auto count = static_cast<std::size_t>(bed.statics.free_count);
+  std::vector<double> sum(count, 0.0), contacts(count, 0.0);
+  for (Index c = 0; c < bed.frame.contacts.count(); ++c)
+    for_each_free_end(bed, c, [&](Index i) {
+      sum[i] += mobilisation(bed, c);
+      contacts[i] += 1.0;
+    });
+  for (std::size_t i = 0; i < count; ++i) sum[i] = contacts[i] > 0.0 ? sum[i] / contacts[i] : not_known;
+  return sum;
 }
 
 void take_networks(const BedFrame& bed, FrameRecord& record) {

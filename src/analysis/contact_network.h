@@ -1,6 +1,8 @@
 #pragma once
 /// The contacts of a frame as a network: who holds whom, forces, mobilised friction.
 
+#include <vector>
+
 #include "analysis/histogram.h"
 #include "analysis/record.h"
 #include "core/bed_frame.h"
@@ -17,6 +19,11 @@ void take_coordination(const BedFrame& bed, FrameRecord& record);
 Histogram normal_forces(const Frame& frame, Histogram bins);
 /// |f_t| / (mu f_n), mu that between grains, in equal bins from 0 to 1. Values above 1 (rounding) count as 1.
 Histogram mobilised_friction(const BedFrame& bed, int bins);
+
+/// Of each free grain, the mean of |f_t| / (mu f_n) over its contacts, those with floor and walls among them;
+/// mu is that between grains, and a contact with more (at a wall that is rougher) counts as 1. NaN where it
+/// has no contact.
+std::vector<double> mobilised_friction_of_grains(const BedFrame& bed);
 
 /// The mean normal force, and the contacts with more than it beside the weak others (Radjai et al. 1998). The
 /// moment of contacts is the part that they have in the internal moments of the free grains; of the deviator

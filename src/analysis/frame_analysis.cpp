@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/coarse_fields.h"
 #include "analysis/contact_network.h"
 #include "analysis/fabric.h"
 #include "analysis/failure_distance.h"
 #include "analysis/free_grains.h"
+#include "analysis/local_solid_fraction.h"
 #include "analysis/packing.h"
 #include "analysis/pair_correlation.h"
 #include "analysis/rigid_clusters.h"
@@ -217,6 +219,8 @@ FrameRecord analyse_frame(const BedFrame& bed, const AnalysisParameters& paramet
   take_topology(bed, analysis.network_threshold, record);
   take_weak_contacts(bed, analysis.mobilisation_edge, record);
   take_correlations(bed, parameters.bins, record);
+  take_local_solid_fraction(bed, record);
+  take_granular_temperature(bed, record);
   record.thresholds = analyse_thresholds(bed, parameters, analysis, record.volume);
   return record;
 }

@@ -358,6 +358,45 @@ QuantityRows rigidity_rows() {
   };
 }
 
+QuantityRows deformation_rows() {
+  return {
+      {&FrameRecord::local_shear, "deformation/shear", "T", "1",
+       "mean over the free grains of their local shear strain since the frame before, s1 - s2 of the stretch "
+       "that fits the motion of all grains within 2 D best; NaN in the first frame, as for all that follows",
+       ""},
+      {&FrameRecord::local_shear_share, "deformation/shear_share", "T", "1",
+       "how localised it is: the share of the sum of all local shear strains that the tenth of the grains "
+       "with "
+       "the largest have; 0.1 where all have the same; NaN where nothing moved",
+       "", percent("localised shear", "Share of shear in a tenth of the grains")},
+      {&FrameRecord::nonaffine, "deformation/nonaffine", "T", "m",
+       "non-affine displacement since the frame before, the root of the mean over the free grains of D2min: "
+       "the mean square of what this fit leaves of the displacements (Falk and Langer 1998, with the mean "
+       "over neighbours where they have the sum)",
+       "", curve("non-affine", "Non-affine displacement")},
+      {&FrameRecord::nonaffine_largest, "deformation/nonaffine_largest", "T", "m",
+       "the same of the grain in which it is largest", ""},
+  };
+}
+
+QuantityRows continuum_rows() {
+  return {
+      {&FrameRecord::local_solid_fraction, "cells/solid_fraction", "T", "1",
+       "mean over the free grains of their local solid fraction, the area of the grain over that of its cell "
+       "in the radical diagram of the disks; without grains at the free surface, whose cells are open: they "
+       "reach to where the square of the distance from the centre, less that of the radius, is above 0.75 "
+       "D^2",
+       "", curve("mean", "Local solid fraction")},
+      {&FrameRecord::local_solid_fraction_spread, "cells/solid_fraction_spread", "T", "1",
+       "its standard deviation over these grains", ""},
+      {&FrameRecord::granular_temperature, "granular_temperature", "T", "m^2/s^2",
+       "mean over the mass of the free grains of half the mean square of the velocities around each about a "
+       "velocity that is linear in space, weighted with mass and Lucy's function, 5 D wide; uniform flow and "
+       "uniform shear have none",
+       ""},
+  };
+}
+
 QuantityRows correlation_rows() {
   return {
       {&Analysis::correlation_distance, "correlation/distance", "B", "m",
@@ -411,7 +450,8 @@ const std::vector<Quantity>& quantities() {
     QuantityRows all;
     for (const QuantityRows& part :
          {general_rows(), packing_rows(), overload_rows(), cluster_rows(), contact_rows(), texture_rows(),
-          topology_rows(), layer_rows(), rigidity_rows(), correlation_rows(), transition_rows()})
+          topology_rows(), layer_rows(), rigidity_rows(), deformation_rows(), continuum_rows(),
+          correlation_rows(), transition_rows()})
       all.insert(all.end(), part.begin(), part.end());
     return all;
   }();

@@ -89,6 +89,13 @@ struct FrameRecord {
   double critical_correlation_length = not_known;
   std::vector<double> layer_critical_share{};
   std::vector<double> layer_critical_share_of_bound{};
+  double local_shear = not_known;  ///< of this and the next three: since the frame before
+  double local_shear_share = not_known;
+  double nonaffine = not_known;
+  double nonaffine_largest = not_known;
+  double local_solid_fraction = not_known;
+  double local_solid_fraction_spread = not_known;
+  double granular_temperature = not_known;
   Index rigid_clusters = 0;
   double rigid_largest_share = not_known;
   double rigid_contact_share = not_known;

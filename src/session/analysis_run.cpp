@@ -4,9 +4,11 @@
 #include <fmt/core.h>
 #include <future>
 #include <mutex>
+#include <utility>
 
 #include "analysis/failure_ratio.h"
 #include "analysis/frame_analysis.h"
+#include "analysis/local_deformation.h"
 #include "analysis/topology.h"
 #include "analysis/transition.h"
 #include "core/errors.h"
@@ -19,23 +21,35 @@
 namespace talus {
 namespace {
 
-/// Frames are handed out one at a time: HDF5 reads for one thread only.
+/// What the next frame is compared with.
+Frame places_of(const Frame& frame) {
+  Frame places;
+  places.x = frame.x;
+  places.y = frame.y;
+  places.image = frame.image;
+  return places;
+}
+
+/// Frames are handed out one at a time, in their order: HDF5 reads for one thread only.
 void analyse_frames(const RunFile& run, const AnalysisParameters& parameters, int threads,
                     const AnalysisProgress& progress, Analysis& analysis) {
   analysis.frames.resize(run.frame_count());
   std::vector<PersistenceDiagram> networks(run.frame_count());
   std::mutex reading;
   std::size_t next = 0, done = 0;
+  Frame last;  ///< places in the frame that was read before
   const auto work = [&] {
     for (;;) {
       std::unique_lock lock(reading);
       if (next == run.frame_count()) return;
       const std::size_t k = next++;
       const Frame frame = analysed_frame(run, parameters, k);
+      const Frame before = std::exchange(last, places_of(frame));
       lock.unlock();
       const BedFrame bed = {frame, run.header().statics};
       analysis.frames[k] = analyse_frame(bed, parameters, analysis);
       networks[k] = force_persistence(bed, analysis.frames[k].mean_normal_force);
+      if (k > 0) take_deformation(before, bed, analysis.frames[k]);
       lock.lock();
       ++done;
       if (progress) progress(done);

@@ -119,7 +119,7 @@ def test_analysis_as_a_table_has_what_the_page_gives_by_frame(run):
     shapes = dict(re.findall(r"^\| `/analysis/(\S+)` \| \S+ \| ([^|]*) \|", page, re.MULTILINE))
     expected = {"tilt"} | {name for name, shape in shapes.items() if shape in ("T", "T F", "T 2", "T 3", "T F 2")}
     expected -= {name for name, shape in shapes.items() if shape == "T F 2"}
-    assert len(expected) == 64 and {name.split("[")[0] for name in table.columns} == expected
+    assert len(expected) == 71 and {name.split("[")[0] for name in table.columns} == expected
     np.testing.assert_array_equal(table["overloaded/fraction[1]"], run.analysis["overloaded/fraction"][:, 1])
     assert len(table) == run.frames_of_tilt
 

@@ -54,7 +54,7 @@ struct Home {
 const std::vector<Home> homes = {
     {"CLI/", "src/app/"},
     {"EGL/", "render/context_egl.cpp"},
-    {"Eigen/", "src/core/tensor.h"},
+    {"Eigen/", "src/core/tensor"},
     {"GL/glcorearb.h", "render/gl_loader.h"},
     {"GL/osmesa.h", "render/context_osmesa.cpp"},
     {"GLFW/", "src/gui/window.cpp"},

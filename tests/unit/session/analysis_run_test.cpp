@@ -9,6 +9,7 @@
 #include <cstring>
 #include <limits>
 
+#include "analysis/local_deformation.h"
 #include "analysis/quantities.h"
 #include "core/errors.h"
 #include "core/trigonometry.h"
@@ -204,6 +205,22 @@ TEST_F(AnalysisRun, takes_first_neighbours_unless_it_is_told_otherwise) {
 TEST_F(AnalysisRun, search_does_not_end_before_it_begins) {
   const Analysis a = analyse({-1, 1}, 30.0, {"l_min=3", "lc_cut=2"});
   EXPECT_DOUBLE_EQ(a.lc_cut, 3 * diameter);
+}
+
+TEST(AnalysisOfAStoredRun, deformation_is_that_since_the_frame_before) {
+  const RunFile run = RunFile::open(TALUS_SOURCE_DIR "/tests/runs/schema_4.h5");
+  for (const int threads : {1, 3}) {
+    const Analysis a = analyse_run(run, {}, threads, {});
+    EXPECT_TRUE(std::isnan(a.frames[0].nonaffine)) << "there is none before it";
+    for (std::size_t k = 1; k < a.frames.size(); ++k) {
+      const Frame before = run.frame(k - 1), now = run.frame(k);
+      FrameRecord expected;
+      take_deformation(before, {now, run.header().statics}, expected);
+      EXPECT_GT(a.frames[k].nonaffine, 0.0);
+      EXPECT_EQ(a.frames[k].nonaffine, expected.nonaffine) << k;
+      EXPECT_EQ(a.frames[k].local_shear_share, expected.local_shear_share) << k;
+    }
+  }
 }
 
 TEST_F(AnalysisRun, takes_from_the_observables_what_they_have) {
