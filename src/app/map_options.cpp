@@ -50,14 +50,16 @@ void add_scale_options(CLI::App& command, MapOptions& options) {
                   "Grains are overloaded from this times Gamma_c on; the paper prints 1 and draws 2 [1]")
       ->check(in_range(0.01, 100.0));
   command
-      .add_option("--length", options.length,
-                  "Map coarse: diameter of the neighbourhood of a grain, in mean diameters [10]")
+      .add_option(
+          "--length", options.length,
+          "Maps coarse, density, stress, shear_rate and temperature: diameter of what is averaged over "
+          "around a grain, in mean diameters [10]")
       ->check(in_range(1.0, 1000.0));
   command
-      .add_option(
-          "--since", options.since,
-          "Maps displacement and rotation: since this angle in degrees [in a degree of tilt, from the "
-          "frame before]")
+      .add_option("--since", options.since,
+                  "Maps displacement, rotation, nonaffine, shear, dilation and vorticity: since this angle "
+                  "in degrees "
+                  "[in a degree of tilt, from the frame before]")
       ->check(in_range(0.0, 90.0));
   command.add_option("--joined", options.joined,
                      "Clusters join by contacts that carry a force, or by neighbours: grains closer than 1.1 "

@@ -29,7 +29,7 @@ std::string options_of(MapKind kind) {
   add(shows_gamma(kind), "--l-min");
   add(kind == MapKind::overloaded || kind == MapKind::clusters, "--threshold");
   add(kind == MapKind::clusters, "--joined");
-  add(kind == MapKind::coarse, "--length");
+  add(is_coarse(kind), "--length");
   add(needs_reference(kind), "--since");
   return options;
 }

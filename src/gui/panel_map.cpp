@@ -73,7 +73,7 @@ void choose_reference(Gui& gui) {
   ViewState& state = gui.model.state;
   bool since = state.since.has_value();
   if (named_checkbox(gui, "since", "moved since an angle", since,
-                     "displacement and rotation since that tilt, instead of per degree"))
+                     "maps of motion and strain since that tilt, instead of per degree"))
     state.since = since ? std::optional(gui.model.frame().tilt) : std::nullopt;
   if (!state.since) return;
   double angle = degrees(*state.since);
@@ -94,8 +94,8 @@ void draw_map_panel(Gui& gui) {
       "diameter of the neighbourhood whose γ a grain has: 3, its first neighbours; 0, the grain alone");
   named_slider(gui, "threshold", "threshold in Γ_c", state.map.threshold_factor, 0.1, 4.0, "%.2f",
                "grains are overloaded from this multiple of Γc on: [ and ]");
-  named_slider(gui, "length", "ℓ of the map coarse", state.map.length, 1.0, 40.0, "%.1f D",
-               "diameter of the neighbourhoods of the map coarse: , and .");
+  named_slider(gui, "length", "ℓ of coarse maps", state.map.length, 1.0, 40.0, "%.1f D",
+               "what coarse, density, stress, shear_rate and temperature average over, a diameter: , and .");
   choose_reference(gui);
   ImGui::Separator();
   named_checkbox(gui, "turned", "turned to the slope", state.map.turned, "t");

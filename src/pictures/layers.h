@@ -27,9 +27,14 @@ MapLayer pressure_layer(const MapFrame& of, const ScaleChoice& choice);
 MapLayer overloaded_layer(const MapFrame& of, const MapSettings& settings, bool over_grains);
 MapLayer clusters_layer(const MapFrame& of, const MapSettings& settings, bool over_grains);
 
-// motion_layers.cpp
-MapLayer displacement_layer(const MapFrame& of, const MotionRanges& motion, const ScaleChoice& choice);
-MapLayer rotation_layer(const MapFrame& of, const MotionRanges& motion, const ScaleChoice& choice);
+// motion_layers.cpp; a map with needs_reference
+MapLayer motion_layer(MapKind kind, const MapFrame& of, const MotionRanges& motion,
+                      const ScaleChoice& choice);
+
+// grain_layers.cpp
+MapLayer speed_layer(const MapFrame& of, const ScaleChoice& choice);
+MapLayer size_layer(const MapFrame& of, const ScaleChoice& choice);
+MapLayer dyed_layer(const MapFrame& of, const ScaleChoice& choice);
 
 /// The colour of lines over grains that another layer fills; none where they are outlines.
 using OverColour = std::optional<Colour>;
@@ -39,9 +44,22 @@ using OverColour = std::optional<Colour>;
 MapLayer displacement_arrows(const MapFrame& of, const MotionRanges& motion, const OverColour& over,
                              double spacing);
 
+// field_layers.cpp; the bed as a continuum, at the centre of each grain
+MapLayer cells_layer(const MapFrame& of, const ScaleChoice& choice);
+MapLayer field_layer(MapKind kind, const MapFrame& of, const MapSettings& settings,
+                     const ScaleChoice& choice);
+
 // contact_layers.cpp
 MapLayer forces_layer(const MapFrame& of, const OverColour& over);
 MapLayer critical_layer(const MapFrame& of, const OverColour& over);
+
+// support_layers.cpp: how contacts hold each grain; `over_grains` as above
+MapLayer coordination_layer(const MapFrame& of, const ScaleChoice& choice);
+MapLayer mobilised_layer(const MapFrame& of, const ScaleChoice& choice);
+MapLayer rigid_layer(const MapFrame& of, bool over_grains);
+
+/// What coarse maps average over, m, a diameter. Throws Error(usage) where it is more than the bed.
+double coarse_length(const MapFrame& of, const MapSettings& settings);
 
 /// Gamma_c = sin(theta_c).
 double gamma_c_of(const MapSettings& settings);

@@ -27,6 +27,22 @@ constexpr auto entries = std::to_array<MapEntry>({
     {MapKind::rotation, "rotation", "how far each grain has turned"},
     {MapKind::forces, "forces", "force chains: lines between centres, as wide as the normal force is large"},
     {MapKind::critical, "critical", "contacts with fully mobilised friction"},
+    {MapKind::speed, "speed", "speed of each grain, over sqrt(g D)"},
+    {MapKind::nonaffine, "nonaffine",
+     "non-affine displacement: how far a grain's neighbours have moved beside their common strain"},
+    {MapKind::shear, "shear", "shear strain of the neighbourhood of each grain"},
+    {MapKind::dilation, "dilation", "change of area of the neighbourhood of each grain"},
+    {MapKind::vorticity, "vorticity", "how far the neighbourhood of each grain has turned, twice"},
+    {MapKind::coordination, "coordination", "contacts of each grain that carry force"},
+    {MapKind::mobilised, "mobilised", "mobilised friction of each grain, the mean over its contacts"},
+    {MapKind::rigid, "rigid", "grains that can only move as one: the largest rigid cluster, and others"},
+    {MapKind::size, "size", "diameter of each grain"},
+    {MapKind::cells, "cells", "local solid fraction: the share of its cell that each grain fills"},
+    {MapKind::density, "density", "coarse-grained solid fraction"},
+    {MapKind::stress, "stress", "coarse-grained pressure, over rho g D"},
+    {MapKind::shear_rate, "shear_rate", "coarse-grained shear rate, over sqrt(g / D)"},
+    {MapKind::temperature, "temperature", "granular temperature, over g D"},
+    {MapKind::dyed, "dyed", "layers and columns as they were when the tilt began"},
 });
 
 constexpr auto kinds = [] {
@@ -63,7 +79,24 @@ bool shows_gamma(MapKind kind) {
   return kind == MapKind::gamma || kind == MapKind::overloaded || kind == MapKind::clusters;
 }
 
-bool needs_reference(MapKind kind) { return kind == MapKind::displacement || kind == MapKind::rotation; }
+bool needs_reference(MapKind kind) {
+  switch (kind) {
+    case MapKind::displacement:
+    case MapKind::rotation:
+    case MapKind::nonaffine:
+    case MapKind::shear:
+    case MapKind::dilation:
+    case MapKind::vorticity:
+      return true;
+    default:
+      return false;
+  }
+}
+
+bool is_coarse(MapKind kind) {
+  return kind == MapKind::coarse || kind == MapKind::density || kind == MapKind::stress ||
+         kind == MapKind::shear_rate || kind == MapKind::temperature;
+}
 
 bool shows(const MapLayers& layers, MapKind kind) { return std::ranges::count(layers, kind) > 0; }
 

@@ -18,6 +18,21 @@ enum class MapKind {
   rotation,      ///< how far it has turned
   forces,        ///< force chains: lines between centres, width by normal force, strong and weak apart
   critical,      ///< contacts with fully mobilised friction
+  speed,         ///< of each grain, over sqrt(g D)
+  nonaffine,     ///< what a grain's neighbours moved beside any uniform deformation (local_deformation.h)
+  shear,         ///< shear strain of its neighbourhood
+  dilation,      ///< area strain of its neighbourhood
+  vorticity,     ///< turn of its neighbourhood
+  coordination,  ///< contacts of each grain that carry force
+  mobilised,     ///< mean mobilised friction of its contacts
+  rigid,         ///< rigid clusters of grains
+  size,          ///< diameter of each grain
+  cells,         ///< local solid fraction: of each grain in its cell
+  density,       ///< coarse-grained solid fraction, of a chosen width
+  stress,        ///< coarse-grained pressure, over rho g D
+  shear_rate,    ///< coarse-grained, over sqrt(g / D)
+  temperature,   ///< granular temperature, over g D
+  dyed,          ///< layers and columns of grains as they were when the tilt began
 };
 
 /// All of them, in the order in which they are listed to users.
@@ -33,6 +48,8 @@ std::string list_of_maps();
 bool needs_theta_c(MapKind kind);
 /// Whether it shows the gamma of grains, or what follows from it: whether MapSettings::l_min changes it.
 bool shows_gamma(MapKind kind);
+/// Whether it is an average around each grain, of a chosen width: whether MapSettings::length changes it.
+bool is_coarse(MapKind kind);
 /// Whether it is measured from an earlier frame.
 bool needs_reference(MapKind kind);
 

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/core.h>
+#include <iterator>
 #include <set>
 
 #include "core/errors.h"
 #include "core/nearest_word.h"
+#include "core/text.h"
 #include "core/trigonometry.h"
 #include "core/visible_text.h"
 
@@ -49,6 +51,13 @@ MapSettings common_settings(const MapOptions& options) {
   return settings;
 }
 
+/// "displacement, rotation, ...".
+std::string maps_that(bool (*has)(MapKind)) {
+  MapLayers those;
+  std::ranges::copy_if(map_kinds(), std::back_inserter(those), has);
+  return joined(those, ", ", map_name);
+}
+
 bool draws_bar(const MapSettings& map) { return has_bar(map.layers); }
 
 /// Options that would do nothing are errors: whoever wrote them expected something else.
@@ -59,9 +68,10 @@ void refuse_idle_options(const MapOptions& options, const MapPlan& plan) {
     refuse(fmt::format("--range: the map {} has no bar", layers_name(plan.maps[0].layers)));
   if (!options.colours.empty() && std::ranges::none_of(plan.maps, draws_bar))
     refuse("--colours: no map that is asked for has a bar; --colours is for those that do");
-  if (options.length && !shows(plan, MapKind::coarse)) refuse("--length: it is for the map coarse");
+  if (options.length && !any_layer(plan, is_coarse))
+    refuse("--length: it is for the maps " + maps_that(is_coarse));
   if (options.since && !any_layer(plan, needs_reference))
-    refuse("--since: it is for the maps displacement and rotation");
+    refuse("--since: it is for the maps " + maps_that(needs_reference));
   if (options.l_min && !shows_gamma(plan))
     refuse("--l-min: no map or trace that is asked for goes by gamma of grains");
   if (options.threshold && !needs_theta_c(plan))

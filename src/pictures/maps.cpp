@@ -10,6 +10,7 @@
 #include "core/trigonometry.h"
 #include "pictures/bed_view.h"
 #include "pictures/layers.h"
+#include "pictures/motion.h"
 #include "pictures/texts.h"
 
 namespace talus {
@@ -22,7 +23,9 @@ bool fills_grains(const MapLayers& layers, std::size_t k) {
 }
 
 bool has_bar(const MapLayers& layers, std::size_t k) {
-  return fills_grains(layers, k) && layers[k] != MapKind::overloaded && layers[k] != MapKind::clusters;
+  const MapKind kind = layers[k];
+  return fills_grains(layers, k) && kind != MapKind::overloaded && kind != MapKind::clusters &&
+         kind != MapKind::rigid;
 }
 
 /// What was chosen for the first layer with a bar; nothing for the other.
@@ -35,9 +38,10 @@ ScaleChoice choice_of(const MapSettings& settings, std::size_t k) {
 /// and white also in gray.
 Colour colour_over(const MapSettings& settings, std::size_t k) {
   const MapKind kind = settings.layers[k];
-  const ColourMap own = kind == MapKind::rotation ? ColourMap::diverging : ColourMap::gray;
-  const bool light =
-      kind == MapKind::clusters || choice_of(settings, k).colours.value_or(own) == ColourMap::diverging;
+  const bool is_signed = needs_reference(kind) && motion_map(kind).is_signed;
+  const ColourMap own = is_signed ? ColourMap::diverging : ColourMap::gray;
+  const bool light = kind == MapKind::clusters || kind == MapKind::rigid ||
+                     choice_of(settings, k).colours.value_or(own) == ColourMap::diverging;
   return light ? black : Colour{255, 60, 130};
 }
 
@@ -59,15 +63,38 @@ MapLayer make_layer(const MapFrame& of, const MapSettings& settings, const MapEx
     case MapKind::pressure:
       return pressure_layer(of, choice);
     case MapKind::displacement:
-      return k == 0 ? displacement_layer(of, settings.motion, choice)
-                    : displacement_arrows(of, settings.motion, over,
-                                          (extent.x_max - extent.x_min) / arrows_across);
+      if (k > 0)
+        return displacement_arrows(of, settings.motion, over, (extent.x_max - extent.x_min) / arrows_across);
+      [[fallthrough]];
     case MapKind::rotation:
-      return rotation_layer(of, settings.motion, choice);
+    case MapKind::nonaffine:
+    case MapKind::shear:
+    case MapKind::dilation:
+    case MapKind::vorticity:
+      return motion_layer(settings.layers[k], of, settings.motion, choice);
     case MapKind::forces:
       return forces_layer(of, over);
     case MapKind::critical:
       return critical_layer(of, over);
+    case MapKind::speed:
+      return speed_layer(of, choice);
+    case MapKind::coordination:
+      return coordination_layer(of, choice);
+    case MapKind::mobilised:
+      return mobilised_layer(of, choice);
+    case MapKind::rigid:
+      return rigid_layer(of, over_grains && k == 1);
+    case MapKind::size:
+      return size_layer(of, choice);
+    case MapKind::cells:
+      return cells_layer(of, choice);
+    case MapKind::density:
+    case MapKind::stress:
+    case MapKind::shear_rate:
+    case MapKind::temperature:
+      return field_layer(settings.layers[k], of, settings, choice);
+    case MapKind::dyed:
+      return dyed_layer(of, choice);
   }
   throw Error(ExitCode::internal, "a map of no kind");
 }
@@ -164,7 +191,7 @@ FrameView make_map(const MapFrame& frame, const MapSettings& settings, const Map
   view.furniture = settings.furniture;
   view.transparent = settings.transparent;
   // Also in a frame in which no cluster has a colour yet: all of a movie have as many channels.
-  view.coloured = shows(settings.layers, MapKind::clusters);
+  view.coloured = shows(settings.layers, MapKind::clusters) || shows(settings.layers, MapKind::rigid);
   view.tilt = frame.frame.tilt;
   if (settings.turned) {
     view.turn = std::max(0.0, frame.frame.tilt);

@@ -2,6 +2,7 @@
 /// Maps of the bed: from a frame of a run to what the renderer draws.
 
 #include <array>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -23,20 +24,25 @@ struct ScaleRange {
   bool operator==(const ScaleRange&) const = default;
 };
 
-/// Ranges that fit how far grains have moved and turned in the frames that are drawn (MotionSample in
+/// Ranges that fit what maps of motion (needs_reference) show in the frames that are drawn (MotionSample in
 /// motion.h). Two of each, as the units differ: in all, and per degree of tilt. None where nothing moved.
 struct MotionRanges {
-  std::array<std::optional<ScaleRange>, 2> displacement, rotation;
+  std::map<MapKind, std::array<std::optional<ScaleRange>, 2>> fitting;
+
+  std::optional<ScaleRange> of(MapKind kind, bool per_degree) const {
+    const auto found = fitting.find(kind);
+    return found == fitting.end() ? std::nullopt : found->second[per_degree];
+  }
   bool operator==(const MotionRanges&) const = default;
 };
 
-/// What lies within them: the shares of grains below the ends of the scale of displacement, and that of
-/// grains which have turned less than the ends of the scale of rotation.
-inline constexpr struct { double low, high; } displacement_shares = {0.05, 0.99};
-inline constexpr double rotation_share = 0.95;
+/// What lies within them: the shares of grains below the ends of a logarithmic scale, as that of displacement
+/// is, and that of grains which have less than the ends of one with a sign, as that of rotation.
+inline constexpr struct { double low, high; } size_shares = {0.05, 0.99};
+inline constexpr double signed_share = 0.95;
 
-/// The range of `displacement` or `rotation` where no other fits or is chosen: from the creep of a bed at
-/// rest to an avalanche.
+/// The range of a map of motion where no other fits or is chosen: from the creep of a bed at rest to an
+/// avalanche.
 ScaleRange fixed_motion_range(MapKind kind, bool per_degree);
 
 /// deg: by which maps are scaled while the slope has not failed and nothing else is asked for.
@@ -48,9 +54,9 @@ struct MapSettings : OverloadRule {
   std::optional<ColourMap> colours;  ///< of the first layer that has a bar; without a value: its own
   std::optional<double> range_low;   ///< of the bar of that layer, in the unit of its title
   std::optional<double> range_high;
-  MotionRanges motion;           ///< of `displacement` and `rotation` where no range is chosen
+  MotionRanges motion;           ///< of maps of motion where no range is chosen
   bool theta_c_assumed = false;  ///< the caption says so
-  double length = 10.0;          ///< D: the diameter of neighbourhoods of the map `coarse`
+  double length = 10.0;          ///< D: what coarse maps (is_coarse) average over, a diameter
   bool turned = false;           ///< to its slope, instead of the bed's own frame
   double tilt_max = 0.0;         ///< rad, of all frames that are to have the size of this one
   bool furniture = true;
@@ -76,7 +82,7 @@ std::string reading_text(const OverloadRule& rule);
 
 /// A frame of mapped_frame, with the l_min of the map, and what maps need beside it.
 struct MapFrame : BedFrame {
-  /// For `displacement` and `rotation`: the frame that they are measured from, null where there is none yet
+  /// For maps of motion: the frame that they are measured from, null where there is none yet
   /// (nothing has moved); and whether the map says what moved in a degree of tilt, or in all;
   /// always the latter where there was no tilt between them, as in a flow.
   const Frame* reference = nullptr;
@@ -85,6 +91,8 @@ struct MapFrame : BedFrame {
   /// are none, colours follow those of the last frame that `tracker` has met; null: it has met none.
   std::span<const ClusterColour> cluster_colours = {};
   const ClusterColours* tracker = nullptr;
+  /// For `dyed`: where grains were when the tilt began, m; one without is where it is now.
+  std::span<const Vec2> dyed_at = {};
 };
 
 /// The outlines of the grains of a frame, without furniture.

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <fmt/core.h>
 
+#include "analysis/local_deformation.h"
+#include "core/errors.h"
 #include "core/trigonometry.h"
 #include "pictures/texts.h"
 
@@ -18,19 +20,86 @@ double rounded(double value) {
 
 /// Nothing where nothing has moved. The lowest grains hardly move at all: a scale does not follow them down
 /// for more than five decades; and it is one also where all move alike.
-std::optional<ScaleRange> displacement_range(const LogHistogram& moved) {
+std::optional<ScaleRange> size_range(const LogHistogram& moved) {
   constexpr double most = 1e5, least = 2.0;  // of the upper end over the lower one
-  const double high = moved.quantile(displacement_shares.high);
+  const double high = moved.quantile(size_shares.high);
   if (!(high > 0.0)) return std::nullopt;
-  const double low = std::clamp(moved.quantile(displacement_shares.low), high / most, high / least);
+  const double low = std::clamp(moved.quantile(size_shares.low), high / most, high / least);
   return ScaleRange{rounded(low), rounded(high)};
 }
 
-std::optional<ScaleRange> rotation_range(const LogHistogram& turned) {
-  const double largest = turned.quantile(rotation_share);
+std::optional<ScaleRange> signed_range(const LogHistogram& turned) {
+  const double largest = turned.quantile(signed_share);
   if (!(largest > 0.0)) return std::nullopt;
   return ScaleRange{-rounded(largest), rounded(largest)};
 }
+
+std::vector<double> distances(const MapFrame& of, const MotionSpan& span) {
+  std::vector<double> values;
+  for (const Vec2& moved : displacements(of, span)) values.push_back(std::hypot(moved.x, moved.y));
+  return values;
+}
+
+/// In degrees.
+std::vector<double> turns(const MapFrame& of, const MotionSpan& span) {
+  std::vector<double> turned(static_cast<std::size_t>(of.statics.free_count), 0.0);
+  if (of.reference != nullptr)
+    for (std::size_t i = 0; i < turned.size(); ++i)
+      turned[i] = degrees(of.frame.angle[i] - of.reference->angle[i]) / span.degrees;
+  return turned;
+}
+
+/// What `value` says of the neighbourhood of each grain, over `unit`; 0 without a reference.
+template <typename Value>
+std::vector<double> of_neighbourhoods(const MapFrame& of, double unit, const Value& value) {
+  std::vector<double> values(static_cast<std::size_t>(of.statics.free_count), 0.0);
+  if (of.reference == nullptr) return values;
+  const std::vector<LocalDeformation> all = local_deformations(*of.reference, of);
+  std::ranges::transform(all, values.begin(),
+                         [&](const LocalDeformation& each) { return value(each) / unit; });
+  return values;
+}
+
+std::vector<double> nonaffine_displacements(const MapFrame& of, const MotionSpan& span) {
+  return of_neighbourhoods(of, of.statics.mean_diameter * span.degrees,
+                           [](const LocalDeformation& each) { return std::sqrt(each.nonaffine); });
+}
+
+template <double (*strain)(const Tensor2&)>
+std::vector<double> strains(const MapFrame& of, const MotionSpan& span) {
+  return of_neighbourhoods(of, span.degrees,
+                           [](const LocalDeformation& each) { return strain(each.gradient); });
+}
+
+const std::array<MotionMap, 6> motion_maps = {{
+    {MapKind::displacement, "Displacement", "in D", "", false, {10.0, 10.0}, {1e-3, 1e-4}, distances},
+    {MapKind::rotation, "Rotation", "in °", ", counter-clockwise positive", true, {30.0, 10.0}, {}, turns},
+    {MapKind::nonaffine,
+     "Non-affine displacement",
+     "D_m_i_n in D",
+     "",
+     false,
+     {1.0, 1.0},
+     {1e-4, 1e-5},
+     nonaffine_displacements},
+    {MapKind::shear,
+     "Shear strain",
+     "s_1 − s_2 of neighbourhoods",
+     "",
+     false,
+     {1.0, 1.0},
+     {1e-4, 1e-5},
+     strains<shear_strain>},
+    {MapKind::dilation, "Dilation", "ΔA/A of neighbourhoods", "", true, {0.2, 0.1}, {}, strains<area_strain>},
+    {MapKind::vorticity,
+     "Vorticity",
+     "twice the turn of neighbourhoods in rad",
+     ", counter-clockwise positive",
+     true,
+     {0.5, 0.2},
+     {},
+     strains<vorticity>},
+}};
 
 }  // namespace
 
@@ -58,12 +127,10 @@ std::vector<Vec2> displacements(const MapFrame& of, const MotionSpan& span) {
   return moved;
 }
 
-std::vector<double> rotations(const MapFrame& of, const MotionSpan& span) {
-  std::vector<double> turned(static_cast<std::size_t>(of.statics.free_count), 0.0);
-  if (of.reference != nullptr)
-    for (std::size_t i = 0; i < turned.size(); ++i)
-      turned[i] = degrees(of.frame.angle[i] - of.reference->angle[i]) / span.degrees;
-  return turned;
+const MotionMap& motion_map(MapKind kind) {
+  const auto found = std::ranges::find(motion_maps, kind, &MotionMap::kind);
+  if (found == motion_maps.end()) throw Error(ExitCode::internal, "a map that shows no motion");
+  return *found;
 }
 
 void LogHistogram::add(double value) {
@@ -82,17 +149,25 @@ double LogHistogram::quantile(double share) const {
   return smallest * std::pow(10.0, static_cast<double>(k) / classes_per_decade);
 }
 
+MotionSample::MotionSample(const MapLayers& maps) {
+  for (const MapKind kind : maps) sizes_[kind] = {};
+}
+
 void MotionSample::add(const MapFrame& of) {
   if (of.reference == nullptr) return;
   const MotionSpan span = motion_span(of);
-  for (const Vec2& moved : displacements(of, span))
-    displacement_[span.per_degree].add(std::hypot(moved.x, moved.y));
-  for (const double turned : rotations(of, span)) rotation_[span.per_degree].add(std::abs(turned));
+  for (auto& [kind, sizes] : sizes_)
+    for (const double value : motion_map(kind).values(of, span))
+      if (!std::isnan(value)) sizes[span.per_degree].add(std::abs(value));
 }
 
 MotionRanges MotionSample::ranges() const {
-  return {{displacement_range(displacement_[0]), displacement_range(displacement_[1])},
-          {rotation_range(rotation_[0]), rotation_range(rotation_[1])}};
+  MotionRanges ranges;
+  for (const auto& [kind, sizes] : sizes_)
+    for (std::size_t per_degree = 0; per_degree < sizes.size(); ++per_degree)
+      ranges.fitting[kind][per_degree] =
+          motion_map(kind).is_signed ? signed_range(sizes[per_degree]) : size_range(sizes[per_degree]);
+  return ranges;
 }
 
 }  // namespace talus

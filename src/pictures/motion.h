@@ -1,20 +1,21 @@
 #pragma once
-/// How far grains have moved and turned, and the ranges of scales that fit that.
+/// What happened between two frames, of each grain, and the ranges of scales that fit that.
 
 #include <array>
 #include <cstdint>
-#include <optional>
+#include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "pictures/maps.h"
 
 namespace talus {
 
-/// What displacements and rotations are measured over.
+/// What motion is measured over.
 struct MotionSpan {
   bool per_degree = false;
-  double degrees = 1.0;  ///< what they are divided by
+  double degrees = 1.0;  ///< what it is divided by
   std::string title;     ///< " since 5.00°"
   std::string unit;      ///< " per degree"
 };
@@ -24,8 +25,20 @@ MotionSpan motion_span(const MapFrame& of);
 /// reference.
 std::vector<Vec2> displacements(const MapFrame& of, const MotionSpan& span);
 
-/// Of each free grain in degrees, or degrees per degree, counter-clockwise positive; 0 without a reference.
-std::vector<double> rotations(const MapFrame& of, const MotionSpan& span);
+/// A map of what happened between two frames.
+struct MotionMap {
+  MapKind kind;
+  std::string_view title, bar, sign;  ///< "Rotation"; "in °"; ", counter-clockwise positive"
+  bool is_signed = false;             ///< a scale to either side of 0; else it is logarithmic
+  /// Of the scale of a bed from creep at rest to an avalanche, in all, and per degree: its upper end, and
+  /// the lower one where there is no sign.
+  std::array<double, 2> high, low;
+  /// Of each free grain; NaN where it has no value, 0 or NaN without a reference.
+  std::vector<double> (*values)(const MapFrame& of, const MotionSpan& span);
+};
+
+/// The map of a kind with needs_reference. Throws Error(internal) for another.
+const MotionMap& motion_map(MapKind kind);
 
 /// Numbers of values >= 0 in narrow classes: quantiles of any number of values in little memory.
 class LogHistogram {
@@ -44,12 +57,14 @@ class LogHistogram {
 /// Meets the frames that are drawn, and finds the ranges that fit them.
 class MotionSample {
  public:
+  /// For these maps of motion.
+  explicit MotionSample(const MapLayers& maps);
   /// A frame with its reference; one without adds nothing.
   void add(const MapFrame& of);
   MotionRanges ranges() const;
 
  private:
-  std::array<LogHistogram, 2> displacement_, rotation_;  ///< in all, and per degree
+  std::map<MapKind, std::array<LogHistogram, 2>> sizes_;  ///< in all, and per degree
 };
 
 }  // namespace talus

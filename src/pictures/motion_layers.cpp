@@ -11,28 +11,20 @@
 namespace talus {
 namespace {
 
-ScaleRange range_of(const std::array<std::optional<ScaleRange>, 2>& fitting, MapKind kind,
-                    const MotionSpan& span) {
-  return fitting[span.per_degree].value_or(fixed_motion_range(kind, span.per_degree));
-}
-
-Scale displacement_scale(const MotionRanges& motion, const MotionSpan& span, const ScaleChoice& choice) {
-  const ScaleRange range = range_of(motion.displacement, MapKind::displacement, span);
-  return chosen({ColourMap::viridis, range.low, range.high, true}, choice);
+Scale scale_of(const MotionMap& map, const MotionRanges& motion, const MotionSpan& span,
+               const ScaleChoice& choice) {
+  const ScaleRange range =
+      motion.of(map.kind, span.per_degree).value_or(fixed_motion_range(map.kind, span.per_degree));
+  const ColourMap colours = map.is_signed ? ColourMap::diverging : ColourMap::viridis;
+  return chosen({colours, range.low, range.high, !map.is_signed}, choice);
 }
 
 /// ", 5 to 99 % of grains" where the range is one that fits them.
-std::string displacement_share_text(const MotionRanges& motion, const MotionSpan& span,
-                                    const ScaleChoice& choice) {
-  if (choice.low || !motion.displacement[span.per_degree]) return "";
-  return fmt::format(", {:.6g} to {:.6g} % of grains", 100.0 * displacement_shares.low,
-                     100.0 * displacement_shares.high);
-}
-
-std::string rotation_share_text(const MotionRanges& motion, const MotionSpan& span,
-                                const ScaleChoice& choice) {
-  if (choice.low || !motion.rotation[span.per_degree]) return "";
-  return fmt::format(", {:.6g} % of grains", 100.0 * rotation_share);
+std::string share_text(const MotionMap& map, const MotionRanges& motion, const MotionSpan& span,
+                       const ScaleChoice& choice) {
+  if (choice.low || !motion.of(map.kind, span.per_degree)) return "";
+  if (map.is_signed) return fmt::format(", {:.6g} % of grains", 100.0 * signed_share);
+  return fmt::format(", {:.6g} to {:.6g} % of grains", 100.0 * size_shares.low, 100.0 * size_shares.high);
 }
 
 /// All free grains; or, where `spacing` is more than D, that with the smallest id in each square of that
@@ -65,18 +57,21 @@ void add_arrow(std::vector<Line>& lines, double x, double y, Vec2 along, double 
 }  // namespace
 
 ScaleRange fixed_motion_range(MapKind kind, bool per_degree) {
-  if (kind == MapKind::displacement) return {per_degree ? 1e-4 : 1e-3, 10.0};
-  const double largest = per_degree ? 10.0 : 30.0;
-  return {-largest, largest};
+  const MotionMap& map = motion_map(kind);
+  return {map.is_signed ? -map.high[per_degree] : map.low[per_degree], map.high[per_degree]};
 }
 
-MapLayer displacement_layer(const MapFrame& of, const MotionRanges& motion, const ScaleChoice& choice) {
+MapLayer motion_layer(MapKind kind, const MapFrame& of, const MotionRanges& motion,
+                      const ScaleChoice& choice) {
+  const MotionMap& map = motion_map(kind);
   const MotionSpan span = motion_span(of);
-  const Scale scale = displacement_scale(motion, span, choice);
-  std::vector<double> values;
-  for (const Vec2& moved : displacements(of, span)) values.push_back(std::hypot(moved.x, moved.y));
-  const std::string title = fmt::format("in D{}{}", span.unit, displacement_share_text(motion, span, choice));
-  return {"Displacement" + span.title, looks_of(scale, values), {}, {{bar_of(scale, title)}, {}}};
+  const Scale scale = scale_of(map, motion, span, choice);
+  const std::string title =
+      fmt::format("{}{}{}{}", map.bar, span.unit, map.sign, share_text(map, motion, span, choice));
+  return {std::string(map.title) + span.title,
+          looks_of(scale, map.values(of, span)),
+          {},
+          {{bar_of(scale, title)}, {}}};
 }
 
 MapLayer displacement_arrows(const MapFrame& of, const MotionRanges& motion, const OverColour& over,
@@ -84,7 +79,8 @@ MapLayer displacement_arrows(const MapFrame& of, const MotionRanges& motion, con
   constexpr double longest = 1.6, half_width = 0.04;  // D, or spacing
   const Colour colour = over.value_or(Colour{0, 90, 180});
   const MotionSpan span = motion_span(of);
-  const Scale scale = displacement_scale(motion, span, {});
+  const MotionMap& map = motion_map(MapKind::displacement);
+  const Scale scale = scale_of(map, motion, span, {});
   const double unit = std::max(spacing, of.statics.mean_diameter);
   MapLayer layer;
   layer.title = "Displacement" + span.title;
@@ -97,18 +93,9 @@ MapLayer displacement_arrows(const MapFrame& of, const MotionRanges& motion, con
               half_width * unit, colour);
   }
   const std::string label = fmt::format("length logarithmic, from {:.6g} to {:.6g} D{}{}", scale.low,
-                                        scale.high, span.unit, displacement_share_text(motion, span, {}));
+                                        scale.high, span.unit, share_text(map, motion, span, {}));
   layer.legend.swatches = {{Swatch::Kind::line, colour, colour, 0.15, label}};
   return layer;
-}
-
-MapLayer rotation_layer(const MapFrame& of, const MotionRanges& motion, const ScaleChoice& choice) {
-  const MotionSpan span = motion_span(of);
-  const ScaleRange range = range_of(motion.rotation, MapKind::rotation, span);
-  const Scale scale = chosen({ColourMap::diverging, range.low, range.high}, choice);
-  const std::string title = fmt::format("in °{}, counter-clockwise positive{}", span.unit,
-                                        rotation_share_text(motion, span, choice));
-  return {"Rotation" + span.title, looks_of(scale, rotations(of, span)), {}, {{bar_of(scale, title)}, {}}};
 }
 
 }  // namespace talus

@@ -61,7 +61,7 @@ void add_settings(PictureKey& key, const MapSettings& settings, int width, const
   key.add("colours", settings.colours ? std::string(colour_map_name(*settings.colours)) : "");
   key.add("range_low", settings.range_low ? std::vector{*settings.range_low} : std::vector<double>{});
   key.add("range_high", settings.range_high ? std::vector{*settings.range_high} : std::vector<double>{});
-  for (const auto& ranges : {settings.motion.displacement, settings.motion.rotation})
+  for (const auto& [kind, ranges] : settings.motion.fitting)
     for (const std::optional<ScaleRange>& range : ranges)
       key.add("motion", range ? std::vector{range->low, range->high} : std::vector<double>{});
   key.add("theta_c", settings.theta_c);

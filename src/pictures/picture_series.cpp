@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/core.h>
+#include <iterator>
 #include <utility>
 
 #include "core/errors.h"
@@ -87,6 +88,8 @@ MapExtent cropped(const MapExtent& bed, const Crop& crop, double diameter) {
 
 void add_instant(MetFrames& met, const Frame& frame) {
   if (met.instants.empty() || frame.tilt > met.instants[met.highest].tilt) met.highest = met.instants.size();
+  if (met.instants.empty())
+    for (std::size_t i = 0; i < frame.x.size(); ++i) met.begin.push_back({frame.x[i], frame.y[i]});
   met.instants.push_back({frame.step, frame.time, frame.tilt});
 }
 
@@ -137,6 +140,7 @@ FrameView picture(const PictureSeries& series, std::size_t k, const Frame& frame
     if (k < met.cluster_colours.size() && met.instants[k].step == frame.step)
       of.cluster_colours = met.cluster_colours[k];
   }
+  of.dyed_at = met.begin;
   FrameView view = make_map(of, settings, series.extent);
   for (std::size_t t = 0; t < series.curves.size(); ++t)
     view.traces.push_back(make_trace(series.plan.traces[t], series.curves[t].tilts, series.curves[t].values,
@@ -166,7 +170,10 @@ DrawnRun open_drawn_run(const std::string& path, const MapPlan& plan, const Coun
 
 void fit_motion(DrawnRun& run, std::span<const std::size_t> frames) {
   if (!any_layer(run.series.plan, needs_reference)) return;
-  MotionSample sample;
+  MapLayers moving;
+  for (const MapSettings& map : run.series.plan.maps)
+    std::ranges::copy_if(map.layers, std::back_inserter(moving), needs_reference);
+  MotionSample sample(moving);
   for (const std::size_t k : frames) {
     read_frame(run, k);
     const BedFrame bed{run.frame, run.series.run.statics};

@@ -33,6 +33,7 @@ struct MetFrames {
   OverloadRule rule;        ///< by which their clusters were told apart
   std::vector<std::vector<ClusterColour>> cluster_colours;  ///< empty where no map shows them
   ClusterColours tracker;
+  std::vector<Vec2> begin;  ///< where the grains of the first one were, m
 };
 
 /// One value from which all pictures of a run follow, together with the frames themselves.
@@ -82,8 +83,8 @@ struct DrawnRun {
 /// --since lies beyond them, Error(usage) where --crop leaves the bed.
 DrawnRun open_drawn_run(const std::string& path, const MapPlan& plan, const CountDone& progress);
 
-/// Of the maps `displacement` and `rotation`: the ranges that fit what is drawn, of all these frames.
-/// Before the first picture or key; without, the ranges are fixed.
+/// Of maps of motion: the ranges that fit what is drawn, of all these frames. Before the first picture or
+/// key; without, the ranges are fixed.
 void fit_motion(DrawnRun& run, std::span<const std::size_t> frames);
 
 /// Map `map` of the plan at frame k. Frames are fastest in ascending order, all maps of one after another.

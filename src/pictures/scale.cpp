@@ -76,6 +76,13 @@ std::vector<GrainLook> looks_of(const Scale& scale, std::span<const double> valu
   return looks;
 }
 
+std::vector<GrainLook> looks_or_outlines(const Scale& scale, std::span<const double> values) {
+  std::vector<GrainLook> looks = looks_of(scale, values);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (std::isnan(values[i])) looks[i] = outline_look();
+  return looks;
+}
+
 Bar bar_of(const Scale& scale, const std::string& title) {
   constexpr std::size_t few = 3;
   std::vector<BarTick> ticks = scale.logarithmic ? decades(scale, {1.0}) : std::vector<BarTick>();

@@ -49,6 +49,9 @@ double share_of(const Scale& scale, double value);
 GrainLook look_of(const Scale& scale, double value);
 std::vector<GrainLook> looks_of(const Scale& scale, std::span<const double> values);
 
+/// The same in colours of a scale none of which is white; a grain that has no value is.
+std::vector<GrainLook> looks_or_outlines(const Scale& scale, std::span<const double> values);
+
 /// The bar, with round numbers, or decades, as ticks.
 Bar bar_of(const Scale& scale, const std::string& title);
 

@@ -40,6 +40,16 @@ std::vector<double> pressures(const BedFrame& bed) {
 
 }  // namespace
 
+double coarse_length(const MapFrame& of, const MapSettings& settings) {
+  const double length = settings.length * of.statics.mean_diameter;
+  if (length > 0.0 && length <= of.statics.length) return length;
+  throw Error(
+      ExitCode::usage,
+      fmt::format(
+          "neighbourhoods of {:.6g} D: expected a diameter above 0, up to the length of the bed, {:.6g} D",
+          settings.length, of.statics.length / of.statics.mean_diameter));
+}
+
 double gamma_c_of(const MapSettings& settings) { return sine(settings.theta_c); }
 
 std::string reading_text(const OverloadRule& rule) {
@@ -61,13 +71,7 @@ MapLayer gamma_layer(const MapFrame& of, const MapSettings& settings, const Scal
 }
 
 MapLayer coarse_layer(const MapFrame& of, const MapSettings& settings, const ScaleChoice& choice) {
-  const double length = settings.length * of.statics.mean_diameter;
-  if (!(length > 0.0 && length <= of.statics.length))
-    throw Error(
-        ExitCode::usage,
-        fmt::format(
-            "neighbourhoods of {:.6g} D: expected a diameter above 0, up to the length of the bed, {:.6g} D",
-            settings.length, of.statics.length / of.statics.mean_diameter));
+  const double length = coarse_length(of, settings);
   const double gamma_c = gamma_c_of(settings);
   const Scale scale = chosen({ColourMap::gray, 0.0, black_coarse * gamma_c}, choice);
   const std::string end = choice.high ? fmt::format("{:.6g}", scale.high) : fmt::format("{:.2f}", scale.high);

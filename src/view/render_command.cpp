@@ -52,7 +52,7 @@ std::string render_command_line(const RenderRequest& shown) {
     add("--l-min", number(settings.l_min));
   const bool by_threshold = shows(layers, MapKind::overloaded) || shows(layers, MapKind::clusters);
   if (by_threshold && settings.threshold_factor != 1.0) add("--threshold", number(settings.threshold_factor));
-  if (shows(layers, MapKind::coarse) && settings.length != MapSettings().length)
+  if (any_layer(layers, is_coarse) && settings.length != MapSettings().length)
     add("--length", number(settings.length));
   if (shown.since && any_layer(layers, needs_reference)) add("--since", number(degrees(*shown.since)));
   if (settings.joined_by_neighbours && shows(layers, MapKind::clusters)) add("--joined", "neighbours");

@@ -110,7 +110,8 @@ MapSource source_of(const PictureSeries& series, std::size_t k, std::shared_ptr<
                     std::shared_ptr<const Frame> reference) {
   const MapSettings& settings = series.plan.maps[0];
   const bool coloured = shows(settings.layers, MapKind::clusters);
-  const std::size_t met = coloured ? std::min(series.met.instants.size(), k + 1) : 0;
+  const std::size_t needed = coloured ? k + 1 : shows(settings.layers, MapKind::dyed) ? 1 : 0;
+  const std::size_t met = std::min(series.met.instants.size(), needed);
   return {std::move(frame), std::move(reference), settings, series.extent, series.since, met};
 }
 

@@ -17,7 +17,7 @@ struct MapSource {
   MapSettings settings;
   MapExtent extent;
   std::optional<std::size_t> since;
-  std::size_t met = 0;  ///< how many frames the colours of its clusters follow from
+  std::size_t met = 0;  ///< how many frames its colours follow from
   bool operator==(const MapSource&) const = default;
 };
 

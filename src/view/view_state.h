@@ -27,7 +27,7 @@ struct PlotLook {
 struct ViewState {
   MapSettings map;  ///< layers, colours, threshold, length, turned, ...
   ViewCamera camera;
-  std::optional<double> since;    ///< rad: displacement and rotation since that tilt; without: per degree
+  std::optional<double> since;    ///< rad: motion and strain since that tilt; without: per degree
   std::optional<Index> selected;  ///< grain
   double neighbourhood = 10.0;    ///< D: diameter of the neighbourhood drawn about the selected grain
   bool show_neighbourhoods = true;

@@ -125,8 +125,11 @@ TEST_F(MapCommands, pictures_are_named_by_layers_and_angle) {
 TEST_F(MapCommands, every_map_and_option_draws) {
   make_run();
   const std::vector<Words> cases = {
-      {"--map", "gamma,overloaded,clusters,coarse,pressure,displacement,rotation,forces,critical", "--length",
-       "3"},
+      {"--map",
+       "gamma,overloaded,clusters,coarse,pressure,displacement,rotation,forces,critical,speed,nonaffine,"
+       "shear,dilation,"
+       "vorticity,coordination,mobilised,rigid,size,cells,density,stress,shear_rate,temperature,dyed",
+       "--length", "3"},
       {"--map", "coarse+displacement", "--length", "3", "--since", "0.5", "--turned", "--colours", "cividis"},
       {"--map", "clusters+critical", "--joined", "neighbours", "--threshold", "2", "--transparent", "--trace",
        "overloaded,largest_cluster,stress_ratio,volume_strain"},
@@ -137,7 +140,7 @@ TEST_F(MapCommands, every_map_and_option_draws) {
     const Outcome outcome = render(cases[k] + Words{"--at", "1", "--width", "600", "-o", name});
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_EQ(outcome.err, "");
-    EXPECT_EQ(files(name.c_str()).size(), k == 0 ? 9u : 1u);
+    EXPECT_EQ(files(name.c_str()).size(), k == 0 ? 24u : 1u);
   }
 }
 

@@ -12,11 +12,13 @@
 
 namespace talus::test {
 
-/// What packings leave out and maps need: angles, images, masses.
+/// What packings leave out and maps need: angles, images, velocities, masses.
 inline void complete(Packing& packing) {
   const std::size_t count = packing.frame.x.size();
   packing.frame.angle.assign(count, 0.0);
   packing.frame.image.assign(count, 0);
+  packing.frame.vx.assign(count, 0.0);
+  packing.frame.vy.assign(count, 0.0);
   packing.statics.gravity = 10.0;
   packing.statics.mass.clear();
   for (const double radius : packing.statics.radius)

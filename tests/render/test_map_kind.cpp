@@ -18,18 +18,20 @@ TEST(MapKinds, HaveNamesOfTheirOwnThatAreFoundAgain) {
     EXPECT_EQ(map_layers(map_name(kind)), MapLayers{kind});
     EXPECT_FALSE(map_help(kind).empty());
   }
-  EXPECT_EQ(names.size(), 9u);
+  EXPECT_EQ(names.size(), 24u);
   EXPECT_EQ(map_name(MapKind::forces), "forces");
 }
 
 TEST(MapKinds, SayWhatTheyNeed) {
-  std::string scaled, measured;
+  std::string scaled, measured, averaged;
   for (const MapKind kind : map_kinds()) {
     if (needs_theta_c(kind)) scaled.append(" ").append(map_name(kind));
+    if (is_coarse(kind)) averaged.append(" ").append(map_name(kind));
     if (needs_reference(kind)) measured.append(" ").append(map_name(kind));
   }
   EXPECT_EQ(scaled, " gamma overloaded clusters coarse");
-  EXPECT_EQ(measured, " displacement rotation");
+  EXPECT_EQ(measured, " displacement rotation nonaffine shear dilation vorticity");
+  EXPECT_EQ(averaged, " coarse density stress shear_rate temperature");
 }
 
 TEST(MapLayers, AreOneOrTwoDifferentMaps) {

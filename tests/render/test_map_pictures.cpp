@@ -46,6 +46,7 @@ Scene make_scene() {
     const double x = packing.frame.x[i], y = packing.frame.y[i];
     packing.frame.x[i] += 0.02 * y * y * std::abs(std::sin(0.3 * x));
     packing.frame.angle[i] += 0.1 * y * std::sin(0.4 * x);
+    packing.frame.vx[i] = 0.05 * y * y * (1.0 + 0.2 * std::sin(7.0 * x));
   }
   return scene;
 }
@@ -53,9 +54,33 @@ Scene make_scene() {
 TEST(MapPictures, LookAsBefore) {
   const Scene scene = make_scene();
   Renderer renderer(make_context(ContextKind::osmesa));
-  for (const char* name :
-       {"gamma", "overloaded", "clusters", "coarse", "pressure", "displacement", "rotation", "forces",
-        "critical", "gamma+forces", "pressure+overloaded", "clusters+displacement"}) {
+  for (const char* name : {"gamma",
+                           "overloaded",
+                           "clusters",
+                           "coarse",
+                           "pressure",
+                           "displacement",
+                           "rotation",
+                           "forces",
+                           "critical",
+                           "speed",
+                           "nonaffine",
+                           "shear",
+                           "dilation",
+                           "vorticity",
+                           "coordination",
+                           "mobilised",
+                           "rigid",
+                           "size",
+                           "cells",
+                           "density",
+                           "stress",
+                           "shear_rate",
+                           "temperature",
+                           "dyed",
+                           "gamma+forces",
+                           "pressure+overloaded",
+                           "clusters+displacement"}) {
     MapSettings settings = test::settings_of(name);
     settings.length = 5.0;
     settings.l_min = default_l_min;
@@ -80,7 +105,9 @@ TEST(MapPictures, HaveRoomForAllTheirTexts) {
       FrameView view = test::map_of(scene.packing, settings, &scene.before);
       for (const TraceKind trace : trace_kinds())
         view.traces.push_back(make_trace(trace, tilts, values, settings, 0.2));
-      for (const int width : {400, 1600, 8000})
+      // Texts are tightest in the smallest picture; of two maps the wider ones have nothing new.
+      const std::vector<int> widths = lower == upper ? std::vector{400, 1600, 8000} : std::vector{400};
+      for (const int width : widths)
         test::expect_tidy(lay_out(view, width, font), both + " at " + std::to_string(width) + " px");
     }
 }

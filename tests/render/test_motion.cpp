@@ -45,43 +45,45 @@ TEST(LogHistogram, FindsQuantilesToTwoPercent) {
 
 TEST(MotionSample, RangesLeaveOutFewGrains) {
   const Moved moved;
-  MotionSample sample;
+  MotionSample sample({MapKind::displacement, MapKind::rotation});
   sample.add(moved.frame(false));
   const MotionRanges ranges = sample.ranges();
-  ASSERT_TRUE(ranges.displacement[0] && ranges.rotation[0]);
-  EXPECT_NEAR(ranges.displacement[0]->low, 0.005, 0.0002);
-  EXPECT_NEAR(ranges.displacement[0]->high, 0.099, 0.002);
-  EXPECT_NEAR(ranges.rotation[0]->high, 95.0, 2.5);
-  EXPECT_EQ(ranges.rotation[0]->low, -ranges.rotation[0]->high);
-  EXPECT_FALSE(ranges.displacement[1] || ranges.rotation[1]) << "nothing was measured per degree";
+  ASSERT_TRUE(ranges.of(MapKind::displacement, false) && ranges.of(MapKind::rotation, false));
+  EXPECT_NEAR(ranges.of(MapKind::displacement, false)->low, 0.005, 0.0002);
+  EXPECT_NEAR(ranges.of(MapKind::displacement, false)->high, 0.099, 0.002);
+  EXPECT_NEAR(ranges.of(MapKind::rotation, false)->high, 95.0, 2.5);
+  EXPECT_EQ(ranges.of(MapKind::rotation, false)->low, -ranges.of(MapKind::rotation, false)->high);
+  EXPECT_FALSE(ranges.of(MapKind::displacement, true) || ranges.of(MapKind::rotation, true))
+      << "nothing was measured per degree";
 }
 
 TEST(MotionSample, PerDegreeIsApart) {
   const Moved moved;
-  MotionSample sample;
+  MotionSample sample({MapKind::displacement, MapKind::rotation});
   sample.add(moved.frame(true));
   const MotionRanges ranges = sample.ranges();
-  ASSERT_TRUE(ranges.displacement[1].has_value());
-  EXPECT_NEAR(ranges.displacement[1]->high, 0.0495, 0.001) << "over two degrees";
-  EXPECT_FALSE(ranges.displacement[0].has_value());
+  ASSERT_TRUE(ranges.of(MapKind::displacement, true).has_value());
+  EXPECT_NEAR(ranges.of(MapKind::displacement, true)->high, 0.0495, 0.001) << "over two degrees";
+  EXPECT_FALSE(ranges.of(MapKind::displacement, false).has_value());
 }
 
 TEST(MotionSample, HasNoRangeWhereNothingMovedAndANarrowOneWhereAllMovedAlike) {
   Moved moved;
-  MotionSample still;
+  MotionSample still({MapKind::displacement, MapKind::rotation});
   still.add({moved.now.frame, moved.now.statics, nullptr, false, {}});
   still.add({moved.before, moved.now.statics, &moved.before, false, {}});
-  EXPECT_FALSE(still.ranges().displacement[0] || still.ranges().rotation[0]);
+  EXPECT_FALSE(still.ranges().of(MapKind::displacement, false) ||
+               still.ranges().of(MapKind::rotation, false));
   for (Index i = 0; i < 100; ++i) moved.now.frame.x[i] = moved.before.x[i] + 0.4;
-  MotionSample alike;
+  MotionSample alike({MapKind::displacement});
   alike.add(moved.frame(false));
-  EXPECT_NEAR(alike.ranges().displacement[0]->high, 0.4, 0.015);
-  EXPECT_NEAR(alike.ranges().displacement[0]->low, 0.2, 0.01);
+  EXPECT_NEAR(alike.ranges().of(MapKind::displacement, false)->high, 0.4, 0.015);
+  EXPECT_NEAR(alike.ranges().of(MapKind::displacement, false)->low, 0.2, 0.01);
 }
 
 TEST(MotionSample, BarSaysHowManyGrainsARangeHolds) {
   const Moved moved;
-  MotionSample sample;
+  MotionSample sample({MapKind::displacement, MapKind::rotation});
   sample.add(moved.frame(false));
   const auto title = [&](const char* map, bool fitted, bool chosen) {
     MapSettings settings = test::settings_of(map);

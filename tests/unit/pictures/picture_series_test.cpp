@@ -142,7 +142,8 @@ TEST(PictureSeries, ranges_of_motion_fit_the_frames_that_are_drawn) {
     options.since = 0.0;
     DrawnRun run = open_drawn_run(path, plan_of("displacement", options), {});
     fit_motion(run, frames);
-    const ScaleRange range = run.series.plan.maps[0].motion.displacement[0].value_or(ScaleRange{0.0, 0.0});
+    const ScaleRange range =
+        run.series.plan.maps[0].motion.of(MapKind::displacement, false).value_or(ScaleRange{0.0, 0.0});
     return std::pair(std::lround(1000.0 * range.low), std::lround(1000.0 * range.high));
   };
   // In thousandths of D. All grains have moved by 0.1 D at 1 deg, and 0.2 D at 2 deg.

@@ -1,0 +1,92 @@
+#include <algorithm>
+#include <cmath>
+#include <fmt/core.h>
+
+#include "pictures/layers.h"
+#include "pictures/texts.h"
+
+namespace talus {
+namespace {
+
+constexpr int dyed_layers = 8;
+constexpr double dyed_column = 10.0;  // D, about
+constexpr double second_shade = 0.7;  // of the channels of every second column
+
+Colour shaded(const Colour& colour) {
+  const auto channel = [](std::uint8_t full) { return static_cast<std::uint8_t>(second_shade * full); };
+  return {channel(colour.red), channel(colour.green), channel(colour.blue), colour.alpha};
+}
+
+/// The middle of the layer that a share of the scale lies in, as a share.
+double layer_share(double share) {
+  return (std::clamp(std::floor(share * dyed_layers), 0.0, dyed_layers - 1.0) + 0.5) / dyed_layers;
+}
+
+/// Whether a place lies in a column of the second shade. There are as many of these as of the others, also
+/// around the period.
+bool in_second_column(double x, double length, double diameter) {
+  const double pairs = std::max(1.0, std::round(length / (2.0 * dyed_column * diameter)));
+  return static_cast<long>(std::floor(2.0 * pairs * x / length)) % 2 != 0;
+}
+
+}  // namespace
+
+MapLayer speed_layer(const MapFrame& of, const ScaleChoice& choice) {
+  const double unit = std::sqrt(of.statics.gravity * of.statics.mean_diameter);
+  const Scale scale = chosen({ColourMap::viridis, 1e-5, 1.0, true}, choice);
+  std::vector<double> speeds;
+  for (Index i = 0; i < of.statics.free_count; ++i)
+    speeds.push_back(std::hypot(of.frame.vx[i], of.frame.vy[i]) / unit);
+  return {"Speed of grains", looks_of(scale, speeds), {}, {{bar_of(scale, "in √(gD)")}, {}}};
+}
+
+MapLayer size_layer(const MapFrame& of, const ScaleChoice& choice) {
+  constexpr double alike = 0.05;  // of D: the range of grains of one size
+  const RunStatics& statics = of.statics;
+  std::vector<double> sizes;
+  for (Index i = 0; i < statics.free_count; ++i)
+    sizes.push_back(2.0 * statics.radius[i] / statics.mean_diameter);
+  double low = 1.0, high = 1.0;
+  if (!sizes.empty()) {
+    low = std::ranges::min(sizes);
+    high = std::ranges::max(sizes);
+  }
+  if (high - low < alike) {
+    low -= alike;
+    high += alike;
+  }
+  const Scale scale = chosen({ColourMap::viridis, low, high}, choice);
+  return {"Size of grains", looks_of(scale, sizes), {}, {{bar_of(scale, "diameter in D")}, {}}};
+}
+
+MapLayer dyed_layer(const MapFrame& of, const ScaleChoice& choice) {
+  constexpr int most_steps = 8;
+  const RunStatics& statics = of.statics;
+  const double diameter = statics.mean_diameter;
+  const auto begin = [&](Index i) {
+    const auto grain = static_cast<std::size_t>(i);
+    return grain < of.dyed_at.size() ? of.dyed_at[grain] : Vec2{of.frame.x[grain], of.frame.y[grain]};
+  };
+  double highest = diameter;
+  for (Index i = 0; i < statics.free_count; ++i) highest = std::max(highest, begin(i).y);
+  const Scale scale = chosen({ColourMap::viridis, 0.0, highest / diameter}, choice);
+  MapLayer layer;
+  layer.title = "Layers and columns of the bed as the tilt began";
+  for (Index i = 0; i < statics.free_count; ++i) {
+    const Vec2 at = begin(i);
+    const Colour light = colour_at(scale.colours, layer_share(share_of(scale, at.y / diameter)));
+    const Colour fill = in_second_column(at.x, statics.length, diameter) ? shaded(light) : light;
+    layer.looks.push_back({fill, rim_of(fill)});
+  }
+  Bar bar{"height above the floor at that time, in D", {}, {}};
+  const std::size_t colours = colour_ramp(scale.colours).size();
+  for (std::size_t k = 0; k < colours; ++k)
+    bar.colours.push_back(
+        colour_at(scale.colours, layer_share((static_cast<double>(k) + 0.5) / static_cast<double>(colours))));
+  for (const RoundTick& tick : round_ticks(scale.low, scale.high, most_steps))
+    bar.ticks.push_back({std::clamp(share_of(scale, tick.value), 0.0, 1.0), tick.label});
+  layer.legend.bars = {bar};
+  return layer;
+}
+
+}  // namespace talus

@@ -1,0 +1,69 @@
+#include <algorithm>
+#include <cmath>
+#include <fmt/core.h>
+
+#include "analysis/contact_network.h"
+#include "analysis/rigid_clusters.h"
+#include "pictures/layers.h"
+#include "stress/bed.h"
+
+namespace talus {
+namespace {
+
+constexpr Colour largest_colour{0, 114, 178}, other_colour{230, 159, 0};
+
+Swatch grain_swatch(const GrainLook& look, const std::string& label) {
+  return {Swatch::Kind::disc, look.fill, look.rim, 0.0, label};
+}
+
+}  // namespace
+
+MapLayer coordination_layer(const MapFrame& of, const ScaleChoice& choice) {
+  constexpr double most = 6.0;  // of equal disks
+  const FrameContacts& contacts = of.frame.contacts;
+  const std::vector<Index> counts =
+      loaded_contacts(contacts.a, contacts.b, contacts.fn, of.statics.free_count);
+  const Scale scale = chosen({ColourMap::viridis, 0.0, most}, choice);
+  return {fmt::format("Contacts of grains, z = {:.2f}", coordination_number(counts)),
+          looks_of(scale, std::vector<double>(counts.begin(), counts.end())),
+          {},
+          {{bar_of(scale, "contacts that carry force")}, {}}};
+}
+
+MapLayer mobilised_layer(const MapFrame& of, const ScaleChoice& choice) {
+  const Scale scale = chosen({ColourMap::viridis, 0.0, 1.0}, choice);
+  MapLayer layer{"Mobilised friction of grains",
+                 looks_or_outlines(scale, mobilised_friction_of_grains(of)),
+                 {},
+                 {{bar_of(scale, "|f_t| / μf_n, mean over the contacts of a grain")}, {}}};
+  layer.legend.swatches = {grain_swatch(outline_look(), "no contact")};
+  return layer;
+}
+
+MapLayer rigid_layer(const MapFrame& of, bool over_grains) {
+  const Index fixed = of.statics.free_count;
+  const std::vector<Index> label = find_rigid_clusters(fixed + 1, bonds_of(of)).label;
+  std::vector<Index> bodies(label.size(), 0), grains(label.size(), 0);
+  for (Index body = 0; body <= fixed; ++body) {
+    ++bodies[label[body]];
+    grains[label[body]] += body < fixed ? 1 : 0;
+  }
+  const Index largest = static_cast<Index>(std::ranges::max_element(grains) - grains.begin());
+  const auto look_in = [](const Colour& fill) { return GrainLook{fill, rim_of(fill)}; };
+  MapLayer layer;
+  for (Index i = 0; i < fixed; ++i)
+    layer.looks.push_back(
+        bodies[label[i]] < 2 ? outline_look() : look_in(label[i] == largest ? largest_colour : other_colour));
+  const bool any = bodies[largest] > 1;
+  const double share = any ? 100.0 * grains[largest] / std::max<Index>(1, fixed) : 0.0;
+  layer.title = any ? fmt::format("Rigid clusters, the largest has {:.0f} % of the grains", share)
+                    : std::string("No rigid cluster");
+  layer.legend.swatches = {
+      grain_swatch(look_in(largest_colour),
+                   any && label[fixed] == largest ? "largest, with the floor" : "largest"),
+      grain_swatch(look_in(other_colour), "others")};
+  if (!over_grains) layer.legend.swatches.push_back(grain_swatch(outline_look(), "in none"));
+  return layer;
+}
+
+}  // namespace talus
