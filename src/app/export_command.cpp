@@ -5,8 +5,10 @@
 #include <cstdio>
 #include <fmt/core.h>
 #include <memory>
+#include <optional>
 
 #include "analysis/record.h"
+#include "app/choices.h"
 #include "app/commands.h"
 #include "app/count_progress.h"
 #include "app/frame_options.h"
@@ -28,6 +30,7 @@ struct ExportArguments {
   std::string output;
   FrameOptions frames;
   std::vector<std::string> settings;
+  std::optional<double> length;
   bool overwrite = false;
   bool quiet = false;
 };
@@ -43,7 +46,7 @@ ExportFormat format_of(const std::string& name) {
 /// Without a threshold no grain is overloaded, and none is not.
 void tell_what_is_left_out(const RunFile& run, const ExportPlan& plan) {
   const double theta_c = find_value(run.checkpoint().results, "theta_c").value_or(not_known);
-  if (!std::isnan(theta_c) || plan.parameters.gamma_c) return;
+  if (!std::isnan(theta_c) || plan.parameters.gamma_c || plan.format == ExportFormat::vti) return;
   std::printf(
       "Overloaded grains, their lengths and clusters are left out: the slope has not failed in this run, so "
       "its "
@@ -61,6 +64,9 @@ ExportPlan plan_export(const ExportArguments& arguments) {
   plan.flow = arguments.frames.flow;
   plan.parameters = parse_analysis_settings(arguments.settings);
   check_output_name(plan.format, plan.output);
+  if (arguments.length && plan.format != ExportFormat::vti)
+    throw Error(ExitCode::usage, "--length: it is for --to vti, the only format of coarse-grained fields");
+  plan.field_width = arguments.length.value_or(plan.field_width);
   if (!entry_of(plan.format).has_frames && asks_for_frames(arguments.frames))
     throw Error(
         ExitCode::usage,
@@ -112,6 +118,12 @@ void add_export_command(CLI::App& app) {
           "Change a parameter of the analysis by which grains are overloaded, e.g. --set l_min=0 (see "
           "docs/analysis.md)")
       ->allow_extra_args(false);
+  command
+      ->add_option(
+          "--length", arguments->length,
+          "--to vti: diameter of the coarse-graining function, in mean diameters; points are a tenth "
+          "of it apart [10]")
+      ->check(in_range(1.0, 1000.0));
   command->add_flag("--overwrite", arguments->overwrite, "Replace existing files");
   command->add_flag("-q,--quiet", arguments->quiet, "Print errors and warnings only");
   add_frame_options(*command, arguments->frames);

@@ -12,6 +12,7 @@
 #include "export/exported_frame.h"
 #include "export/graphml.h"
 #include "export/lammps_dump.h"
+#include "export/vti.h"
 #include "export/vtp.h"
 #include "export/xyz.h"
 #include "io/durable_file.h"
@@ -56,6 +57,19 @@ void export_paraview(const RunFile& run, const ExportPlan& plan, const Watch& wa
   });
   write_text(path_in(plan, "grains.pvd"), pvd_text(grains));
   write_text(path_in(plan, "contacts.pvd"), pvd_text(contacts));
+}
+
+void export_fields(const RunFile& run, const ExportPlan& plan, const Watch& watch) {
+  const RunStatics& statics = run.header().statics;
+  const double width = plan.field_width * statics.mean_diameter;
+  check_field_width(statics, width);
+  prepare_folder(path_in(plan, "frames"));
+  std::vector<PvdEntry> fields;
+  for_each_frame(run, plan, watch, [&](const ExportedFrame& frame) {
+    fields.push_back({frame.frame.time, frame_name("frames/fields", frame.number, ".vti")});
+    write_text(path_in(plan, fields.back().file), fields_vti(frame, width));
+  });
+  write_text(path_in(plan, "fields.pvd"), pvd_text(fields));
 }
 
 /// All frames one after the other in one file, below a head.
@@ -134,6 +148,11 @@ std::vector<std::string> files_of(const ExportPlan& plan) {
         for (const char* what : {"frames/grains", "frames/contacts"})
           files.push_back(path_in(plan, frame_name(what, number, ".vtp")));
       return files;
+    case ExportFormat::vti:
+      files = {path_in(plan, "fields.pvd")};
+      for (const std::size_t number : plan.frames)
+        files.push_back(path_in(plan, frame_name("frames/fields", number, ".vti")));
+      return files;
     case ExportFormat::csv:
       return {path_in(plan, "frames.csv"), path_in(plan, "grains.csv"), path_in(plan, "contacts.csv")};
     case ExportFormat::graphml:
@@ -157,6 +176,9 @@ std::size_t export_files(const RunFile& run, const ExportPlan& plan, const Watch
   switch (plan.format) {
     case ExportFormat::paraview:
       export_paraview(run, plan, watch);
+      break;
+    case ExportFormat::vti:
+      export_fields(run, plan, watch);
       break;
     case ExportFormat::xyz:
       export_series(run, plan, watch, "", xyz_text);

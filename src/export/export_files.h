@@ -18,6 +18,7 @@ struct ExportPlan {
   std::vector<std::size_t> frames;  ///< numbers in the run, ascending; none where the format has no frames
   bool flow = false;                ///< where it has none: also what was observed after failure
   AnalysisParameters parameters;    ///< of overloaded grains, their lengths and clusters
+  double field_width = 10.0;        ///< D: diameter of the coarse-graining function of vti
 };
 
 /// Throws Error(usage) where a format that writes one file has another ending than the name of the output.

@@ -12,6 +12,9 @@ namespace {
 constexpr auto entries = std::to_array<FormatEntry>({
     {ExportFormat::paraview, "paraview", "ParaView", ExportOutput::folder, "",
      "grains.pvd and contacts.pvd over time, with grains as points and contacts as lines"},
+    {ExportFormat::vti, "vti", "ParaView", ExportOutput::folder, "",
+     "fields.pvd over time, with density, momentum, stress and strain rate of the bed as a continuum on a "
+     "grid"},
     {ExportFormat::xyz, "xyz", "OVITO and ASE", ExportOutput::file, ".xyz",
      "grains of all frames as extended XYZ, lengths in D"},
     {ExportFormat::lammps, "lammps", "OVITO", ExportOutput::file, ".dump",

@@ -8,7 +8,7 @@
 
 namespace talus {
 
-enum class ExportFormat { paraview, xyz, lammps, graphml, csv, observables };
+enum class ExportFormat { paraview, vti, xyz, lammps, graphml, csv, observables };
 
 /// What the output of a format is called.
 enum class ExportOutput {

@@ -66,7 +66,7 @@ TEST_F(Export, writes_the_frames_that_are_asked_for) {
 TEST_F(Export, refuses_what_makes_no_sense) {
   const std::vector<std::tuple<Words, int, std::string>> cases = {
       {{"--to", "paravew", "-o", "x"}, 64, "did you mean 'paraview'?"},
-      {{"--to", "stl", "-o", "x"}, 64, "expected one of paraview, xyz, "},
+      {{"--to", "stl", "-o", "x"}, 64, "expected one of paraview, vti, xyz, "},
       {{"--to", "xyz", "-o", "x"}, 64, "x: expected a name that ends in .xyz"},
       {{"--to", "lammps", "-o", "x.xyz"}, 64, "ends in .dump"},
       {{"--to", "graphml", "-o", "x.graphml"}, 64, "there are 4 frames, each in a file of its own"},
@@ -86,6 +86,9 @@ TEST_F(Export, refuses_what_makes_no_sense) {
       {{"--to", "paraview", "-o", "x", "--at", "1", "--frames", "1"}, 64, "--frames"},
       {{"--to", "paraview", "-o", "x", "--every", "0"}, 64, "--every"},
       {{"--to", "paraview", "-o", "x", "--set", "lmin=0"}, 65, "l_min"},
+      {{"--to", "paraview", "-o", "x", "--length", "4"}, 64, "--to vti"},
+      {{"--to", "vti", "-o", "x", "--length", "0"}, 64, "--length"},
+      {{"--to", "vti", "-o", "x", "--length", "900"}, 64, "length of the bed"},
       {{"--to", "paraview", "-o", ""}, 64, "empty"},
   };
   for (const auto& [words, code, part] : cases) {

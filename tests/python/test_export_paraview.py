@@ -127,3 +127,33 @@ def test_runs_under_way_have_no_threshold_unless_one_is_given(stopped, tmp_path)
     np.testing.assert_array_equal(given["gamma"], np.float32(given["gamma_neighbourhood"]))
     free = given["type"] == 1
     np.testing.assert_array_equal(given["overloaded_1_5"][free], given["gamma"][free] >= 0.45)
+
+
+def test_fields_on_a_grid_sum_up_to_the_packings_own_values(run, analysed, tmp_path):
+    """Over all points, times the area of one: mass, momentum, and internal moments without their part of rotations."""
+    folder = tmp_path / "fields"
+    run_talus("export", analysed, "--to", "vti", "--frames", "0,11", "--length", "4", "-o", folder)
+    listed = entries(folder / "fields.pvd")
+    assert [time for time, _ in listed] == [run.frames[k].time for k in (0, 11)]
+    for (_, file), k in zip(listed, (0, 11)):
+        reader = vtk.vtkXMLImageDataReader()
+        reader.SetFileName(str(file))
+        reader.Update()
+        assert reader.GetErrorCode() == 0
+        grid = reader.GetOutput()
+        values, units = arrays(grid.GetPointData())
+        area = grid.GetSpacing()[0] * grid.GetSpacing()[1]
+        frame = run.frames[k]
+        free = frame.free
+        mass = run.mass[free]
+        rotation = 0.5 * (0.5 * mass * run.radius[free] ** 2) * frame.angular_velocity[free] ** 2
+        moment = frame.internal_moment[free].sum(axis=0) + rotation.sum() * np.eye(2)
+        assert values["density"].sum() * area == pytest.approx(mass.sum(), rel=2e-3)
+        momentum = (mass[:, None] * frame.velocity[free]).sum(axis=0)
+        speed = (mass * np.linalg.norm(frame.velocity[free], axis=1)).sum()
+        assert values["momentum"].sum(axis=0) * area == pytest.approx(momentum, abs=2e-3 * speed)
+        stress = values["contact_stress"].sum(axis=0).reshape(2, 2) * area
+        assert stress == pytest.approx(moment, abs=2e-3 * np.trace(moment))
+        assert units["density"] == "kg/m^3" and units["stress"] == "Pa" and units["shear_rate"] == "1/s"
+        inside = values["solid_fraction"].max()
+        assert 0.7 < inside < 0.95

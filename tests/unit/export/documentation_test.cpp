@@ -8,6 +8,7 @@
 
 #include "export/fields.h"
 #include "export/formats.h"
+#include "export/vti.h"
 
 namespace talus::test {
 namespace {
@@ -43,14 +44,23 @@ const char* text_of(FieldNumber number) {
   return "double";
 }
 
+const char* text_of(FieldShape shape) {
+  return shape == FieldShape::scalar ? "1" : shape == FieldShape::vector ? "x, y" : "xx, xy, yx, yy";
+}
+
+std::string rows_of(std::span<const GridField> fields) {
+  std::string rows;
+  for (const GridField& field : fields)
+    rows += fmt::format("| `{}` | {} | {} | {} |\n", field.name, text_of(field.shape), field.unit,
+                        field.definition);
+  return rows;
+}
+
 std::string rows_of(std::span<const Field> fields) {
   std::string rows;
   for (const Field& field : fields)
     rows += fmt::format("| `{}{}` | {} | {} | {} | {} |\n", field.name, field.by_threshold ? "_FACTOR" : "",
-                        field.shape == FieldShape::scalar   ? "1"
-                        : field.shape == FieldShape::vector ? "x, y"
-                                                            : "xx, xy, yx, yy",
-                        text_of(field.number), field.unit, field.definition);
+                        text_of(field.shape), text_of(field.number), field.unit, field.definition);
   return rows;
 }
 
@@ -68,6 +78,8 @@ TEST(ExportPage, lists_the_fields) {
   EXPECT_NE(page().find(head + rows_of(grain_fields()) + "\n"), std::string::npos) << rows_of(grain_fields());
   EXPECT_NE(page().find(head + rows_of(contact_fields()) + "\n"), std::string::npos)
       << rows_of(contact_fields());
+  EXPECT_NE(page().find("|---|---|---|---|\n" + rows_of(grid_fields()) + "\n"), std::string::npos)
+      << rows_of(grid_fields());
 }
 
 }  // namespace
