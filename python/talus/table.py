@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
 
 #: What an analysis has once, whatever the number of its frames.
-OF_THE_RUN = ("threshold", "theta_d/", "correlation/distance", "lc/end_ratio")
+OF_THE_RUN = ("threshold", "theta_d/", "correlation/distance", "lc/end_ratio", "events/")
 
 
 class Table(Mapping[str, Any]):

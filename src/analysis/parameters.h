@@ -26,6 +26,10 @@ struct AnalysisParameters {
   int min_contacts = 1;  ///< force-carrying contacts that a grain must have to count
   int sections = 20;
   int bins = 50;
+  std::optional<double> event_velocity;  ///< g h; without a value: from the tolerance of the solver
+  double event_quiet = 1.0;              ///< sqrt(D/g) below it, after which an event is over
+  double event_displacement = 0.01;      ///< D from which on a grain counts as moved
+  std::optional<double> event_size_min;  ///< m g D where the law of sizes begins; without a value: by the fit
 };
 
 }  // namespace talus

@@ -43,6 +43,8 @@ void for_each_record(SomeAnalysis& analysis, const Use& use) {
     use(analysis);
   else if constexpr (std::is_same_v<Record, RunThreshold>)
     std::ranges::for_each(analysis.thresholds, use);
+  else if constexpr (std::is_same_v<Record, EventRecord>)
+    std::ranges::for_each(analysis.events, use);
   else
     for (auto& frame : analysis.frames) {
       if constexpr (std::is_same_v<Record, FrameRecord>)
@@ -204,6 +206,8 @@ double number_of(const Quantity& quantity, const Analysis& analysis, std::size_t
 }
 
 bool needs_threshold(const Quantity& quantity) { return quantity.shape.find('F') != std::string::npos; }
+
+bool is_of_events(const Quantity& quantity) { return quantity.shape.find('E') != std::string::npos; }
 
 double scaled(const Quantity& quantity, double value, double mean_diameter) {
   if (quantity.unit == "m") return value / mean_diameter;

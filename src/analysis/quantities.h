@@ -16,7 +16,7 @@
 namespace talus {
 
 /// Where a quantity is found in an Analysis. The type of the record says what it is one of: a run, a
-/// threshold, a frame, or a frame at a threshold.
+/// threshold, a frame, a frame at a threshold, or an event.
 using QuantityMember =
     std::variant<double Analysis::*, std::array<double, 2> Analysis::*, std::vector<double> Analysis::*,
                  double RunThreshold::*, double FrameRecord::*, Index FrameRecord::*,
@@ -24,7 +24,8 @@ using QuantityMember =
                  std::array<double, 4> FrameRecord::*, std::vector<double> FrameRecord::*,
                  double FrameThreshold::*, Index FrameThreshold::*, std::array<Index, 2> FrameThreshold::*,
                  std::array<double, 2> FrameThreshold::*, std::vector<float> FrameThreshold::*,
-                 std::vector<Index> FrameThreshold::*>;
+                 std::vector<Index> FrameThreshold::*, double EventRecord::*, Index EventRecord::*,
+                 std::array<double, 2> EventRecord::*>;
 
 /// How a quantity is shown beside others; empty for one that no curve shows.
 struct Display {
@@ -89,6 +90,9 @@ double number_of(const Quantity& quantity, const Analysis& analysis, std::size_t
 
 /// Whether it depends on the threshold: there is none of it in an analysis without thresholds.
 bool needs_threshold(const Quantity& quantity);
+
+/// Whether there is one of it for each event: there is none of it in an analysis without events.
+bool is_of_events(const Quantity& quantity);
 
 /// In the unit of tables: lengths in mean diameters (m), angles in degrees, all else as it is.
 double scaled(const Quantity& quantity, double value, double mean_diameter);

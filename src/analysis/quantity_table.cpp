@@ -1,3 +1,4 @@
+#include "analysis/event_quantities.h"
 #include "analysis/quantities.h"
 
 namespace talus {
@@ -451,7 +452,7 @@ const std::vector<Quantity>& quantities() {
     for (const QuantityRows& part :
          {general_rows(), packing_rows(), overload_rows(), cluster_rows(), contact_rows(), texture_rows(),
           topology_rows(), layer_rows(), rigidity_rows(), deformation_rows(), continuum_rows(),
-          correlation_rows(), transition_rows()})
+          correlation_rows(), transition_rows(), event_quantities()})
       all.insert(all.end(), part.begin(), part.end());
     return all;
   }();

@@ -124,6 +124,34 @@ struct RunThreshold {
   double percolation_error = not_known;
 };
 
+/// What an event is, as far as distributions go: only rearrangements count there.
+enum class EventKind : Index {
+  rearrangement = 0,
+  failure = 1,     ///< the flow that failed the slope, and what comes after it
+  unfinished = 2,  ///< it goes on where the tilt ends
+};
+
+/// A rearrangement: a burst of motion between two quiet times.
+struct EventRecord {
+  double begin = not_known;  ///< rad
+  double end = not_known;    ///< rad
+  double time = not_known;
+  double duration = not_known;
+  double waiting = not_known;
+  Index kind = 0;  ///< EventKind
+  double peak_velocity = not_known;
+  double path = not_known;
+  double energy = not_known;
+  double volume_strain = not_known;
+  double centre_of_mass_strain = not_known;
+  double coordination_number = not_known;
+  Index grains = 0;
+  double depth = not_known;
+  std::array<double, 2> centre = two_not_known;
+  std::array<double, 2> frame_tilt = two_not_known;
+  Index sharing = 0;
+};
+
 /// The analysis of a run. Without theta_c and without a threshold that is given there are no thresholds.
 struct Analysis {
   std::string key;   ///< the hash of all that it was made from
@@ -148,8 +176,28 @@ struct Analysis {
   std::array<double, 2> dilation = two_not_known;  ///< by the volume, by the centre of mass
   std::array<double, 2> dilation_low = two_not_known;
   std::array<double, 2> dilation_high = two_not_known;
+  double event_threshold = not_known;
+  double event_noise = not_known;
+  double event_quiet_time = not_known;
+  double event_count = not_known;
+  double event_energy = not_known;
+  double event_dilating_share = not_known;
+  double event_dilating_share_error = not_known;
+  double event_size_exponent = not_known;
+  double event_size_exponent_error = not_known;
+  double event_size_minimum = not_known;
+  double event_size_distance = not_known;
+  double event_size_count = not_known;
+  double event_waiting_exponent = not_known;
+  double event_waiting_exponent_error = not_known;
+  double event_waiting_minimum = not_known;
+  double event_waiting_distance = not_known;
+  double event_waiting_count = not_known;
+  double event_waiting_mean = not_known;
+  double event_waiting_mean_error = not_known;
   std::vector<RunThreshold> thresholds{};
   std::vector<FrameRecord> frames{};
+  std::vector<EventRecord> events{};  ///< in their order
 };
 
 }  // namespace talus

@@ -6,6 +6,7 @@
 #include <fmt/core.h>
 #include <initializer_list>
 
+#include "app/event_report.h"
 #include "core/trigonometry.h"
 #include "session/analysis_parameters.h"
 
@@ -124,12 +125,12 @@ std::string transition_table(const AnalysedRun& run) {
 
 std::string analysis_text(const AnalysedRun& run) {
   return fmt::format(
-      "{}\n{}{}\n{}", heading(run), series_table(run),
+      "{}\n{}{}\n{}{}", heading(run), series_table(run),
       !run.analysis.thresholds.empty()
           ? "l_c in D; largest: share of the overloaded grains in the largest cluster; spans: H floor to "
             "surface, L along the bed\n"
           : "",
-      transition_table(run));
+      transition_table(run), event_summary(run));
 }
 
 }  // namespace talus

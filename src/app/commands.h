@@ -10,6 +10,7 @@ void add_run_command(CLI::App& app);
 void add_check_command(CLI::App& app);
 void add_info_command(CLI::App& app);
 void add_analyze_command(CLI::App& app);
+void add_events_command(CLI::App& app);
 void add_render_command(CLI::App& app);
 void add_maps_command(CLI::App& app);
 void add_animate_command(CLI::App& app);

@@ -25,6 +25,7 @@ constexpr Example examples[] = {
     {"animate", "talus animate demo.h5 --map coarse+forces --speed 2 -o demo.mp4"},
     {"maps", "talus maps"},
     {"analyze", "talus analyze demo.h5"},
+    {"events", "talus events demo.h5 --largest 20"},
     {"figures", "talus figures demo.h5 -o figures"},
     {"export", "talus export demo.h5 --to paraview --at 0,10,repose -o paraview"},
     {"ensemble", "talus ensemble assets/scenarios/demo.toml --seeds 1-8 -o beds"},

@@ -5,6 +5,7 @@
 #include "figures/angle_figures.h"
 #include "figures/contact_figures.h"
 #include "figures/dynamic_angle.h"
+#include "figures/event_figure.h"
 #include "figures/force_chains.h"
 #include "figures/map_panels.h"
 #include "figures/neighbourhoods_figure.h"
@@ -74,6 +75,8 @@ std::span<const FigureRecipe> figure_catalogue() {
        Subject::further, "a run that has failed", weak_contacts_figure},
       {"persistence", "Persistence of the force network", frames, Subject::further, "a run that has failed",
        persistence_figure},
+      {"events", "Rearrangements on the way to failure", frames, Subject::further,
+       "a run with rearrangements (talus events)", event_figure},
       {"difference-over-tilt", "Difference of two groups of runs over tilt", values, Subject::further,
        "two groups of runs, no more and no fewer", differences_over_tilt},
       {"difference-before-failure", "Difference of two groups of runs over the angle left to failure", values,

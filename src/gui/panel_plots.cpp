@@ -55,6 +55,8 @@ void draw_plots(Gui& gui) {
   PlotMarks marks;
   marks.shown = degrees(gui.model.frame().tilt);
   if (gui.model.theta_c_known()) marks.theta_c = degrees(gui.model.theta_c());
+  for (const TimelineEvent& event : gui.model.events())
+    if (event.kind == TimelineEvent::Kind::rearrangement) marks.ticks.push_back(degrees(event.tilt));
   const auto enlarged = std::ranges::find(plots, gui.model.state.enlarged_plot, &Plot::name);
   if (enlarged != plots.end()) return draw_enlarged(gui, *enlarged, marks);
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0.0f, 0.0f});

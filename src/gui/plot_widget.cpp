@@ -15,6 +15,7 @@ namespace {
 constexpr ImU32 plot_ink = IM_COL32(0, 0, 0, 255);
 constexpr ImU32 faint = IM_COL32(0, 0, 0, 90);
 constexpr ImU32 mark_colour = IM_COL32(90, 90, 90, 255);
+constexpr ImU32 tick_colour = IM_COL32(176, 92, 0, 255);
 
 /// Colours of the curves, in their order; they differ in lightness.
 ImU32 curve_colour(std::size_t k) {
@@ -217,6 +218,8 @@ void draw_names(ImDrawList& list, const Plot& plot, const ImVec2& place, float r
 void draw_marks(ImDrawList& list, const Axes& axes, const PlotMarks& marks, float em) {
   if (marks.shown)
     list.AddLine({axes.px(*marks.shown), axes.low.y}, {axes.px(*marks.shown), axes.high.y}, mark_colour);
+  for (const double tick : marks.ticks)
+    list.AddLine({axes.px(tick), axes.high.y}, {axes.px(tick), axes.high.y - 0.7f * em}, tick_colour);
   if (!marks.theta_c) return;
   const float x = axes.px(*marks.theta_c), dash = 0.3f * em;
   for (float y = axes.low.y; y < axes.high.y; y += 2.0f * dash)

@@ -2,6 +2,7 @@
 /// A plot: axes with round ticks, curves, a line at the frame shown, values under the mouse.
 
 #include <optional>
+#include <vector>
 
 #include "gui/widgets.h"
 
@@ -11,6 +12,7 @@ namespace talus {
 struct PlotMarks {
   std::optional<double> shown;    ///< x of the frame shown
   std::optional<double> theta_c;  ///< dashed
+  std::vector<double> ticks{};    ///< short ones, up from the axis: rearrangements
 };
 
 /// The value of a curve nearest to x; NaN where it has none.

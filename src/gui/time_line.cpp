@@ -20,6 +20,8 @@ ImU32 event_colour(TimelineEvent::Kind kind) {
       return IM_COL32(170, 20, 0, 255);
     case TimelineEvent::Kind::command:
       return IM_COL32(0, 114, 178, 255);
+    case TimelineEvent::Kind::rearrangement:
+      return IM_COL32(176, 92, 0, 255);
     case TimelineEvent::Kind::transition:
       break;
   }
@@ -70,13 +72,17 @@ void draw_labels(ImDrawList& list, const Track& track, std::span<const TimelineE
     }
 }
 
-/// A stroke for each event; a command has an arrow.
+/// A stroke for each event; that of a rearrangement stands at the bottom, as high as it is large, and a
+/// command has an arrow.
 void draw_events(Gui& gui, ImDrawList& list, const Track& track) {
   const float em = gui.em, top = track.low.y;
   for (const TimelineEvent& event : gui.model.events()) {
     const float x = track.px(event.place);
     const ImU32 colour = event_colour(event.kind);
-    list.AddLine({x, top - 0.15f * em}, {x, track.high.y}, colour, 0.14f * em);
+    const bool rearranges = event.kind == TimelineEvent::Kind::rearrangement;
+    const float high =
+        rearranges ? std::lerp(track.high.y, top, static_cast<float>(event.size)) : top - 0.15f * em;
+    list.AddLine({x, high}, {x, track.high.y}, colour, 0.14f * em);
     note_place(gui, "event " + event.name, {x - 0.2f * em, top}, {x + 0.2f * em, track.high.y});
     if (event.kind == TimelineEvent::Kind::command)
       list.AddTriangleFilled({x, top + 0.3f * em}, {x - 0.3f * em, top - 0.2f * em},

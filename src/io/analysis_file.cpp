@@ -61,10 +61,12 @@ std::vector<double> analysed_tilts(const std::string& path) {
   return tilts;
 }
 
-/// The frames and thresholds of a stored analysis, with nothing in them yet.
+/// The frames, thresholds and events of a stored analysis, with nothing in them yet.
 void make_records(hdf5::Reader& reader, const std::vector<double>& tilts, Analysis& analysis) {
   if (reader.has(analysis_group + "/threshold"))
     analysis.thresholds.resize(reader.row_count(analysis_group + "/threshold"));
+  if (const std::string first = data_set_of(quantity_of(&EventRecord::begin)).path; reader.has(first))
+    analysis.events.resize(reader.row_count(first));
   for (const double tilt : tilts) {
     analysis.frames.push_back({.tilt = tilt});
     analysis.frames.back().thresholds.resize(analysis.thresholds.size());

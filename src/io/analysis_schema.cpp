@@ -38,12 +38,14 @@ Sizes sizes_of(const Analysis& analysis) {
                  {'X', analysis.section_edge.size() - 1},
                  {'Y', analysis.layer_edge.size() - 1},
                  {'B', analysis.gamma_edge.size() - 1}};
+  if (!analysis.events.empty()) sizes['E'] = analysis.events.size();
   if (!analysis.thresholds.empty()) sizes['N'] = analysis.frames.front().thresholds.front().lc.size();
   return sizes;
 }
 
 bool is_present(const Quantity& quantity, const Analysis& analysis) {
-  return !needs_threshold(quantity) || !analysis.thresholds.empty();
+  if (needs_threshold(quantity)) return !analysis.thresholds.empty();
+  return !is_of_events(quantity) || !analysis.events.empty();
 }
 
 }  // namespace talus

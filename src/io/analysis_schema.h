@@ -28,7 +28,7 @@ std::string analysis_path(std::string_view name);
 /// The letters of the shapes for an analysis of one frame at least.
 Sizes sizes_of(const Analysis& analysis);
 
-/// Whether an analysis has it: what needs a threshold is not there without any.
+/// Whether an analysis has it: what needs a threshold, or events, is not there without any.
 bool is_present(const Quantity& quantity, const Analysis& analysis);
 
 }  // namespace talus

@@ -50,6 +50,19 @@ const std::vector<AnalysisKey>& analysis_keys() {
       {{"sections", "", IntegerRange{1, 1000}, "equal sections along the bed, for sigma_xx over x"},
        &P::sections},
       {{"bins", "", IntegerRange{1, 1000}, "bins of each distribution and correlation"}, &P::bins},
+      {{"event_velocity", "g h", above_zero_or(1e6, "solver"),
+        "rms velocity of the free grains from which on a bed rearranges; solver: what the solver leaves at "
+        "its tolerance, times 10"},
+       &P::event_velocity},
+      {{"event_quiet", "sqrt(D/g)", from_zero_to(1000.0),
+        "time for which a bed must stay below event_velocity for a rearrangement to be over"},
+       &P::event_quiet},
+      {{"event_displacement", "D", from_zero_to(100.0),
+        "displacement from which on a grain has moved in an event"},
+       &P::event_displacement},
+      {{"event_size_min", "m g D", above_zero_or(1e12, "fit"),
+        "energy from which on sizes are fitted by a power law; fit: that which it agrees with best"},
+       &P::event_size_min},
   };
   return keys;
 }

@@ -17,6 +17,7 @@
 #include "io/analysis_schema.h"
 #include "session/analysis_input.h"
 #include "session/analysis_parameters.h"
+#include "session/event_catalogue.h"
 
 namespace talus {
 namespace {
@@ -161,6 +162,7 @@ Analysis analyse_run(const RunFile& run, const AnalysisParameters& parameters, i
   find_failure_ratio(rows, analysis);
   find_transitions(analysis);
   find_growth(analysis);
+  find_events(run, rows, parameters, analysis);
   analysis.first_slide =
       first_slide(column(rows, Observable::tilt), column(rows, Observable::surface_displacement),
                   slide_distance * statics.mean_diameter, radians(slide_window));

@@ -77,6 +77,30 @@ void add_of_frames(EventList& list, double theta_c) {
            percolation_onset(tilts, spans, theta_c).tilt);
 }
 
+/// Decades of energy below the largest rearrangement in which those are told apart, and the size of the rest.
+constexpr double told_decades = 4.0;
+constexpr double least_size = 0.2;
+
+/// Not the flow that fails the slope, of which theta_c tells.
+void add_rearrangements(EventList& list) {
+  std::vector<EventRecord> chosen(list.source.rearrangements.begin(), list.source.rearrangements.end());
+  std::erase_if(chosen, [](const EventRecord& event) {
+    return event.kind == static_cast<Index>(EventKind::failure) || !std::isfinite(event.begin);
+  });
+  double largest = 0.0;
+  for (const EventRecord& event : chosen) largest = std::fmax(largest, event.energy);
+  for (std::size_t k = 0; k < chosen.size(); ++k) {
+    const EventRecord& event = chosen[k];
+    list.add(fmt::format("rearrangement {}", k).c_str(), "",
+             fmt::format("rearrangement, {:.3g} m g D, {} grains moved; the bed {}",
+                         event.energy / list.source.energy_unit, event.grains,
+                         event.centre_of_mass_strain > 0.0 ? "dilates" : "contracts"),
+             event.begin, TimelineEvent::Kind::rearrangement);
+    const double below = std::log10(largest / event.energy) / told_decades;
+    list.events.back().size = std::isfinite(below) ? std::clamp(1.0 - below, least_size, 1.0) : least_size;
+  }
+}
+
 }  // namespace
 
 double place_among(std::span<const double> tilts, double tilt) {
@@ -95,6 +119,7 @@ std::vector<TimelineEvent> timeline_events(const TimelineSource& source) {
   add_of_frames(list, theta_c);
   if (source.theta_c)
     list.add("theta_c", "θ_c", "the slope fails", *source.theta_c, TimelineEvent::Kind::failure);
+  add_rearrangements(list);
   for (std::size_t k = 0; k < source.commands.size(); ++k)
     list.add(fmt::format("command {}", k).c_str(), "", command_text(source.commands[k]),
              tilt_after(source.rows, source.commands[k].step), TimelineEvent::Kind::command);

@@ -13,33 +13,36 @@
 namespace talus {
 
 struct TimelineEvent {
-  enum class Kind { transition, failure, command };
+  enum class Kind { transition, failure, command, rearrangement };
   std::string name;   ///< "dilation", "theta_c", "command 0": also the name of its widget
-  std::string label;  ///< rich text, short: "θ_d"; empty for a command
+  std::string label;  ///< rich text, short: "θ_d"; empty for a command, and for a rearrangement
   std::string what;   ///< rich text: what happens, by which measure
   Kind kind = Kind::transition;
   double tilt = 0.0;      ///< rad
   double place = 0.0;     ///< frames from the first one, between two of them
   std::size_t frame = 0;  ///< the nearest
+  double size = 1.0;      ///< in (0, 1]: of a rearrangement, by the logarithm of its energy
 };
 
 /// What the events follow from, as far as it is known.
 struct TimelineSource {
-  std::vector<double> tilts;              ///< rad, of the frames of the tilt, ascending
-  std::span<const ObservableRow> rows;    ///< of the tilt
-  std::span<const FrameRecord> values;    ///< of the first frames of the tilt, with one threshold
-  std::span<const Command> commands;      ///< in their order
-  std::optional<double> theta_c;          ///< rad
-  double mean_diameter = 0.0, cut = 0.0;  ///< m; l_c is searched for up to the second
-  bool may_change = false;                ///< more frames will come
+  std::vector<double> tilts;                    ///< rad, of the frames of the tilt, ascending
+  std::span<const ObservableRow> rows;          ///< of the tilt
+  std::span<const FrameRecord> values;          ///< of the first frames of the tilt, with one threshold
+  std::span<const Command> commands;            ///< in their order
+  std::span<const EventRecord> rearrangements;  ///< of a stored analysis, in their order
+  double energy_unit = 1.0;                     ///< m g D, J/m
+  std::optional<double> theta_c;                ///< rad
+  double mean_diameter = 0.0, cut = 0.0;        ///< m; l_c is searched for up to the second
+  bool may_change = false;                      ///< more frames will come
 };
 
 /// Where a tilt (rad) is among ascending tilts, in frames; not beyond the first and the last. 0 for none.
 double place_among(std::span<const double> tilts, double tilt);
 
-/// theta_d by each estimator, the jump of l_c, where a cluster first spans, the first slide, theta_c and the
-/// commands, as analyses find them (analysis/transition.h), in the order of their places. What needs the
-/// values of all frames comes when they are there. None where there are no frames.
+/// theta_d by each estimator, the jump of l_c, where a cluster first spans, the first slide, theta_c, the
+/// rearrangements and the commands, as analyses find them (analysis/transition.h), in the order of their
+/// places. What needs the values of all frames comes when they are there. None where there are no frames.
 std::vector<TimelineEvent> timeline_events(const TimelineSource& source);
 
 }  // namespace talus

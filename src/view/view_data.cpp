@@ -8,6 +8,7 @@
 #include "core/errors.h"
 #include "core/trigonometry.h"
 #include "pictures/frame_choice.h"
+#include "session/event_catalogue.h"
 
 namespace talus {
 
@@ -147,6 +148,8 @@ void ViewModel::Data::find_events() {
   source.rows = rows;
   source.values = series->values();
   source.commands = commands;
+  if (analysis) source.rearrangements = analysis->events;
+  source.energy_unit = mean_grain_mass(all_statics) * all_statics.gravity * all_statics.mean_diameter;
   source.theta_c = theta_c;
   source.mean_diameter = statics().mean_diameter;
   source.cut = length_cut(statics(), series->rule().l_min);

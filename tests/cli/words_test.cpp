@@ -134,7 +134,7 @@ TEST_F(TypedWords, help_has_groups_and_a_first_example) {
   const std::string help = talus({"--help"}).out;
   EXPECT_EQ(names_below(help, "Runs:"), (Words{"run", "check", "info", "replay", "repair"}));
   EXPECT_EQ(names_below(help, "Pictures:"), (Words{"view", "render", "panel", "animate", "maps"}));
-  EXPECT_EQ(names_below(help, "Results:"), (Words{"analyze", "figures", "export"}));
+  EXPECT_EQ(names_below(help, "Results:"), (Words{"analyze", "events", "figures", "export"}));
   EXPECT_EQ(names_below(help, "Many runs:"), (Words{"ensemble", "study", "perturb", "reproduce"}));
   EXPECT_EQ(names_below(help, "Contact problems:"), (Words{"dump", "solve", "forces"}));
   const std::size_t example = help.find("\n  talus run assets/scenarios/demo.toml -o demo.h5\n");
@@ -159,7 +159,7 @@ TEST_F(TypedWords, each_command_has_an_example_of_its_options_in_lines_that_fit)
       commands.push_back({command});
   for (const std::string& command : names_below(talus({"ensemble", "--help"}).out, "Subcommands:"))
     commands.push_back({"ensemble", command});
-  ASSERT_EQ(commands.size(), 26u);
+  ASSERT_EQ(commands.size(), 27u);
   for (Words command : commands) {
     const std::size_t depth = command.size();
     command.emplace_back("--help");

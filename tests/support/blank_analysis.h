@@ -7,7 +7,7 @@ namespace talus::test {
 
 /// How large the arrays of an analysis are, by the letters of its shapes.
 struct AnalysisSizes {
-  std::size_t frames = 1, thresholds = 0, grains = 1, sections = 1, bins = 1, layers = 1;
+  std::size_t frames = 1, thresholds = 0, grains = 1, sections = 1, bins = 1, layers = 1, events = 0;
 };
 
 /// All of its size, and NaN or 0.
@@ -15,9 +15,10 @@ inline Analysis blank_analysis(const AnalysisSizes& of, std::span<const Quantity
   Analysis analysis;
   analysis.thresholds.resize(of.thresholds);
   analysis.frames.resize(of.frames);
+  analysis.events.resize(of.events);
   for (FrameRecord& frame : analysis.frames) frame.thresholds.resize(of.thresholds);
-  const Sizes sizes = {{'T', of.frames},   {'F', of.thresholds}, {'N', of.grains},
-                       {'X', of.sections}, {'B', of.bins},       {'Y', of.layers}};
+  const Sizes sizes = {{'T', of.frames}, {'F', of.thresholds}, {'N', of.grains}, {'X', of.sections},
+                       {'B', of.bins},   {'Y', of.layers},     {'E', of.events}};
   for (const Quantity& quantity : table) {
     if (!is_present(quantity, analysis)) continue;
     std::size_t count = 1;

@@ -69,6 +69,16 @@ TEST_F(AnalysisFile, leaves_out_what_needs_a_threshold_where_there_is_none) {
   EXPECT_TRUE(is_present(quantity_of(&FrameRecord::stress), read));
 }
 
+TEST_F(AnalysisFile, has_as_many_events_as_there_are) {
+  store_analysis(path_, example::analysis(2, 1), state_);
+  EXPECT_EQ(read_analysis(path_).value().events.size(), 4u);
+  store_analysis(path_, example::analysis(0, 1), state_);
+  const Analysis none = read_analysis(path_).value();
+  EXPECT_TRUE(none.events.empty());
+  EXPECT_FALSE(is_present(quantity_of(&EventRecord::energy), none));
+  EXPECT_TRUE(is_present(quantity_of(&Analysis::event_count), none));
+}
+
 TEST_F(AnalysisFile, keeps_the_run_to_the_last_bit) {
   store_analysis(path_, example::analysis(2, 1), state_);
   const RunFile run = RunFile::open(path_);

@@ -8,8 +8,12 @@ namespace talus::example {
 std::string analysed_state() { return hash_text(state_hash(checkpoint(analysis_commits - 1).world)); }
 
 Analysis analysis(std::uint64_t thresholds, int serial) {
-  Analysis analysis = test::blank_analysis(
-      {.frames = 3, .thresholds = thresholds, .grains = grain_count, .sections = 5, .bins = 4});
+  Analysis analysis = test::blank_analysis({.frames = 3,
+                                            .thresholds = thresholds,
+                                            .grains = grain_count,
+                                            .sections = 5,
+                                            .bins = 4,
+                                            .events = 2 * thresholds});
   analysis.key = hash_text(static_cast<std::uint64_t>(serial));
   analysis.parameters = {{"threshold_factors", "1,2"},
                          {"gamma_c", "run"},

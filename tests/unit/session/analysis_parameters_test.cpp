@@ -24,7 +24,8 @@ std::string refusal(const std::vector<std::string>& settings) {
 TEST(AnalysisParameters, are_taken_from_settings) {
   const AnalysisParameters p = parse_analysis_settings(
       {"threshold_factors=0.5,1,3", "gamma_c=0.3", "l_min=0", "lc_factor=2", "lc_cut=30",
-       "joining=neighbours", "averaging=0.5", "min_contacts=3", "sections=7", "bins=10"});
+       "joining=neighbours", "averaging=0.5", "min_contacts=3", "sections=7", "bins=10",
+       "event_velocity=0.02", "event_quiet=2", "event_displacement=0.05", "event_size_min=0.1"});
   EXPECT_EQ(p.threshold_factors, (std::vector{0.5, 1.0, 3.0}));
   EXPECT_EQ(p.gamma_c, 0.3);
   EXPECT_EQ(p.l_min, 0.0);
@@ -35,6 +36,10 @@ TEST(AnalysisParameters, are_taken_from_settings) {
   EXPECT_EQ(p.min_contacts, 3);
   EXPECT_EQ(p.sections, 7);
   EXPECT_EQ(p.bins, 10);
+  EXPECT_EQ(p.event_velocity, 0.02);
+  EXPECT_EQ(p.event_quiet, 2.0);
+  EXPECT_EQ(p.event_displacement, 0.05);
+  EXPECT_EQ(p.event_size_min, 0.1);
   EXPECT_EQ(as_facts(p), (Facts{{"threshold_factors", "0.5,1,3"},
                                 {"gamma_c", "0.3"},
                                 {"l_min", "0"},
@@ -44,12 +49,18 @@ TEST(AnalysisParameters, are_taken_from_settings) {
                                 {"averaging", "0.5"},
                                 {"min_contacts", "3"},
                                 {"sections", "7"},
-                                {"bins", "10"}}));
+                                {"bins", "10"},
+                                {"event_velocity", "0.02"},
+                                {"event_quiet", "2"},
+                                {"event_displacement", "0.05"},
+                                {"event_size_min", "0.1"}}));
 }
 
 TEST(AnalysisParameters, admit_their_defaults_as_text) {
   EXPECT_EQ(as_facts(from_facts(as_facts(AnalysisParameters{}))), as_facts(AnalysisParameters{}));
   EXPECT_FALSE(parse_analysis_settings({"gamma_c=run"}).gamma_c.has_value());
+  EXPECT_FALSE(parse_analysis_settings({"event_velocity=solver"}).event_velocity.has_value());
+  EXPECT_FALSE(parse_analysis_settings({"event_size_min=fit"}).event_size_min.has_value());
   EXPECT_EQ(parse_analysis_settings({"threshold_factors=[1, 2.5]"}).threshold_factors,
             (std::vector{1.0, 2.5}));
 }
@@ -78,6 +89,11 @@ TEST(AnalysisParameters, out_of_range_are_refused) {
                               "sections=0",
                               "sections=2.5",
                               "bins=1001",
+                              "event_velocity=0",
+                              "event_velocity=tolerance",
+                              "event_quiet=-1",
+                              "event_displacement=-0.1",
+                              "event_size_min=0",
                               "bins="})
     EXPECT_NE(refusal({setting}).find(std::string("--set ") + setting + ": error: key '"), std::string::npos)
         << refusal({setting});
@@ -88,7 +104,8 @@ TEST(AnalysisParameters, are_refused_all_at_once_and_say_what_was_expected) {
       refusal({"lc_cut=-3", "colour=red", "bins", "gamma_c=0.3", "gamma_c=run"}),
       "--set lc_cut=-3: error: key 'lc_cut' = -3: expected a number in (0, 10000] or \"depth\", in D\n"
       "--set colour=red: error: unknown key 'colour'; expected one of threshold_factors, gamma_c, l_min, "
-      "lc_factor, lc_cut, joining, averaging, min_contacts, sections, bins\n"
+      "lc_factor, lc_cut, joining, averaging, min_contacts, sections, bins, event_velocity, event_quiet, "
+      "event_displacement, event_size_min\n"
       "--set bins: error: key 'bins' has no value: expected key=value, such as --set lc_cut=30\n"
       "--set gamma_c=run: error: key 'gamma_c' is set twice on the command line; expected it once");
   EXPECT_EQ(refusal({"threshold_factors=2,1"}),

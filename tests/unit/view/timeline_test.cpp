@@ -76,6 +76,28 @@ TEST(Timeline, has_what_happened_in_its_order) {
   EXPECT_EQ(events.back().kind, TimelineEvent::Kind::failure);
 }
 
+TEST(Timeline, has_the_rearrangements_of_an_analysis_by_their_size) {
+  ExampleRun run;
+  const std::vector<EventRecord> events = {
+      {.begin = radians(2.5), .energy = 1e-3, .centre_of_mass_strain = -1.0, .grains = 7},
+      {.begin = radians(7.5), .energy = 10.0, .centre_of_mass_strain = 1.0},
+      {.begin = radians(9.0), .energy = -1.0},
+      {.begin = radians(19.9), .kind = 1, .energy = 1e5}};
+  run.source.rearrangements = events;
+  run.source.energy_unit = 1e-3;
+  std::vector<TimelineEvent> found = timeline_events(run.source);
+  std::erase_if(found, [](const auto& event) { return event.kind != TimelineEvent::Kind::rearrangement; });
+  ASSERT_EQ(names_of(found),
+            (std::vector<std::string>{"rearrangement 0", "rearrangement 1", "rearrangement 2"}))
+      << "the failure is told by theta_c";
+  EXPECT_NEAR(found[0].size, 0.2, 1e-12) << "four decades below the largest";
+  EXPECT_NEAR(found[1].size, 1.0, 1e-12);
+  EXPECT_NEAR(found[2].size, 0.2, 1e-12) << "no energy";
+  EXPECT_EQ(found[0].what, "rearrangement, 1 m g D, 7 grains moved; the bed contracts");
+  EXPECT_NE(found[1].what.find("dilates"), std::string::npos);
+  EXPECT_NEAR(found[0].place, 0.5, 1e-12);
+}
+
 TEST(Timeline, of_a_run_that_goes_on_has_no_largest_jump_yet) {
   ExampleRun run;
   run.source.may_change = true;

@@ -1,0 +1,240 @@
+#include "app/event_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/core.h>
+#include <numeric>
+
+#include "analysis/power_law.h"
+#include "analysis/quantities.h"
+#include "app/json.h"
+#include "core/text.h"
+#include "core/trigonometry.h"
+#include "ensemble/plus_minus.h"
+#include "session/event_catalogue.h"
+
+namespace talus {
+namespace {
+
+constexpr std::string_view group_of_events = "events/";
+
+/// Units in which events are told.
+struct EventUnits {
+  double diameter, energy, velocity, time;
+
+  explicit EventUnits(const RunStatics& statics)
+      : diameter(statics.mean_diameter),
+        energy(mean_grain_mass(statics) * statics.gravity * diameter),
+        velocity(std::sqrt(statics.gravity * diameter)),
+        time(std::sqrt(diameter / statics.gravity)) {}
+};
+
+/// A number in a column, "-" where there is none.
+std::string event_cell(std::string_view format, int width, double value) {
+  return fmt::format("{:>{}}", std::isnan(value) ? "-" : fmt::format(fmt::runtime(format), value), width);
+}
+
+std::string_view mark_of(const EventRecord& event) {
+  switch (static_cast<EventKind>(event.kind)) {
+    case EventKind::failure:
+      return "  failure";
+    case EventKind::unfinished:
+      return "  not over";
+    case EventKind::rearrangement:
+      break;
+  }
+  return event.sharing > 1 ? "  *" : "";
+}
+
+std::string event_line(const EventRecord& event, const EventUnits& unit) {
+  const auto length = [&](double value) { return value / unit.diameter; };
+  return event_cell("{:.3f}", 7, degrees(event.begin)) + event_cell("{:.3f}", 8, degrees(event.waiting)) +
+         event_cell("{:.2f}", 10, event.duration / unit.time) +
+         event_cell("{:.3g}", 10, event.energy / unit.energy) +
+         event_cell("{:.4f}", 9, event.peak_velocity / unit.velocity) + fmt::format("{:>8}", event.grains) +
+         event_cell("{:.1f}", 7, length(event.depth)) + event_cell("{:.1f}", 8, length(event.centre[0])) +
+         event_cell("{:.1f}", 7, length(event.centre[1])) +
+         event_cell("{:+.2f}", 10, 1e6 * event.volume_strain) +
+         event_cell("{:+.2f}", 10, 1e6 * event.centre_of_mass_strain) +
+         event_cell("{:+.4f}", 9, event.coordination_number) + std::string(mark_of(event)) + "\n";
+}
+
+/// Places of the events that are shown, in their order.
+std::vector<std::size_t> shown_events(const std::vector<EventRecord>& events, std::size_t largest) {
+  std::vector<std::size_t> places(events.size());
+  std::iota(places.begin(), places.end(), std::size_t{0});
+  if (largest == 0 || largest >= places.size()) return places;
+  std::ranges::stable_sort(places, [&](std::size_t a, std::size_t b) {
+    const double left = events[a].energy, right = events[b].energy;
+    return left > right || (std::isnan(right) && !std::isnan(left));
+  });
+  places.resize(largest);
+  std::ranges::sort(places);
+  return places;
+}
+
+std::string events_heading(const AnalysedRun& run) {
+  const Analysis& analysis = run.analysis;
+  const auto tilt = [](double angle) { return fmt::format("{:.2f} deg", degrees(angle)); };
+  const std::size_t count = analysis.events.size();
+  return fmt::format(
+      "{}  ({})\n{} event{} up to {}; {}\n", run.path, run.state, count, count == 1 ? "" : "s",
+      tilt(analysis.frames.back().tilt),
+      std::isnan(analysis.theta_c) ? "the slope has not failed" : "theta_c = " + tilt(analysis.theta_c));
+}
+
+std::string threshold_text(const AnalysedRun& run, const EventUnits& unit) {
+  const Analysis& analysis = run.analysis;
+  if (std::isnan(analysis.event_threshold))
+    return "The steps of the tilt are not in the file: its events are not known.\n";
+  const double noise = analysis.event_noise;
+  const std::string over_noise = noise > 0.0 ? fmt::format(", {:.3g} times that of the median quiet step",
+                                                           analysis.event_threshold / noise)
+                                             : "";
+  return fmt::format(
+      "An event: rms velocity of {:.2e} sqrt(g D) or more{}, until it has been quiet for {:.3g} sqrt(D/g)\n",
+      analysis.event_threshold / unit.velocity, over_noise, analysis.event_quiet_time / unit.time);
+}
+
+std::string event_table(const AnalysedRun& run, const EventUnits& unit, std::size_t largest) {
+  const std::vector<EventRecord>& events = run.analysis.events;
+  const std::vector<std::size_t> shown = shown_events(events, largest);
+  std::string text =
+      "\n  theta waiting  duration    energy   peak v  grains  depth       x      y  dV/V*1e6  dy/y*1e6      "
+      " dz\n"
+      "    deg     deg sqrt(D/g)     m g D sqrt(gD)              D       D      D\n";
+  for (const std::size_t k : shown) text += event_line(events[k], unit);
+  if (shown.size() < events.size())
+    text += fmt::format("the {} largest of {} by their energy\n", shown.size(), events.size());
+  if (std::ranges::any_of(events, [](const EventRecord& event) { return event.sharing > 1; }))
+    text += "* shares its frames with other events: grains, depth, x and y are of all of them together\n";
+  return text;
+}
+
+std::string too_few(double count) {
+  return fmt::format("no law: {:.0f} where {} are needed", count, fewest_to_tell);
+}
+
+std::string sizes_line(const Analysis& analysis, const EventUnits& unit) {
+  if (std::isnan(analysis.event_size_exponent)) return too_few(analysis.event_size_count);
+  return fmt::format("density ~ E^-a, a = {} from E = {:.3g} m g D on ({:.0f} of {:.0f})",
+                     plus_minus(analysis.event_size_exponent, analysis.event_size_exponent_error),
+                     analysis.event_size_minimum / unit.energy, analysis.event_size_count,
+                     analysis.event_count);
+}
+
+std::string waits_line(const Analysis& analysis) {
+  if (std::isnan(analysis.event_waiting_exponent)) return too_few(analysis.event_waiting_count);
+  return fmt::format(
+      "mean {} deg beyond the shortest; as a power law a = {} from {:.3g} deg on ({:.0f})",
+      plus_minus(degrees(analysis.event_waiting_mean), degrees(analysis.event_waiting_mean_error)),
+      plus_minus(analysis.event_waiting_exponent, analysis.event_waiting_exponent_error),
+      degrees(analysis.event_waiting_minimum), analysis.event_waiting_count);
+}
+
+std::string dilating_line(const Analysis& analysis) {
+  const double share = analysis.event_dilating_share, error = analysis.event_dilating_share_error;
+  if (std::isnan(share)) return "none";
+  return error > 0.0 ? plus_minus(share, error) : fmt::format("{:.2f}", share);
+}
+
+json::Members members_of(const Quantity& quantity, std::size_t k, const Analysis& analysis) {
+  const std::string name = quantity.name.substr(group_of_events.size());
+  return std::visit(
+      [&](const auto& values) -> json::Members {
+        const std::size_t width = values.size() / analysis.events.size();
+        if (width == 1) return {{name, json::number(values[k])}};
+        return {{name, fmt::format("[{}, {}]", json::number(values[width * k]),
+                                   json::number(values[width * k + 1]))}};
+      },
+      values_of(quantity, analysis));
+}
+
+std::vector<Quantity> quantities_of_each() {
+  std::vector<Quantity> chosen = quantities();
+  std::erase_if(chosen, [](const Quantity& quantity) { return !is_of_events(quantity); });
+  return chosen;
+}
+
+std::size_t width_of(const Quantity& quantity) { return quantity.shape == "E" ? 1 : 2; }
+
+}  // namespace
+
+std::string event_summary(const AnalysedRun& run) {
+  const Analysis& analysis = run.analysis;
+  if (std::isnan(analysis.event_count))
+    return "rearrangements: not known, the file has no steps of the tilt\n";
+  const EventUnits unit(run.statics);
+  const auto line = [](std::string_view name, const std::string& text) {
+    return fmt::format("  {:<34}{}\n", name, text);
+  };
+  return fmt::format(
+      "rearrangements before failure\n{}{}{}{}",
+      line("number, and energy released",
+           fmt::format("{:.0f}, {:.4g} m g D", analysis.event_count, analysis.event_energy / unit.energy)),
+      line("sizes", sizes_line(analysis, unit)), line("waiting angles", waits_line(analysis)),
+      line("share that dilates the bed", dilating_line(analysis)));
+}
+
+std::string events_text(const AnalysedRun& run, std::size_t largest) {
+  const EventUnits unit(run.statics);
+  return fmt::format("{}{}{}\n{}", events_heading(run), threshold_text(run, unit),
+                     run.analysis.events.empty() ? "" : event_table(run, unit, largest), event_summary(run));
+}
+
+std::string events_json(const AnalysedRun& run) {
+  const Analysis& analysis = run.analysis;
+  json::Members members = {{"path", json::quoted(run.path)},
+                           {"state", json::quoted(run.state)},
+                           {"mean_diameter", json::number(run.statics.mean_diameter)},
+                           {"mean_mass", json::number(mean_grain_mass(run.statics))},
+                           {"gravity", json::number(run.statics.gravity)},
+                           {"theta_c", json::number(analysis.theta_c)}};
+  for (const Quantity& quantity : quantities())
+    if (quantity.name.starts_with(group_of_events) && !is_of_events(quantity))
+      members.emplace_back(quantity.name.substr(group_of_events.size()),
+                           json::number(number_of(quantity, analysis, 0)));
+  std::string events;
+  for (std::size_t k = 0; k < analysis.events.size(); ++k) {
+    json::Members event;
+    for (const Quantity& quantity : quantities_of_each())
+      std::ranges::move(members_of(quantity, k, analysis), std::back_inserter(event));
+    events += fmt::format("{}{}", k > 0 ? ", " : "", json::object(event, 1));
+  }
+  members.emplace_back("events", fmt::format("[{}]", events));
+  return json::object(members);
+}
+
+std::string events_csv_head() {
+  std::string text = "run";
+  for (const Quantity& quantity : quantities_of_each()) {
+    const std::string name = quantity.name.substr(group_of_events.size());
+    const std::string unit = quantity.unit == "1" ? "" : fmt::format(" ({})", quantity.unit);
+    if (width_of(quantity) == 1)
+      text += fmt::format(",{}{}", name, unit);
+    else
+      text += fmt::format(",{0}[0]{1},{0}[1]{1}", name, unit);
+  }
+  return text + "\n";
+}
+
+std::string events_csv(const AnalysedRun& run) {
+  std::string text;
+  for (std::size_t k = 0; k < run.analysis.events.size(); ++k) {
+    text += csv_quoted(run.path);
+    for (const Quantity& quantity : quantities_of_each())
+      std::visit(
+          [&](const auto& values) {
+            const std::size_t width = width_of(quantity);
+            for (std::size_t i = width * k; i < width * (k + 1); ++i) {
+              const auto value = static_cast<double>(values[i]);
+              text += "," + (std::isnan(value) ? std::string() : fmt::format("{}", values[i]));
+            }
+          },
+          values_of(quantity, run.analysis));
+    text += "\n";
+  }
+  return text;
+}
+
+}  // namespace talus

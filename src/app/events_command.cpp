@@ -1,0 +1,83 @@
+/// `talus events`: the rearrangements of runs, as a table.
+
+#include <cstdio>
+#include <memory>
+
+#include "app/choices.h"
+#include "app/commands.h"
+#include "app/event_report.h"
+#include "app/given_runs.h"
+#include "session/analysis_parameters.h"
+
+namespace talus {
+namespace {
+
+struct EventsArguments {
+  std::vector<std::string> runs;
+  std::vector<std::string> settings;
+  AnalysisOptions options;
+  std::size_t largest = 0;
+  bool json = false, csv = false;
+};
+
+std::string text_of(const EventsArguments& arguments, const AnalysedRun& run, bool first) {
+  if (arguments.json) return (first ? "[" : ",\n") + events_json(run);
+  if (arguments.csv) return (first ? events_csv_head() : std::string()) + events_csv(run);
+  return (first ? "" : "\n") + events_text(run, arguments.largest);
+}
+
+void list_events(const EventsArguments& arguments) {
+  const AnalysisParameters parameters = parse_analysis_settings(arguments.settings);
+  bool first = true;
+  for (const std::string& path : runs_among(arguments.runs)) {
+    const AnalysedRun run = analysed_run(path, parameters, arguments.options);
+    std::printf("%s", text_of(arguments, run, first).c_str());
+    std::fflush(stdout);
+    first = false;
+  }
+  if (arguments.json) std::printf("]\n");
+}
+
+}  // namespace
+
+void add_events_command(CLI::App& app) {
+  auto arguments = std::make_shared<EventsArguments>();
+  CLI::App* command = app.add_subcommand(
+      "events", "List the rearrangements of runs on the way to failure: when, how large, where");
+  command
+      ->add_option("RUNS", arguments->runs,
+                   "Run files. Their analysis is read from the file, or made and stored as by talus analyze")
+      ->required();
+  auto* largest = command
+                      ->add_option("--largest", arguments->largest,
+                                   "Only so many events of each run, those that released most energy")
+                      ->check(in_range<std::size_t>(1, 1000000));
+  command
+      ->add_option(
+          "--set", arguments->settings,
+          "Change a parameter of the analysis, e.g. --set event_velocity=0.05 (see docs/analysis.md)")
+      ->allow_extra_args(false);
+  command
+      ->add_option("--threads", arguments->options.threads,
+                   "Frames analysed side by side; the result does not depend on it")
+      ->capture_default_str()
+      ->check(in_range(1, 256));
+  command->add_flag("--force", arguments->options.force, "Compute again what is stored and valid");
+  auto* json = command->add_flag(
+      "--json", arguments->json,
+      "As a JSON list with all numbers of each run and its events, in SI units and radians");
+  command->add_flag("--csv", arguments->csv, "As one table of all runs, in SI units and radians")
+      ->excludes(json)
+      ->excludes(largest);
+  json->excludes(largest);
+  command->add_flag("-q,--quiet", arguments->options.quiet, "Show no progress");
+  command->footer(
+      "Energy: work of gravity on the grains. Grains, depth, x, y: those that moved,\n"
+      "how deep they lie, and their centre, between the frames around the event.\n"
+      "dV/V, dy/y: change of the volume and of the height of the centre of mass, above\n"
+      "0 where the bed dilates; dz: of the coordination number. docs/analysis.md has\n"
+      "how all is found.");
+  command->callback([arguments] { list_events(*arguments); });
+}
+
+}  // namespace talus
