@@ -16,6 +16,18 @@ from talus.units import Units, check_units, unit_in, values_in
 from talus.version import ANALYSIS, SCHEMA
 
 
+def last_rise(tilts: np.ndarray) -> tuple[int, int]:
+    """First place and the place after the last of the last part of tilts whose magnitude rises and does not fall; all of
+    what never rises."""
+    change = np.diff(np.abs(tilts))
+    rises = np.flatnonzero(change > 0)
+    if not len(rises):
+        return 0, len(tilts)
+    falls = np.flatnonzero(change < 0)
+    before, after = falls[falls < rises[-1]], falls[falls > rises[-1]]
+    return (int(before[-1]) + 1 if len(before) else 0), (int(after[0]) + 1 if len(after) else len(tilts))
+
+
 class Frames(Sequence[Frame]):
     """All frames of a run in their order: `run.frames[3]`, `run.frames[-1]`, `len(run.frames)`, `for frame in ...`."""
 
@@ -134,13 +146,29 @@ class Run:
 
     @cached_property
     def frames_of_tilt(self) -> int:
-        """How many frames there are up to the first highest tilt. The analysis has these; those after it are frames of
-        the flow that follows failure (tilt.after_failure)."""
-        return int(np.argmax(self.tilt)) + 1 if len(self.tilt) else 0
+        """How many frames there are up to the first highest tilt, with a programme of the tilt (tilt.program) up to its
+        last step. The analysis has these; those after it are frames of the flow that follows failure
+        (tilt.after_failure)."""
+        if not len(self.tilt):
+            return 0
+        if (last := self._last_tilt_step) is not None:
+            return int(np.searchsorted(self.storage.read("frames/step"), last, side="right"))
+        return int(np.argmax(self.tilt)) + 1
+
+    @cached_property
+    def _last_tilt_step(self) -> int | None:
+        """Steps taken when the tilt ended; None for a run without a programme."""
+        return int(self.storage.read("checkpoint/integers/last_tilt_step")) if self.has_program else None
+
+    @cached_property
+    def has_program(self) -> bool:
+        """Whether the tilt follows a programme: then it may fall, be held, and change its sign."""
+        return "last_tilt_step" in self.storage.names("checkpoint/integers")
 
     def frame_at(self, angle: float | Literal["repose"]) -> Frame:
         """The frame of the tilt nearest to an angle in degrees, or with "repose" the last one with a tilt up to theta_c,
-        as `--at` of `talus render` has it. Throws Error where no frame lies within half the spacing of the frames, or
+        as `--at` of `talus render` has it: where the tilt goes up and down, the first frame that reaches the angle, and
+        "repose" in the last rise. Throws Error where no frame lies within half the spacing of the frames, or
         theta_c is not known."""
         tilts = np.degrees(self.storage.read("frames/tilt")[: self.frames_of_tilt])
         if not len(tilts):
@@ -149,13 +177,19 @@ class Run:
             theta_c = np.degrees(float(self.storage.read("results/theta_c")))
             if np.isnan(theta_c):
                 raise Error(f"{self.path}: the angle of repose is not known, as the slope has not failed")
-            return self.frames[max(int(np.searchsorted(tilts, theta_c + 1e-7, side="right")) - 1, 0)]
-        nearest = int(np.argmin(np.abs(tilts - float(angle))))
-        spacing = float(np.diff(tilts).max()) if len(tilts) > 1 else 1.0
-        if not abs(tilts[nearest] - float(angle)) <= 0.5 * spacing + 1e-7:
-            raise Error(f"{self.path}: no frame at {angle} deg; its {len(tilts)} frames go from {tilts[0]:.2f} to "
-                        f"{tilts[-1]:.2f} deg, every {spacing:.3g} deg")
-        return self.frames[nearest]
+            first, end = last_rise(tilts)
+            rise = np.abs(tilts[first:end])
+            return self.frames[first + max(int(np.searchsorted(rise, theta_c + 1e-7, side="right")) - 1, 0)]
+        spacing = float(np.abs(np.diff(tilts)).max()) if len(tilts) > 1 else 1.0
+        distance = np.abs(tilts - float(angle))
+        near = np.flatnonzero(distance <= 0.5 * spacing + 1e-7)
+        if not len(near):
+            raise Error(f"{self.path}: no frame at {angle} deg; its {len(tilts)} frames go from {tilts.min():.2f} to "
+                        f"{tilts.max():.2f} deg, every {spacing:.3g} deg")
+        last = int(near[0])
+        while last + 1 < len(tilts) and distance[last + 1] <= distance[last]:
+            last += 1
+        return self.frames[int(near[0]) + int(np.argmin(distance[near[0] : last + 1]))]
 
     def read_frame(self, name: str, k: int) -> np.ndarray:
         """What a data set by frame holds of frame k, 0 <= k < len(frames), in the units of the run."""

@@ -1,6 +1,7 @@
 #pragma once
 /// theta_d, the angle at which the packing begins to change as a whole, by three estimators, and the first
-/// slide of the surface layer. Plain series; angles in rad, ascending; NaN where there is no transition.
+/// slide of the surface layer. Plain series; angles in rad, ascending (of a run whose tilt goes up and down
+/// those of its last_rise); NaN where there is no transition.
 
 #include <span>
 

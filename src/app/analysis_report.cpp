@@ -6,6 +6,7 @@
 #include <fmt/core.h>
 #include <initializer_list>
 
+#include "analysis/last_rise.h"
 #include "app/event_report.h"
 #include "core/trigonometry.h"
 #include "session/analysis_parameters.h"
@@ -35,8 +36,12 @@ std::string heading(const AnalysedRun& run) {
   const Analysis& analysis = run.analysis;
   const double theta_c = analysis.theta_c, gamma_c = analysis.gamma_c;
   const std::vector<FrameRecord>& frames = analysis.frames;
+  const auto [lowest, highest] = std::ranges::minmax_element(frames, {}, &FrameRecord::tilt);
   std::string text = fmt::format("{}  ({})\n{} frames, {} to {} deg; ", run.path, run.state, frames.size(),
-                                 degree_text(frames.front().tilt), degree_text(frames.back().tilt));
+                                 degree_text(lowest->tilt), degree_text(highest->tilt));
+  if (const FramesOfRise rise = last_rise(frames); rise.frames.size() < frames.size())
+    text += fmt::format("theta_c, theta_d and the first slide are of the last rise, from {} deg on; ",
+                        degree_text(rise.tilts.front()));
   text += std::isnan(theta_c) ? "the slope has not failed"
                               : fmt::format("theta_c = {} deg", degree_text(theta_c));
   if (std::isnan(gamma_c))

@@ -13,6 +13,7 @@
 #include "core/visible_text.h"
 #include "io/run_repair.h"
 #include "scenario/keys.h"
+#include "scenario/tilt_program.h"
 #include "session/estimate.h"
 #include "session/run_check.h"
 
@@ -28,6 +29,7 @@ struct CheckArguments {
 std::string json_value(const KeyValue& value) {
   if (const auto* whole = std::get_if<std::int64_t>(&value)) return json::number(*whole);
   if (const auto* number = std::get_if<double>(&value)) return json::number(*number);
+  if (const auto* phrases = std::get_if<std::vector<std::string>>(&value)) return json::array(*phrases);
   return json::quoted(std::get<std::string>(value));
 }
 
@@ -58,6 +60,7 @@ void print_json(const CheckArguments& arguments, const Scenario& scenario, const
       {"time_step_s", json::number(expected.time_step)},
       {"deposition_steps", json::number(expected.deposition_steps)},
       {"tilt_steps", json::number(expected.tilt_steps)},
+      {"program_parts", json::number(expected.program_parts)},
       {"flow_steps", json::number(expected.flow_steps)},
       {"frames", json::number(expected.frames)},
       {"observable_rows", json::number(expected.observable_rows)},
@@ -92,11 +95,20 @@ void print_text(const CheckArguments& arguments, const Scenario& scenario, const
   print_line("grains", fmt::format("{} free, {} on the floor", expected.grains, expected.floor_grains));
   print_line("contacts", fmt::format("about {} at rest", expected.contacts));
   print_line("time step", short_text(expected.time_step) + " s (tilt.step / tilt.rate)");
+  const TiltProgram program(scenario);
+  const bool until_failure = program.empty() ? !scenario.tilt.end_angle : program.ends_at_repose();
+  if (!program.empty())
+    print_line(
+        "programme",
+        fmt::format(
+            "{} parts, repetitions included, {} s{}", program.segments().size(),
+            short_text(std::round(1e3 * expected.time_step * static_cast<double>(expected.tilt_steps)) / 1e3),
+            until_failure ? fmt::format(" if it fails at {} deg", assumed_repose) : ""));
   print_line(
       "steps",
       fmt::format("about {} of deposition, {}{} of tilt{}{}", expected.deposition_steps,
-                  scenario.tilt.end_angle ? "" : "about ", expected.tilt_steps,
-                  scenario.tilt.end_angle ? "" : fmt::format(" (failure at {} deg)", assumed_repose),
+                  until_failure ? "about " : "", expected.tilt_steps,
+                  until_failure ? fmt::format(" (failure at {} deg)", assumed_repose) : "",
                   expected.flow_steps > 0 ? fmt::format(", at most {} of flow", expected.flow_steps) : ""));
   print_line("output",
              fmt::format("{} frames, {} rows of observables", expected.frames, expected.observable_rows));

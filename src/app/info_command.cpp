@@ -34,7 +34,9 @@ struct RunInfo {
   std::size_t flow_frames = 0;  ///< after failure
   double tilt_first = none;     ///< rad, of the frames of the tilt
   double tilt_last = none;
-  double tilt = 0.0;  ///< rad, of the last state
+  bool has_program = false;
+  double tilt_lowest = none, tilt_highest = none;  ///< rad, of the same frames
+  double tilt = 0.0;                               ///< rad, of the last state
   std::size_t steps = 0;
   std::vector<Command> commands;
   std::vector<double> command_tilts;  ///< rad; none where no row of observables came before
@@ -100,7 +102,10 @@ RunInfo look_at(const std::string& path) {
   if (info.frames > 0) {
     info.tilt_first = run.frame_tilts().front();
     info.tilt_last = run.frame_tilts().back();
+    info.tilt_lowest = std::ranges::min(run.frame_tilts());
+    info.tilt_highest = std::ranges::max(run.frame_tilts());
   }
+  info.has_program = run.has_program();
   info.tilt = run.checkpoint().world.tilt;
   count_steps(run.steps(), info);
   info.commands = run.commands();
@@ -138,6 +143,8 @@ void print_json(const RunInfo& info) {
       {"frames_after_failure", number(info.flow_frames)},
       {"tilt_first_deg", number(degrees(info.tilt_first))},
       {"tilt_last_deg", number(degrees(info.tilt_last))},
+      {"tilt_lowest_deg", number(degrees(info.tilt_lowest))},
+      {"tilt_highest_deg", number(degrees(info.tilt_highest))},
       {"tilt_deg", number(degrees(info.tilt))},
       {"theta_c_deg", number(degrees(figure(info.results, "theta_c")))},
       {"theta_r_deg", number(degrees(figure(info.results, "theta_r")))},
@@ -165,6 +172,13 @@ std::string in_degrees(double angle) { return fmt::format("{:.3f} deg", degrees(
 
 std::string short_number(double value) { return std::isnan(value) ? "none" : fmt::format("{:.4g}", value); }
 
+std::string tilts_text(const RunInfo& info) {
+  if (info.has_program)
+    return fmt::format(", tilt between {} and {} by a programme, last {}", in_degrees(info.tilt_lowest),
+                       in_degrees(info.tilt_highest), in_degrees(info.tilt_last));
+  return fmt::format(", tilt {} to {}", in_degrees(info.tilt_first), in_degrees(info.tilt_last));
+}
+
 std::string rest_text(const RunInfo& info) {
   const double theta_r = figure(info.results, "theta_r");
   return std::isnan(theta_r) ? "none: no flow after failure has come to rest"
@@ -190,10 +204,7 @@ void print_text(const RunInfo& info) {
   print_line("seed", std::to_string(info.seed));
   print_line("grains", fmt::format("{} free, {} on the floor", info.grains, info.floor_grains));
   print_line("frames",
-             std::to_string(info.frames) +
-                 (info.frames == 0 ? ""
-                                   : fmt::format(", tilt {} to {}", in_degrees(info.tilt_first),
-                                                 in_degrees(info.tilt_last))) +
+             std::to_string(info.frames) + (info.frames == 0 ? "" : tilts_text(info)) +
                  (info.flow_frames == 0 ? "" : fmt::format(", {} after failure", info.flow_frames)));
   print_line("theta_c", std::isnan(theta_c) ? "none: the slope has not failed" : in_degrees(theta_c));
   if (find_value(info.results, "theta_r")) print_line("theta_r", rest_text(info));

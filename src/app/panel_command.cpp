@@ -58,8 +58,8 @@ void add_panel_command(CLI::App& app) {
   add_run_argument(*command, arguments->run);
   command
       ->add_option("--at", arguments->at,
-                   "Angles in degrees, and repose for the last frame before failure, with commas: "
-                   "--at 0,5,10,15,repose")
+                   "Angles in degrees, repose for the last frame before failure, and frames by number "
+                   "(frame42), with commas: --at 0,5,10,15,repose")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->required();

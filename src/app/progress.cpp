@@ -26,6 +26,12 @@ std::optional<double> ProgressLine::share(const Session& session, RunShown& show
       return static_cast<double>(session.world().step) / *deposition_steps_;
     case Phase::tilt: {
       const std::optional<double> end = session.scenario().tilt.end_angle;
+      const TiltProgram& program = session.program();
+      if (session.follows_program()) {
+        if (program.ends_at_repose()) shown.repose_assumed = assumed_repose;
+        if (!program_steps_) program_steps_ = static_cast<double>(expected_tilt_steps(session.scenario()));
+        return static_cast<double>(session.schedule().tilt_steps) / *program_steps_;
+      }
       if (!end) shown.repose_assumed = assumed_repose;
       return shown.tilt / end.value_or(assumed_repose);
     }

@@ -23,6 +23,7 @@ class ProgressLine {
 
   StatusLine line_;
   std::optional<double> deposition_steps_;  ///< expected; 0: unknown
+  std::optional<double> program_steps_;     ///< expected
   std::optional<Phase> phase_;
   double phase_began_ = 0.0;       ///< wall seconds when this process began the phase
   double phase_began_with_ = 0.0;  ///< share of the phase that was done by then

@@ -55,12 +55,13 @@ void add_render_command(CLI::App& app) {
   auto arguments = std::make_shared<RenderArguments>();
   CLI::App* command = app.add_subcommand("render", "Draw maps of a run as PNG files, without a display");
   add_run_argument(*command, arguments->run);
-  CLI::Option* at = command
-                        ->add_option("--at", arguments->frames.at,
-                                     "Angles in degrees, and repose for the last frame before failure, with "
-                                     "commas: --at 0,5,10,15,repose")
-                        ->delimiter(',')
-                        ->allow_extra_args(false);
+  CLI::Option* at =
+      command
+          ->add_option("--at", arguments->frames.at,
+                       "Angles in degrees, repose for the last frame before failure, and frames "
+                       "by number (frame42), with commas: --at 0,5,10,15,repose")
+          ->delimiter(',')
+          ->allow_extra_args(false);
   command
       ->add_option("--every", arguments->frames.every,
                    "Degrees between pictures; the last frame before failure is added")

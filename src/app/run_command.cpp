@@ -131,7 +131,8 @@ std::optional<LiveMaps> prepare_maps(const RunArguments& arguments, const RunReq
 }
 
 void begin_maps(LiveMaps& maps, const OpenRun& open, const RunArguments& arguments) {
-  maps.begin(open.header, arguments.output, open.session.scenario().tilt.step);
+  const Scenario::Tilt& tilt = open.session.scenario().tilt;
+  maps.begin(open.header, arguments.output, tilt.step, !tilt.program.empty());
   if (run_presence(arguments.output) == RunPresence::folder) maps.meet(RunFile::open(arguments.output));
 }
 
@@ -153,7 +154,7 @@ void draw_what_is_missing(const RunArguments& arguments) {
   if (!maps) return;
   const RunFile file = RunFile::open(arguments.output);
   const Scenario scenario = stored_scenario(file.header(), arguments.output + ":/parameters");
-  maps->begin(file.header(), arguments.output, scenario.tilt.step);
+  maps->begin(file.header(), arguments.output, scenario.tilt.step, !scenario.tilt.program.empty());
   maps->meet(file);
 }
 
@@ -169,7 +170,7 @@ void resume_complete(const RunArguments& arguments) {
 OpenRun open_run(const RunArguments& arguments, const RunRequest& request, bool resumed) {
   OpenRun open = resumed ? resume_run(request) : start_run(request);
   open.session.use_threads(arguments.threads);
-  if (open.session.tilt_rate() == 0.0)
+  if (open.session.schedule().course && open.session.tilt_rate() == 0.0)
     std::fprintf(stderr,
                  "talus: note: a command holds the tilt: unless the slope fails, the run goes on until it is "
                  "stopped\n");

@@ -1,6 +1,7 @@
 #include "ensemble/member_lists.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "analysis/quantities.h"
 #include "core/trigonometry.h"
@@ -40,7 +41,7 @@ PlainArray array_of(const std::string& group, const NamedList& list) {
 MemberLists member_lists(const Analysis& analysis, double mean_diameter) {
   const std::vector<const FrameRecord*> frames = frames_to_failure(analysis);
   MemberLists found;
-  for (const FrameRecord* frame : frames) found.theta.push_back(degrees(frame->tilt));
+  for (const FrameRecord* frame : frames) found.theta.push_back(degrees(std::abs(frame->tilt)));
   for (const Quantity& quantity : quantities()) {
     if (is_list_of_run(quantity)) {
       NamedList bins = list_called(quantity, 0);

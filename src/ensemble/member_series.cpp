@@ -3,6 +3,7 @@
 #include <cmath>
 #include <fmt/core.h>
 
+#include "analysis/last_rise.h"
 #include "analysis/quantities.h"
 #include "core/text_stream.h"
 #include "core/trigonometry.h"
@@ -26,15 +27,17 @@ NamedSeries series_of_head(const std::string& head, const std::string& path) {
 
 std::vector<const FrameRecord*> frames_to_failure(const Analysis& analysis) {
   std::vector<const FrameRecord*> frames;
-  for (const FrameRecord& frame : analysis.frames)
-    if (!(frame.tilt > analysis.theta_c)) frames.push_back(&frame);
+  for (const FrameRecord* frame : last_rise(analysis.frames).frames)
+    if (!(std::abs(frame->tilt) > analysis.theta_c) &&
+        (frames.empty() || std::abs(frame->tilt) > std::abs(frames.back()->tilt)))
+      frames.push_back(frame);
   return frames;
 }
 
 MemberSeries member_series(const Analysis& analysis, double mean_diameter) {
   const std::vector<const FrameRecord*> frames = frames_to_failure(analysis);
   MemberSeries found;
-  for (const FrameRecord* frame : frames) found.theta.push_back(degrees(frame->tilt));
+  for (const FrameRecord* frame : frames) found.theta.push_back(degrees(std::abs(frame->tilt)));
   for (const Quantity& quantity : quantities()) {
     if (!is_number_of_frame(quantity)) continue;
     const std::size_t count = needs_threshold(quantity) ? analysis.thresholds.size() : 1;

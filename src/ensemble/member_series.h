@@ -20,7 +20,8 @@ struct MemberSeries {
   std::vector<NamedSeries> series;
 };
 
-/// The frames up to theta_c, or all of a slope that has not failed.
+/// The frames up to theta_c, or all of a slope that has not failed. Where the tilt goes up and down, those of
+/// its last_rise; of a hold the first one.
 std::vector<const FrameRecord*> frames_to_failure(const Analysis& analysis);
 
 /// Of these frames, in the order of the table of quantities. `mean_diameter` (m) is the D of its lengths.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/last_rise.h"
 #include "analysis/quantities.h"
 #include "core/trigonometry.h"
 #include "session/analysis_input.h"
@@ -65,11 +66,12 @@ void measure_bed(const RunFile& run, const std::vector<ObservableRow>& rows, dou
   const auto row = std::find_if(rows.rbegin(), rows.rend(), [&](const ObservableRow& candidate) {
     return at(candidate, Observable::tilt) <= highest;
   });
-  const auto& tilts = run.frame_tilts();
+  const SeriesPart rise = last_rise(run.frame_tilts());
+  const std::vector<double> tilts = magnitudes(run.frame_tilts(), rise);
   const auto above = std::upper_bound(tilts.begin(), tilts.end(), highest);
   if (row == rows.rend() || above == tilts.begin()) return;
-  const Frame frame =
-      analysed_frame(run, AnalysisParameters(), static_cast<std::size_t>(above - tilts.begin()) - 1);
+  const Frame frame = analysed_frame(run, AnalysisParameters(),
+                                     rise.first + static_cast<std::size_t>(above - tilts.begin()) - 1);
   const RunStatics& statics = run.header().statics;
   const auto value = [&](const BedField& field) {
     if (!field.member) return mean_displacement(run.frame(0), frame, statics) / statics.depth;
@@ -122,7 +124,10 @@ const std::vector<StudyField>& study_fields() {
 }
 
 RunReach reach(const RunFile& run) {
-  return {degrees(figure(run.checkpoint().results, "theta_c")), degrees(run.checkpoint().world.tilt)};
+  const double theta_c = degrees(figure(run.checkpoint().results, "theta_c"));
+  if (!run.has_program()) return {theta_c, degrees(run.checkpoint().world.tilt)};
+  const std::vector<double> tilts = magnitudes(run.frame_tilts(), last_rise(run.frame_tilts()));
+  return {theta_c, tilts.empty() ? 0.0 : degrees(tilts.back())};
 }
 
 StudyFigures study_figures(const RunFile& run, double reference) {
@@ -130,7 +135,7 @@ StudyFigures study_figures(const RunFile& run, double reference) {
   figures.fill(not_known);
   const auto [theta_c, end] = reach(run);
   at(figures, StudyQuantity::theta_c) = theta_c;
-  const std::vector<ObservableRow> rows = run.observables();
+  const std::vector<ObservableRow> rows = rows_of_last_rise(run.observables());
   const double last = std::isnan(theta_c) ? end : theta_c;
   if (reference <= last + same_angle)
     measure_bed(run, rows, reference, theta_c, StudyQuantity::volume_strain_at_reference, figures);

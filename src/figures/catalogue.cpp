@@ -4,6 +4,7 @@
 
 #include "figures/angle_figures.h"
 #include "figures/contact_figures.h"
+#include "figures/cycles_figure.h"
 #include "figures/dynamic_angle.h"
 #include "figures/event_figure.h"
 #include "figures/force_chains.h"
@@ -61,6 +62,8 @@ std::span<const FigureRecipe> figure_catalogue() {
        "a run that has failed", correlations},
       {"dynamic-angle", "Angle at rest over theta_c and theta_d", values, Subject::further,
        "a run with tilt.after_failure whose flow has stopped", dynamic_angle_figure},
+      {"cycles", "Cycles of the tilt, and what accumulates over them", frames, Subject::further,
+       "a run with a programme of the tilt (tilt.program)", cycles_figure},
       {"angle-distributions", "Distribution of theta_c, theta_d and theta_r over the runs", values,
        Subject::further, "two runs or more of an ensemble that have such an angle", angle_distributions},
       {"angle-correlations", "Correlation of theta_c, theta_d and theta_r over the runs", values,

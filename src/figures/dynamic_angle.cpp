@@ -113,12 +113,6 @@ void set_range(Figure& figure) {
   set_variable(figure, "highest", std::ceil(highest) + 1.0);
 }
 
-/// A row of observables with its tilt above those of all rows before it.
-std::size_t row_of_failure(const std::vector<ObservableRow>& rows) {
-  const auto tilt = [](const ObservableRow& row) { return at(row, Observable::tilt); };
-  return static_cast<std::size_t>(std::ranges::max_element(rows, {}, tilt) - rows.begin());
-}
-
 }  // namespace
 
 Table flow_trace(const FigureRun& run) {
@@ -129,7 +123,7 @@ Table flow_trace(const FigureRun& run) {
                {"theta", "deg", "tilt", {}},
                {"velocity", "sqrt(g D)", "mean velocity of the surface layer since the row before", {}}}};
   const std::vector<ObservableRow> rows = run.file->all_observables();
-  const double failure = at(rows[row_of_failure(rows)], Observable::time);
+  const double failure = at(run.file->observables().back(), Observable::time);
   for (std::size_t k = 1; k < rows.size(); ++k) {
     const double time = at(rows[k], Observable::time);
     const double interval = time - at(rows[k - 1], Observable::time);

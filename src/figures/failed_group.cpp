@@ -33,7 +33,10 @@ std::string first_run_text(const FailedGroup& failed) {
   return fmt::format("{}, seed {}", failed.group->label, failed.first().scenario.seed);
 }
 
-std::size_t repose_frame(const FigureRun& run) { return frame_at_repose(frame_tilts(run), theta_c_of(run)); }
+std::size_t repose_frame(const FigureRun& run) {
+  const FramesOfRise rise = last_rise_of(run);
+  return rise.first + frame_at_repose(rise.tilts, theta_c_of(run));
+}
 
 std::string rounded_text(double value, int decimals) {
   const double ten_to = std::pow(10.0, decimals);

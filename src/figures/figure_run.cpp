@@ -31,10 +31,4 @@ FigureRun run_of_values(const std::string& path, const MemberResult& member,
   return run;
 }
 
-std::vector<double> frame_tilts(const FigureRun& run) {
-  std::vector<double> tilts;
-  for (const FrameRecord& frame : run.analysis.frames) tilts.push_back(frame.tilt);
-  return tilts;
-}
-
 }  // namespace talus

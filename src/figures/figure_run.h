@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/last_rise.h"
 #include "analysis/record.h"
 #include "ensemble/averages.h"
 #include "io/run_file.h"
@@ -30,7 +31,7 @@ FigureRun run_of_file(const std::string& path, RunFile file, Analysis analysis);
 FigureRun run_of_values(const std::string& path, const MemberResult& member,
                         const std::string& scenario_text);
 
-/// The tilts of its frames, rad, ascending.
-std::vector<double> frame_tilts(const FigureRun& run);
+/// The last rise of a run, all of it where its tilt does not fall.
+inline FramesOfRise last_rise_of(const FigureRun& run) { return last_rise(run.analysis.frames); }
 
 }  // namespace talus

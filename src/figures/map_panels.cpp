@@ -46,7 +46,9 @@ MapSettings map_of(const FigureRun& run, MapKind kind, double factor) {
 
 Panels read_panels(const FigureRun& run, std::vector<MapSettings> maps) {
   Panels panels;
-  panels.choice = panel_frames(frame_tilts(run), theta_c_of(run));
+  const FramesOfRise rise = last_rise_of(run);
+  panels.choice = panel_frames(rise.tilts, theta_c_of(run));
+  for (std::size_t& frame : panels.choice) frame += rise.first;
   panels.pictures.run = run.file->header();
   panels.pictures.plan.maps = std::move(maps);
   panels.pictures.extent = bed_extent(panels.pictures.run.statics);

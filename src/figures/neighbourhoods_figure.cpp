@@ -25,8 +25,7 @@ constexpr double shown_tilt = 10.0;  // deg
 std::size_t shown_frame(const FigureRun& run) {
   const std::size_t repose = repose_frame(run);
   if (radians(shown_tilt) >= theta_c_of(run)) return repose;
-  return std::min(frames_at(frame_tilts(run), {rounded_text(shown_tilt, 0)}, theta_c_of(run)).front(),
-                  repose);
+  return std::min(frame_nearest(run, radians(shown_tilt)), repose);
 }
 
 bool in_middle_half(double value, double end) { return value >= 0.25 * end && value <= 0.75 * end; }

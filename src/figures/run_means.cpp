@@ -12,12 +12,12 @@ namespace {
 
 constexpr double same_tilt = 1e-6;  // rad; frames of a run are at least 1e-8 deg apart, in practice 0.01 deg
 
-/// The tilts of a run that failed end at its theta_c.
-std::vector<double> tilts_to_failure(const FigureRun& run) {
-  std::vector<double> tilts = frame_tilts(run);
+/// The last rise of a run that failed ends at its theta_c.
+FramesOfRise rise_to_failure(const FigureRun& run) {
+  FramesOfRise rise = last_rise_of(run);
   const double theta_c = theta_c_of(run);
-  std::erase_if(tilts, [&](double tilt) { return tilt > theta_c; });
-  return tilts;
+  std::erase_if(rise.tilts, [&](double tilt) { return tilt > theta_c; });
+  return rise;
 }
 
 /// What the columns of frames are in one run, up to theta_c.
@@ -27,11 +27,12 @@ struct RunCurve {
 };
 
 RunCurve curve_over_tilt(const FigureRun& run, std::span<const FrameColumn> columns) {
-  RunCurve curve{tilts_to_failure(run), {}};
+  FramesOfRise rise = rise_to_failure(run);
+  RunCurve curve{std::move(rise.tilts), {}};
   for (const FrameColumn& column : columns) {
     std::vector<double>& values = curve.values.emplace_back();
     for (std::size_t frame = 0; frame < curve.angles.size(); ++frame)
-      values.push_back(column.value(run, frame));
+      values.push_back(column.value(run, rise.first + frame));
   }
   return curve;
 }
@@ -114,14 +115,15 @@ std::vector<Column> mean_columns(const CommonTilts& common, std::span<const std:
 double theta_c_of(const FigureRun& run) { return run.analysis.theta_c; }
 
 std::size_t frame_nearest(const FigureRun& run, double tilt) {
-  const std::vector<double> tilts = frame_tilts(run);
+  const FramesOfRise rise = last_rise_of(run);
   const auto distance = [tilt](double other) { return std::abs(other - tilt); };
-  return static_cast<std::size_t>(std::ranges::min_element(tilts, {}, distance) - tilts.begin());
+  return rise.first +
+         static_cast<std::size_t>(std::ranges::min_element(rise.tilts, {}, distance) - rise.tilts.begin());
 }
 
 bool stands_at(const FigureRun& run, double tilt) {
   const double theta_c = theta_c_of(run);
-  return std::isnan(theta_c) ? run.analysis.frames.back().tilt > tilt - same_tilt : theta_c > tilt;
+  return std::isnan(theta_c) ? last_rise_of(run).tilts.back() > tilt - same_tilt : theta_c > tilt;
 }
 
 FrameColumn column_of(const std::string& name, const Quantity& quantity, std::size_t f) {

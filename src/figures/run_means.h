@@ -47,7 +47,7 @@ inline constexpr const char* means_caption =
 /// theta_c of a run, rad; NaN where the slope has not failed.
 double theta_c_of(const FigureRun& run);
 
-/// The frame whose tilt is nearest to `tilt`, rad.
+/// The frame of the last rise whose tilt is nearest to `tilt`, rad.
 std::size_t frame_nearest(const FigureRun& run, double tilt);
 
 /// Whether the slope was tilted up to `tilt`, rad, before it failed.
@@ -65,8 +65,8 @@ FrameColumn column_of(const std::string& name, const Quantity& quantity, std::si
 /// of output.frame_every, between two frames.
 enum class Abscissa { tilt, angle_left };
 
-/// The angle (theta or angle_left), n, and the mean, error and deviation of each column, over the frames of
-/// the runs up to the theta_c of each.
+/// Over the last rise of each run: the angle (theta or angle_left), n, and the mean, error and deviation of
+/// each column, over the frames of the runs up to the theta_c of each.
 std::vector<Column> means_over_runs(std::span<const FigureRun* const> runs,
                                     std::span<const FrameColumn> columns_of_frames,
                                     Abscissa abscissa = Abscissa::tilt);

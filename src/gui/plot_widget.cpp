@@ -230,6 +230,11 @@ void draw_marks(ImDrawList& list, const Axes& axes, const PlotMarks& marks, floa
 
 double value_near(const PlotSeries& series, double x) {
   if (series.x.empty()) return std::numeric_limits<double>::quiet_NaN();
+  if (!std::ranges::is_sorted(series.x)) {  // loops: the first point that is nearest
+    const auto distance = [x](double of) { return std::abs(of - x); };
+    return series
+        .y[static_cast<std::size_t>(std::ranges::min_element(series.x, {}, distance) - series.x.begin())];
+  }
   const auto above = std::ranges::lower_bound(series.x, x);
   auto k = static_cast<std::size_t>(above - series.x.begin());
   if (k == series.x.size() || (k > 0 && x - series.x[k - 1] < series.x[k] - x)) --k;

@@ -56,6 +56,25 @@ void draw_angles(ImDrawList& list, const Track& track, const std::vector<double>
   }
 }
 
+/// Where a programme of the tilt turns or begins to be held: the angles that it goes to.
+void draw_turns(ImDrawList& list, const Track& track, const std::vector<double>& tilts, float em) {
+  float first_free = 0.0f;
+  for (std::size_t k = 0; k < tilts.size(); ++k) {
+    const bool end = k == 0 || k + 1 == tilts.size();
+    const auto way = [&](std::size_t from) {
+      return tilts[from + 1] > tilts[from] ? 1 : tilts[from + 1] < tilts[from] ? -1 : 0;
+    };
+    if (!end && way(k - 1) == way(k)) continue;
+    const float x = track.px(static_cast<double>(k));
+    list.AddLine({x, track.high.y}, {x, track.high.y + 0.3f * em}, line_ink);
+    const std::string label = fmt::format("{:.3g}°", degrees(tilts[k]));
+    const float low = x - 0.5f * ImGui::CalcTextSize(label.c_str()).x;
+    if (low < first_free) continue;
+    first_free = low + ImGui::CalcTextSize(label.c_str()).x + 0.4f * em;
+    list.AddText({low, track.high.y + 0.25f * em}, line_ink, label.c_str());
+  }
+}
+
 /// Labels above the track, theta_c before all others: each where it has room.
 void draw_labels(ImDrawList& list, const Track& track, std::span<const TimelineEvent> events, float em) {
   std::vector<std::pair<float, float>> taken;
@@ -160,7 +179,10 @@ void draw_time_line(Gui& gui) {
   list.AddRectFilled(track.low, track.high, IM_COL32(225, 225, 225, 255));
   const float now = track.px(static_cast<double>(gui.model.frame_index()));
   list.AddRectFilled(track.low, {now, track.high.y}, IM_COL32(150, 190, 230, 255));
-  draw_angles(list, track, tilts, em);
+  if (gui.model.has_program())
+    draw_turns(list, track, tilts, em);
+  else
+    draw_angles(list, track, tilts, em);
   draw_events(gui, list, track);
   list.AddLine({now, track.low.y - 0.3f * em}, {now, track.high.y + 0.3f * em}, IM_COL32(0, 90, 180, 255),
                0.2f * em);

@@ -8,6 +8,7 @@
 #include "core/errors.h"
 #include "core/text_stream.h"
 #include "io/durable_file.h"
+#include "io/frames_of_tilt.h"
 #include "io/packed_file.h"
 #include "io/run_records.h"
 
@@ -54,10 +55,14 @@ Values read_values(hdf5::Reader& reader, const DataSetField& field) {
   return reader.read<double>(field);
 }
 
-/// The tilts of the frames that an analysis has rows for: those up to the highest.
+/// The tilts of the frames that an analysis has rows for.
 std::vector<double> analysed_tilts(const std::string& path) {
-  auto tilts = hdf5::Reader::from_file(path).read_finite("/frames/tilt");
-  if (!tilts.empty()) tilts.erase(std::next(std::ranges::max_element(tilts)), tilts.end());
+  hdf5::Reader reader = hdf5::Reader::from_file(path);
+  std::vector<double> tilts = reader.read_finite("/frames/tilt");
+  std::optional<std::int64_t> last_tilt_step;
+  if (const std::string last = std::string("/checkpoint/integers/") + last_tilt_step_name; reader.has(last))
+    last_tilt_step = reader.read_scalar<std::int64_t>(last);
+  tilts.resize(frames_of_tilt(tilts, reader.read<std::int64_t>("/frames/step"), last_tilt_step));
   return tilts;
 }
 

@@ -7,6 +7,7 @@
 
 #include "core/errors.h"
 #include "io/durable_file.h"
+#include "io/frames_of_tilt.h"
 #include "io/manifest.h"
 #include "io/packed_file.h"
 #include "io/run_records.h"
@@ -79,8 +80,9 @@ struct RunFile::State {
   RunHeader header;
   Checkpoint checkpoint;
   std::vector<StoredSegment> segments;
-  std::vector<double> all_tilts;
-  std::vector<double> tilts;  ///< of the frames up to the highest tilt
+  std::vector<double> all_tilts, all_times;
+  std::vector<double> tilts;                   ///< of the frames of the tilt
+  std::optional<std::int64_t> last_tilt_step;  ///< with a programme
   std::size_t open_segment = 0;
   std::optional<hdf5::Reader> reader;
   bool packed_since = false;  ///< the reader is that of the file into which the folder was packed meanwhile
@@ -161,13 +163,17 @@ struct RunFile::State {
   }
 
   void read_tilts() {
+    std::vector<std::int64_t> steps;
     for (std::size_t s = 0; s < segments.size(); ++s) {
       hdf5::Reader& from = segment(s);
       if (packed_since) throw Error(ExitCode::missing_input, folder + ": was packed at this moment");
       append(all_tilts, from.read_finite("/frames/tilt"));
+      append(all_times, from.read_finite("/frames/time"));
+      append(steps, from.read<std::int64_t>("/frames/step"));
     }
-    const auto highest = std::ranges::max_element(all_tilts);
-    tilts.assign(all_tilts.begin(), highest == all_tilts.end() ? highest : std::next(highest));
+    last_tilt_step = find_value(checkpoint.integers, last_tilt_step_name);
+    tilts = all_tilts;
+    tilts.resize(frames_of_tilt(all_tilts, steps, last_tilt_step));
   }
 };
 
@@ -272,6 +278,8 @@ const RunHeader& RunFile::header() const { return state_->header; }
 bool RunFile::complete() const { return state_->folder.empty(); }
 const std::vector<double>& RunFile::frame_tilts() const { return state_->tilts; }
 const std::vector<double>& RunFile::all_frame_tilts() const { return state_->all_tilts; }
+const std::vector<double>& RunFile::all_frame_times() const { return state_->all_times; }
+bool RunFile::has_program() const { return state_->last_tilt_step.has_value(); }
 const Checkpoint& RunFile::checkpoint() const { return state_->checkpoint; }
 
 std::string RunFile::lost() const { return find_value(state_->header.provenance, lost_fact).value_or(""); }
@@ -298,6 +306,11 @@ Frame RunFile::positions(std::size_t k) const { return state_->read(read_positio
 
 std::vector<ObservableRow> RunFile::observables() const {
   std::vector<ObservableRow> rows = all_observables();
+  if (state_->last_tilt_step) {
+    std::erase_if(rows,
+                  [&](const ObservableRow& row) { return !is_known_row(row, *state_->last_tilt_step); });
+    return rows;
+  }
   const auto highest =
       std::ranges::max_element(rows, {}, [](const ObservableRow& row) { return at(row, Observable::tilt); });
   if (highest != rows.end()) rows.erase(std::next(highest), rows.end());

@@ -31,13 +31,17 @@ class RunFile {
 
   const RunHeader& header() const;
   bool complete() const;  ///< false for the folder of an interrupted or running run
-  /// Of the tilt: up to the first frame, or row of observables, with the highest tilt. Those of a flow that
-  /// was followed after failure (tilt.after_failure) come after them; only all_... tell of these too.
+  /// Whether the tilt followed a programme (tilt.program): then it may fall and be held, and change its sign.
+  bool has_program() const;
+  /// Of the tilt: up to the first frame, or row of observables, with the highest tilt; with a programme up to
+  /// its last step. Those of a flow that was followed after failure (tilt.after_failure) come after them;
+  /// only all_... tell of these too.
   std::size_t frame_count() const { return frame_tilts().size(); }
-  const std::vector<double>& frame_tilts() const;  ///< rad, ascending
+  const std::vector<double>& frame_tilts() const;  ///< rad; ascending without a programme
   std::vector<ObservableRow> observables() const;
 
   const std::vector<double>& all_frame_tilts() const;  ///< rad
+  const std::vector<double>& all_frame_times() const;  ///< s
   std::vector<ObservableRow> all_observables() const;
   std::uint64_t contact_count() const;  ///< of all frames together
   /// Frame k with everything stored, k < all_frame_tilts().size(). Values are those of the file (single

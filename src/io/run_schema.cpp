@@ -44,8 +44,7 @@ std::vector<DataSetField> frame_fields() {
        "simulated time; also linked as `time` beside each `value` of /particles/grains"},
       {"/frames/tilt", float64, "T", "rad",
        "angle of the bed to the horizontal, theta; ascending up to failure, what comes after the first "
-       "highest "
-       "value is the flow that follows it"},
+       "highest value is the flow that follows it; with a programme see checkpoint/integers/last_tilt_step"},
       {"/particles/grains/position/value", float32, "T N 2", "m",
        "centre (x, y) in the frame of the bed: x along it, downslope when the tilt is positive, in [0, L) of "
        "a periodic bed; y away from the floor"},
@@ -96,7 +95,7 @@ std::vector<DataSetField> command_fields() {
 std::vector<DataSetField> checkpoint_fields() {
   return {
       {"/results/theta_c", float64, "", "rad",
-       "angle of repose: the tilt at which the slope failed; NaN if it has not"},
+       "angle of repose: the magnitude of the tilt at which the slope failed; NaN if it has not"},
       {"/results/theta_r", float64, "", "rad",
        "angle at rest: slope of the free surface against the horizontal where the flow after failure has "
        "come to "

@@ -42,6 +42,10 @@ struct Checkpoint {
   Figures timing;
 };
 
+/// The integer that a run with a programme of the tilt has: steps of the world when the last step of the tilt
+/// was taken. Its tilt need not be highest there.
+inline constexpr const char* last_tilt_step_name = "last_tilt_step";
+
 /// The open folder of a running run, locked against other writers.
 class RunStore {
  public:

@@ -7,6 +7,7 @@
 #include <fmt/core.h>
 #include <utility>
 
+#include "analysis/last_rise.h"
 #include "core/errors.h"
 #include "core/nearest_word.h"
 #include "core/trigonometry.h"
@@ -20,22 +21,54 @@ namespace {
 double frame_spacing(const std::vector<double>& tilts) {
   if (tilts.size() < 2) return radians(1.0);
   double spacing = 0.0;
-  for (std::size_t k = 1; k < tilts.size(); ++k) spacing = std::max(spacing, tilts[k] - tilts[k - 1]);
+  for (std::size_t k = 1; k < tilts.size(); ++k)
+    spacing = std::max(spacing, std::abs(tilts[k] - tilts[k - 1]));
   return spacing;
 }
 
+/// Adds the frames nearest to multiples of `every` degrees of one way up or down, from frame `first` on.
+void add_every(const std::vector<double>& way, std::size_t first, double every, double spacing,
+               FrameChoice& choice) {
+  const auto [low, high] = std::ranges::minmax(way);
+  const auto multiple = [&](double angle) { return degrees(angle) / every; };
+  const long begin = std::lround(std::ceil(multiple(low - 0.5 * spacing)));
+  const long end = std::lround(std::floor(multiple(high + 0.5 * spacing)));
+  for (long k = begin; k <= end; ++k)
+    if (const auto frame = frame_near(way, radians(static_cast<double>(k) * every)))
+      choice.push_back(first + *frame);
+}
+
+/// The frame of "frame42"; nothing where the entry is something else.
+std::optional<std::size_t> frame_numbered(const std::vector<double>& tilts, const std::string& entry) {
+  constexpr std::string_view word = "frame";
+  if (!entry.starts_with(word)) return std::nullopt;
+  std::size_t frame = 0;
+  const char* const last = entry.data() + entry.size();
+  const auto [end, error] = std::from_chars(entry.data() + word.size(), last, frame);
+  if (error != std::errc() || end != last) return std::nullopt;
+  if (frame >= tilts.size())
+    throw Error(ExitCode::bad_data, fmt::format("--at {}: the tilt of the run has {} frames, frame0 to "
+                                                "frame{}",
+                                                entry, tilts.size(), tilts.size() - 1));
+  return frame;
+}
+
 std::size_t frame_at_angle(const std::vector<double>& tilts, const std::string& entry) {
+  if (const auto numbered = frame_numbered(tilts, entry)) return *numbered;
   double angle = 0.0;
   const auto [end, error] = std::from_chars(entry.data(), entry.data() + entry.size(), angle);
   if (error != std::errc() || end != entry.data() + entry.size() || !std::isfinite(angle))
-    throw Error(ExitCode::usage, fmt::format("--at {}: expected an angle in degrees, or repose{}",
-                                             visible_word(entry), did_you_mean(entry, {"repose"})));
+    throw Error(ExitCode::usage,
+                fmt::format("--at {}: expected an angle in degrees, repose, or a frame such as "
+                            "frame7{}",
+                            visible_word(entry), did_you_mean(entry, {"repose"})));
   const auto frame = frame_near(tilts, radians(angle));
   if (!frame)
-    throw Error(ExitCode::bad_data, fmt::format("--at {}: the run has no frame there; its {} frames go "
-                                                "from {:.2f} to {:.2f} deg, every {:.3g} deg",
-                                                entry, tilts.size(), degrees(tilts.front()),
-                                                degrees(tilts.back()), degrees(frame_spacing(tilts))));
+    throw Error(ExitCode::bad_data,
+                fmt::format("--at {}: the run has no frame there; its {} frames go "
+                            "from {:.2f} to {:.2f} deg, every {:.3g} deg",
+                            entry, tilts.size(), degrees(std::ranges::min(tilts)),
+                            degrees(std::ranges::max(tilts)), degrees(frame_spacing(tilts))));
   return *frame;
 }
 
@@ -74,9 +107,16 @@ std::optional<std::size_t> reference_frame(std::size_t k, std::optional<std::siz
 }
 
 std::optional<std::size_t> frame_near(const std::vector<double>& tilts, double tilt) {
-  const std::size_t frame = nearest_frame(tilts, tilt).value();
-  if (std::abs(tilts[frame] - tilt) > 0.5 * frame_spacing(tilts) + 1e-9) return std::nullopt;
-  return frame;
+  const double reach = 0.5 * frame_spacing(tilts) + 1e-9;
+  const auto distance = [&](std::size_t k) { return std::abs(tilts[k] - tilt); };
+  for (std::size_t k = 0; k < tilts.size(); ++k) {
+    if (distance(k) > reach) continue;
+    std::size_t nearest = k;
+    for (; k + 1 < tilts.size() && distance(k + 1) <= distance(k); ++k)
+      if (distance(k + 1) < distance(nearest)) nearest = k + 1;
+    return nearest;
+  }
+  return std::nullopt;
 }
 
 FrameChoice frames_at(const std::vector<double>& tilts, const std::vector<std::string>& entries,
@@ -112,6 +152,17 @@ FrameChoice frames_every(const std::vector<double>& tilts, double every) {
     for (std::size_t k = 0; k < tilts.size(); ++k) choice.push_back(k);
     return choice;
   }
+  if (!std::ranges::is_sorted(tilts)) {
+    for (std::size_t first = 0; first + 1 < tilts.size();) {
+      const bool up = tilts[first + 1] >= tilts[first];
+      std::size_t last = first + 1;
+      while (last + 1 < tilts.size() && (tilts[last + 1] >= tilts[last]) == up) ++last;
+      add_every(SeriesPart{first, last + 1}.of(tilts), first, every, spacing, choice);
+      choice.push_back(last);
+      first = last;
+    }
+    return sorted(choice);
+  }
   const auto count = static_cast<long>(std::floor((tilts.back() + 0.5 * spacing) / radians(every)));
   for (long k = 0; k <= count; ++k)
     if (const auto frame = frame_near(tilts, radians(static_cast<double>(k) * every)))
@@ -120,8 +171,10 @@ FrameChoice frames_every(const std::vector<double>& tilts, double every) {
 }
 
 std::size_t frame_at_repose(const std::vector<double>& tilts, double theta_c) {
-  const auto above = std::upper_bound(tilts.begin(), tilts.end(), theta_c + 1e-9);
-  return above == tilts.begin() ? 0 : static_cast<std::size_t>(above - tilts.begin()) - 1;
+  const SeriesPart rise = last_rise(tilts);
+  const std::vector<double> angles = magnitudes(tilts, rise);
+  const auto above = std::upper_bound(angles.begin(), angles.end(), theta_c + 1e-9);
+  return rise.first + (above == angles.begin() ? 0 : static_cast<std::size_t>(above - angles.begin()) - 1);
 }
 
 std::string angle_name(double tilt, int decimals) {

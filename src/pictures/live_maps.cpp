@@ -66,8 +66,9 @@ LiveMaps::~LiveMaps() {
   tasks_.finish();
 }
 
-void LiveMaps::begin(const RunHeader& header, const std::string& path, double step) {
+void LiveMaps::begin(const RunHeader& header, const std::string& path, double step, bool has_program) {
   series_.run = header;
+  series_.has_program = has_program;
   series_.path = path;
   decimals_ = std::max(2, static_cast<int>(std::ceil(-std::log10(step) - 1e-9)));
 }

@@ -31,7 +31,7 @@ class LiveMaps {
 
   /// The run that is drawn. `path` is its file; `step` its step of tilt, deg, by which names tell frames
   /// apart.
-  void begin(const RunHeader& header, const std::string& path, double step);
+  void begin(const RunHeader& header, const std::string& path, double step, bool has_program);
 
   /// The frames that an earlier process has stored: colours go on from them, and pictures that are missing
   /// are drawn. Throws Error(cannot_create) where a picture of another run or other settings has their name.

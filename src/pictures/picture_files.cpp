@@ -19,10 +19,12 @@ namespace {
 constexpr std::size_t pictures_waiting = 2;
 
 /// "gamma_012.00.png" for frame k of the tilt, "gamma_flow_002.3500s.png" for one of the flow after failure,
-/// with the time since the last frame of the tilt: names sort by time.
+/// with the time since the last frame of the tilt; of a run with a programme, which comes to an angle several
+/// times, "gamma_00042_012.00.png" with the number of the frame: names sort by time.
 std::string picture_name(const PictureSeries& series, std::size_t k, std::size_t map, int decimals) {
   const FrameInstant &instant = series.met.instants[k], &highest = series.met.instants[series.met.highest];
   const std::string name = layers_name(series.plan.maps[map].layers);
+  if (series.has_program) return fmt::format("{}_{:05}_{}.png", name, k, angle_name(instant.tilt, 2));
   if (k <= series.met.highest) return fmt::format("{}_{}.png", name, angle_name(instant.tilt, decimals));
   return fmt::format("{}_flow_{:08.4f}s.png", name, instant.time - highest.time);
 }
@@ -59,7 +61,7 @@ std::vector<PictureFile> files_to_draw(DrawnRun& run, const FrameChoice& choice,
                                        bool overwrite) {
   fit_motion(run, choice);
   const PictureSeries& series = run.series;
-  const int decimals = angle_decimals(run.file.frame_tilts(), choice);
+  const int decimals = series.has_program ? 2 : angle_decimals(run.file.frame_tilts(), choice);
   std::vector<PictureFile> files;
   for (const std::size_t k : choice)
     for (std::size_t map = 0; map < series.plan.maps.size(); ++map) {

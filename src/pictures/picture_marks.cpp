@@ -90,7 +90,7 @@ std::string picture_key(const PictureSeries& series, std::size_t k, std::size_t 
     key.add("since", series.since ? std::to_string(series.met.instants[*series.since].step) : "frame before");
   for (std::size_t t = 0; t < series.curves.size(); ++t) {
     key.add("trace", std::string(trace_name(series.plan.traces[t])));
-    key.add("tilts", series.curves[t].tilts);
+    key.add("tilts", series.curves[t].places);
     key.add("values", series.curves[t].values);
   }
   return key.text();

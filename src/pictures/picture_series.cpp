@@ -32,14 +32,19 @@ void take_theta_c(PictureSeries& series, const std::optional<double>& measured) 
 /// The frame of --since; none where the frame before is meant.
 std::optional<std::size_t> reference_since(const std::vector<double>& tilts, std::optional<double> since) {
   if (!since) return std::nullopt;
-  const std::optional<std::size_t> frame = nearest_frame(tilts, *since);
-  const double spacing = tilts.size() > 1
-                             ? (tilts.back() - tilts.front()) / static_cast<double>(tilts.size() - 1)
-                             : radians(1.0);
-  if (*since > tilts.back() + 0.5 * spacing)
+  const auto [lowest, highest] = std::ranges::minmax(tilts);
+  const double spacing =
+      tilts.size() > 1 ? (highest - lowest) / static_cast<double>(tilts.size() - 1) : radians(1.0);
+  if (*since > highest + 0.5 * spacing)
     throw Error(ExitCode::bad_data, fmt::format("--since {:.6g}: the frames of the run end at {:.2f} deg",
-                                                degrees(*since), degrees(tilts.back())));
-  return frame;
+                                                degrees(*since), degrees(highest)));
+  const std::optional<std::size_t> first = frame_near(tilts, *since);  // the first time that it was there
+  return first ? first : nearest_frame(tilts, *since);
+}
+
+/// Where a trace has a frame, or a row, once the first frame was met.
+double place_of(const PictureSeries& series, double tilt, double time) {
+  return series.has_program ? time - series.met.instants.front().time : tilt;
 }
 
 void meet_all(PictureSeries& series, const RunFile& file, const CountDone& progress) {
@@ -53,7 +58,7 @@ void meet_all(PictureSeries& series, const RunFile& file, const CountDone& progr
     extend(series.extent, bed);
     for (std::size_t t = 0; t < plan.traces.size() && k < file.frame_count(); ++t)
       if (trace_from_frames(plan.traces[t])) {
-        series.curves[t].tilts.push_back(frame.tilt);
+        series.curves[t].places.push_back(place_of(series, frame.tilt, frame.time));
         series.curves[t].values.push_back(frame_value(plan.traces[t], bed, plan.maps[0]));
       }
     if (progress) progress(k + 1, count);
@@ -67,7 +72,8 @@ void take_observables(PictureSeries& series, const RunFile& file) {
   for (std::size_t t = 0; t < series.plan.traces.size(); ++t) {
     if (trace_from_frames(series.plan.traces[t])) continue;
     for (const ObservableRow& row : rows) {
-      series.curves[t].tilts.push_back(at(row, Observable::tilt));
+      series.curves[t].places.push_back(
+          place_of(series, at(row, Observable::tilt), at(row, Observable::time)));
       series.curves[t].values.push_back(at(row, trace_column(series.plan.traces[t])));
     }
   }
@@ -86,8 +92,11 @@ MapExtent cropped(const MapExtent& bed, const Crop& crop, double diameter) {
   return asked;
 }
 
-void add_instant(MetFrames& met, const Frame& frame) {
-  if (met.instants.empty() || frame.tilt > met.instants[met.highest].tilt) met.highest = met.instants.size();
+/// With a programme only the run knows which frame is the last one of the tilt.
+void add_instant(PictureSeries& series, const Frame& frame) {
+  MetFrames& met = series.met;
+  if (met.instants.empty() || series.has_program || frame.tilt > met.instants[met.highest].tilt)
+    met.highest = met.instants.size();
   if (met.instants.empty())
     for (std::size_t i = 0; i < frame.x.size(); ++i) met.begin.push_back({frame.x[i], frame.y[i]});
   met.instants.push_back({frame.step, frame.time, frame.tilt});
@@ -116,11 +125,11 @@ void meet(PictureSeries& series, const Frame& mapped) {
   if (shows(series.plan, MapKind::clusters))
     meet(series, mapped, overloaded_clusters({mapped, series.run.statics}, series.plan.maps[0]));
   else
-    add_instant(series.met, mapped);
+    add_instant(series, mapped);
 }
 
 void meet(PictureSeries& series, const Frame& mapped, const Clusters& clusters) {
-  add_instant(series.met, mapped);
+  add_instant(series, mapped);
   series.met.rule = series.plan.maps[0];
   series.met.cluster_colours.push_back(series.met.tracker.next(clusters));
 }
@@ -143,8 +152,9 @@ FrameView picture(const PictureSeries& series, std::size_t k, const Frame& frame
   of.dyed_at = met.begin;
   FrameView view = make_map(of, settings, series.extent);
   for (std::size_t t = 0; t < series.curves.size(); ++t)
-    view.traces.push_back(make_trace(series.plan.traces[t], series.curves[t].tilts, series.curves[t].values,
-                                     settings, frame.tilt));
+    view.traces.push_back(make_trace(series.plan.traces[t], series.curves[t].places, series.curves[t].values,
+                                     settings, place_of(series, frame.tilt, frame.time),
+                                     series.has_program ? TraceAxis::time : TraceAxis::tilt));
   return view;
 }
 
@@ -154,6 +164,7 @@ DrawnRun open_drawn_run(const std::string& path, const MapPlan& plan, const Coun
   series.path = path;
   series.asked = series.plan = plan;
   series.run = run.file.header();
+  series.has_program = run.file.has_program();
   if (run.file.frame_count() == 0)
     throw Error(ExitCode::bad_data, path + " has no frames yet: nothing is drawn before the tilt begins");
   take_theta_c(series, find_value(run.file.checkpoint().results, "theta_c"));

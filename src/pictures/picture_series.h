@@ -23,7 +23,8 @@ struct FrameInstant {
 
 /// What a trace shows.
 struct TraceCurve {
-  std::vector<double> tilts, values;  ///< rad; in the unit of the observables
+  /// rad, or with a programme of the tilt s since the first frame; in the unit of the observables
+  std::vector<double> places, values;
 };
 
 /// What is known of the frames of a run that were met, in their order.
@@ -40,7 +41,8 @@ struct MetFrames {
 struct PictureSeries {
   std::string path;  ///< of the run
   RunHeader run;
-  MapPlan asked;     ///< before theta_c of the run was known
+  bool has_program = false;  ///< the tilt goes up and down: frames are told apart by number and time
+  MapPlan asked;             ///< before theta_c of the run was known
   MapPlan plan;      ///< its theta_c is settled: NaN only where neither the run nor the user has said one
   MapExtent extent;  ///< what pictures show of the bed: all have one size
   std::optional<std::size_t> since;  ///< frame that displacements are measured from; none: the one before

@@ -15,9 +15,26 @@ namespace talus {
 
 namespace {
 
+/// The fastest that the tilt changes from one frame to the next, rad/s; 1 deg/s where it never does.
+double fastest_rate(const std::vector<FrameInstant>& instants) {
+  double fastest = 0.0;
+  for (std::size_t k = 1; k < instants.size(); ++k)
+    if (const double time = instants[k].time - instants[k - 1].time; time > 0.0)
+      fastest = std::max(fastest, std::abs(instants[k].tilt - instants[k - 1].tilt) / time);
+  return fastest > 0.0 ? fastest : radians(1.0);
+}
+
 /// When each frame of a run is, in rad: its tilt; and after failure, the tilt that would have been reached
-/// had it gone on rising.
+/// had it gone on rising. With a programme, the tilt that would have been reached had it always risen at its
+/// fastest.
 std::vector<double> clock_tilts(const PictureSeries& series) {
+  if (series.has_program) {
+    std::vector<double> clock;
+    const double rate = fastest_rate(series.met.instants);
+    for (const FrameInstant& instant : series.met.instants)
+      clock.push_back(rate * (instant.time - series.met.instants.front().time));
+    return clock;
+  }
   const FrameInstant &first = series.met.instants.front(), &last = series.met.instants[series.met.highest];
   const double rate = last.time > first.time ? (last.tilt - first.tilt) / (last.time - first.time) : 0.0;
   std::vector<double> clock;

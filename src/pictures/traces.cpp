@@ -106,17 +106,19 @@ Observable trace_column(TraceKind kind) {
   throw Error(ExitCode::internal, fmt::format("trace '{}' has no column", trace_name(kind)));
 }
 
-Trace make_trace(TraceKind kind, std::span<const double> tilts_rad, std::span<const double> values,
-                 const OverloadRule& rule, double tilt_now) {
+Trace make_trace(TraceKind kind, std::span<const double> places, std::span<const double> values,
+                 const OverloadRule& rule, double place_now, TraceAxis axis) {
+  const bool over_tilt = axis == TraceAxis::tilt;
+  const auto shown_place = [over_tilt](double place) { return over_tilt ? degrees(place) : place; };
   constexpr int most_x = 8, most_y = 3;
   const Quantity& quantity = trace_quantity(kind);
   Trace trace;
   trace.title = shown_title(quantity);
   if (trace_from_frames(kind)) trace.title += ", " + reading_text(rule);
-  trace.x_title = "θ in °";
-  for (const double tilt : tilts_rad) trace.x.push_back(degrees(tilt));
+  trace.x_title = over_tilt ? "θ in °" : "t in s";
+  for (const double place : places) trace.x.push_back(shown_place(place));
   for (const double value : values) trace.y.push_back(shown(quantity, value, 1.0));
-  trace.mark = degrees(tilt_now);
+  trace.mark = shown_place(place_now);
 
   const ScaleRange x = range_of(trace.x, 0.5);
   const ScaleRange y = rounded(range_of(trace.y, 0.05), most_y);
@@ -127,7 +129,7 @@ Trace make_trace(TraceKind kind, std::span<const double> tilts_rad, std::span<co
   trace.x_ticks = axis_ticks(x.low, x.high, most_x);
   trace.y_ticks = axis_ticks(y.low, y.high, most_y + 1);
   const double theta_c = degrees(rule.theta_c);
-  if (theta_c > x.low && theta_c <= x.high) {
+  if (over_tilt && theta_c > x.low && theta_c <= x.high) {
     trace.event = theta_c;
     trace.event_label = "θ_c";
   }

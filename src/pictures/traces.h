@@ -1,5 +1,5 @@
 #pragma once
-/// Curves of an observable over the tilt, to be shown under a map.
+/// Curves of an observable over the tilt, or over time, to be shown under a map.
 
 #include <span>
 #include <string>
@@ -43,10 +43,13 @@ double frame_value(TraceKind kind, const BedFrame& bed, const OverloadRule& rule
 /// Its column. Throws Error(internal) where trace_from_frames is true.
 Observable trace_column(TraceKind kind);
 
-/// The curve of `values` (in the unit of the observables; NaN makes a gap) over `tilts_rad` (ascending, as
-/// many), with the range of all of them, a mark at the tilt of the frame shown (rad), and theta_c where it is
-/// known and in the range. The tilt is given in degrees.
-Trace make_trace(TraceKind kind, std::span<const double> tilts_rad, std::span<const double> values,
-                 const OverloadRule& rule, double tilt_now);
+/// What a trace is drawn over: the tilt, or, where this goes up and down, the time since it began.
+enum class TraceAxis { tilt, time };
+
+/// The curve of `values` (in the unit of the observables; NaN makes a gap) over `places` (rad or s,
+/// ascending, as many), with the range of all of them, a mark at the place of the frame shown, and over the
+/// tilt theta_c where it is known and in the range. The tilt is given in degrees.
+Trace make_trace(TraceKind kind, std::span<const double> places, std::span<const double> values,
+                 const OverloadRule& rule, double place_now, TraceAxis axis = TraceAxis::tilt);
 
 }  // namespace talus

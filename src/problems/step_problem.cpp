@@ -62,9 +62,12 @@ InForce in_force(const RunFile& run, const Scenario& scenario, std::int64_t step
 }
 
 /// Of the step after a frame. Where no command has changed the rate it is a whole number of steps of the
-/// tilt, as in a run.
-double next_tilt(double tilt, const Scenario& scenario, const InForce& now) {
+/// tilt, as in a run; with a programme that of the number of the step. The first frame is that before the
+/// first step of the tilt.
+double next_tilt(const RunFile& run, const World& world, const Scenario& scenario, const InForce& now) {
+  const double tilt = world.tilt;
   if (now.tilt_rate) return tilt + *now.tilt_rate * time_step(scenario);
+  if (run.has_program()) return TiltProgram(scenario).tilt(world.step - run.frame(0).step + 1);
   const double step_angle = radians(scenario.tilt.step);
   return static_cast<double>(std::llround(tilt / step_angle) + 1) * step_angle;
 }
@@ -114,7 +117,7 @@ FrameStart start_at_frame(const RunFile& run, std::size_t k) {
   start.settings.law.friction = now.friction;
   start.mean_diameter = scenario.grains.mean_diameter;
   if (start.world.step != run.checkpoint().world.step) start.closed_below = gap_resolution(start.world);
-  start.next_tilt = next_tilt(start.world.tilt, scenario, now);
+  start.next_tilt = next_tilt(run, start.world, scenario, now);
   return start;
 }
 

@@ -34,7 +34,9 @@ std::string text_of(const TextRange& range) {
 std::optional<KeyValue> admitted_by(const NumberRange& range, const KeyValue& value) {
   if (const std::string* word = std::get_if<std::string>(&value))
     return !range.word.empty() && *word == range.word ? std::optional(value) : std::nullopt;
-  if (std::holds_alternative<std::vector<double>>(value)) return std::nullopt;
+  if (std::holds_alternative<std::vector<double>>(value) ||
+      std::holds_alternative<std::vector<std::string>>(value))
+    return std::nullopt;
   const std::int64_t* whole = std::get_if<std::int64_t>(&value);
   const double number = whole != nullptr ? static_cast<double>(*whole) : std::get<double>(value);
   const bool above = range.low_included ? number >= range.low : number > range.low;
@@ -75,6 +77,20 @@ std::optional<KeyValue> admitted_by(const NumberList& list, const KeyValue& valu
     last = number;
   }
   return value;
+}
+
+std::string text_of(const PhraseList& list) {
+  return fmt::format("a list of 1 ... {} {}, each {}; or \"{}\"", list.most, list.what, list.forms,
+                     list.word);
+}
+
+std::optional<KeyValue> admitted_by(const PhraseList& list, const KeyValue& value) {
+  if (const std::string* word = std::get_if<std::string>(&value))
+    return *word == list.word ? std::optional(value) : std::nullopt;
+  const auto* phrases = std::get_if<std::vector<std::string>>(&value);
+  const bool good = phrases != nullptr && !phrases->empty() && phrases->size() <= list.most &&
+                    std::ranges::all_of(*phrases, list.good);
+  return good ? std::optional(value) : std::nullopt;
 }
 
 }  // namespace

@@ -46,7 +46,18 @@ struct NumberList {
   double high = 0.0;
 };
 
-using KeyRange = std::variant<NumberRange, IntegerRange, Choices, TextRange, NumberList>;
+/// From one to `most` phrases, each of which is `good`, or the string `word` for none.
+struct PhraseList {
+  std::string what;  ///< "phrases"
+  std::size_t most = 0;
+  std::string word;
+  std::string forms;  ///< what a phrase may be
+  bool (*good)(const std::string& phrase) = nullptr;
+  /// The end of a message about one that is not: "; did you mean 'to 12'?", or nothing.
+  std::string (*meant)(const std::string& phrase) = nullptr;
+};
+
+using KeyRange = std::variant<NumberRange, IntegerRange, Choices, TextRange, NumberList, PhraseList>;
 
 /// What there is to say of a key, whatever the struct.
 struct KeyHead {
@@ -57,14 +68,16 @@ struct KeyHead {
   std::string section{};  ///< empty for a key above the first section
 };
 
-/// The value of a field: a number, an integer, text, a list of numbers, an enumerator (Choices), or a number
-/// that may be missing (the word of its NumberRange).
+/// The value of a field: a number, an integer, text, a list of numbers, an enumerator (Choices), a number
+/// that may be missing (the word of its NumberRange), or phrases (without any the word of their PhraseList).
 template <typename T>
 KeyValue value_of_field(const T& field, const KeyRange& range) {
   if constexpr (std::is_enum_v<T>)
     return std::get<Choices>(range).names.at(static_cast<std::size_t>(field));
   else if constexpr (std::is_same_v<T, std::optional<double>>)
     return field ? KeyValue(*field) : std::get<NumberRange>(range).word;
+  else if constexpr (std::is_same_v<T, std::vector<std::string>>)
+    return field.empty() ? KeyValue(std::get<PhraseList>(range).word) : KeyValue(field);
   else if constexpr (std::is_integral_v<T>)
     return static_cast<std::int64_t>(field);
   else
@@ -80,6 +93,9 @@ void set_field(T& field, const KeyValue& value, const KeyRange& range) {
   } else if constexpr (std::is_same_v<T, std::optional<double>>) {
     const double* number = std::get_if<double>(&value);
     field = number != nullptr ? std::optional(*number) : std::nullopt;
+  } else if constexpr (std::is_same_v<T, std::vector<std::string>>) {
+    const T* phrases = std::get_if<T>(&value);
+    field = phrases != nullptr ? *phrases : T();
   } else if constexpr (std::is_integral_v<T>) {
     field = static_cast<T>(std::get<std::int64_t>(value));
   } else {

@@ -2,6 +2,8 @@
 
 #include <limits>
 
+#include "scenario/tilt_program.h"
+
 namespace talus {
 namespace {
 
@@ -129,6 +131,12 @@ Keys tilt_keys() {
           {{"end_angle", "deg", above_to_or(0.0, 60.0, "repose"),
             "tilt at which the run ends; \"repose\": when the slope has failed"},
            &P::end_angle},
+          {{"program", "",
+            PhraseList{"phrases", 1000, "none", program_phrase_forms(),
+                       [](const std::string& phrase) { return program_phrase(phrase).has_value(); },
+                       meant_program_phrase},
+            "course of the tilt, phrase by phrase; \"none\": it grows at tilt.rate to tilt.end_angle"},
+           &P::program},
           {{"after_failure", "", Choices{{"stop", "lower", "hold"}},
             "what follows failure: the run ends, or the tilt is lowered or held until the flow has stopped"},
            &P::after_failure},

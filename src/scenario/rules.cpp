@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include "scenario/text.h"
+#include "scenario/tilt_program.h"
 
 namespace talus {
 namespace {
@@ -49,6 +50,10 @@ std::vector<BrokenRule> broken_rules(const Scenario& scenario) {
     broken.push_back({{"tilt.end_angle", "tilt.step"},
                       fmt::format("tilt.end_angle >= tilt.step; they are {} and {} deg",
                                   short_text(*scenario.tilt.end_angle), short_text(scenario.tilt.step))});
+  // A time step that is none counts no steps.
+  if (broken.empty())
+    if (std::string fault = program_fault(scenario); !fault.empty())
+      broken.push_back({{"tilt.program", "tilt.end_angle"}, std::move(fault)});
   if (scenario.solver.moving_tolerance < scenario.solver.tolerance)
     broken.push_back(
         {{"solver.moving_tolerance", "solver.tolerance"},

@@ -71,6 +71,8 @@ struct Scenario {
     double rate = 1.0;                ///< deg/s
     double step = 0.001;              ///< deg per time step; h = step / rate
     std::optional<double> end_angle;  ///< deg; without a value ("repose"): until the slope fails
+    /// The course of the tilt as phrases (scenario/tilt_program.h); without any ("none"): it grows at `rate`
+    std::vector<std::string> program;
     /// "stop": the run ends there; "lower", "hold": the tilt is lowered or kept until the flow has stopped
     AfterFailure after_failure = AfterFailure::stop;
     double lowering_rate = 0.1;  ///< deg/s

@@ -59,6 +59,8 @@ std::string toml_text(const KeyValue& value) {
   if (const auto* text = std::get_if<std::string>(&value)) return quoted(*text);
   if (const auto* numbers = std::get_if<std::vector<double>>(&value))
     return fmt::format("[{}]", joined(*numbers, ", ", [](double number) { return toml_text(number); }));
+  if (const auto* phrases = std::get_if<std::vector<std::string>>(&value))
+    return fmt::format("[{}]", joined(*phrases, ", ", quoted));
   // Without a point or an exponent (and for nan and inf, which have an "n") TOML would read an integer.
   const std::string digits = short_text(std::get<double>(value));
   return digits.find_first_of(".en") == std::string::npos ? digits + ".0" : digits;
@@ -69,6 +71,7 @@ std::string plain_text(const KeyValue& value) {
   if (const auto* text = std::get_if<std::string>(&value)) return *text;
   if (const auto* numbers = std::get_if<std::vector<double>>(&value))
     return joined(*numbers, ",", short_text);
+  if (const auto* phrases = std::get_if<std::vector<std::string>>(&value)) return joined(*phrases, ", ");
   return toml_text(value);
 }
 

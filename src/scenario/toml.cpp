@@ -115,6 +115,11 @@ std::optional<KeyValue> value_of(const toml::node& node) {
   if (const auto* text = node.as_string()) return text->get();
   const toml::array* array = node.as_array();
   if (array == nullptr) return std::nullopt;
+  if (!array->empty() && array->is_homogeneous(toml::node_type::string)) {
+    std::vector<std::string> texts;
+    for (const toml::node& element : *array) texts.push_back(element.as_string()->get());
+    return texts;
+  }
   std::vector<double> numbers;
   for (const toml::node& element : *array)
     if (const auto number = element.value<double>(); number && element.is_number())
@@ -137,6 +142,7 @@ bool is_of_expected_kind(const KeyHead& key, const toml::node& node) {
     return node.is_string();
   if (std::holds_alternative<IntegerRange>(key.range)) return node.is_integer();
   if (std::holds_alternative<NumberList>(key.range)) return node.is_array();
+  if (std::holds_alternative<PhraseList>(key.range)) return node.is_array() || node.is_string();
   return node.is_number() || (node.is_string() && !std::get<NumberRange>(key.range).word.empty());
 }
 
@@ -144,14 +150,34 @@ bool is_of_expected_kind(const KeyHead& key, const toml::node& node) {
 std::vector<std::string> words_of(const KeyHead& key) {
   if (const auto* choices = std::get_if<Choices>(&key.range)) return choices->names;
   if (const auto* range = std::get_if<NumberRange>(&key.range)) return {range->word};
+  if (const auto* list = std::get_if<PhraseList>(&key.range)) return {list->word};
   return {};
+}
+
+/// Complains at each phrase of a list that is none; whether there was one.
+bool complain_of_phrases(ParsedKeys& reading, const KeyHead& key, const toml::node& node,
+                         const SourcePlace& place) {
+  const auto* list = std::get_if<PhraseList>(&key.range);
+  const toml::array* array = node.as_array();
+  if (list == nullptr || array == nullptr) return false;
+  bool any = false;
+  for (const toml::node& element : *array) {
+    const auto* text = element.as_string();
+    if (text != nullptr && list->good(text->get())) continue;
+    any = true;
+    const SourcePlace at = place.in_file ? place_in_file(reading.name, element.source().begin) : place;
+    reading.complain(at,
+                     fmt::format("key '{}'{}: expected {}{}", full_name(key), shown(element), list->forms,
+                                 text != nullptr ? list->meant(text->get()) : ", found " + kind_of(element)));
+  }
+  return any;
 }
 
 void take_value(ParsedKeys& reading, const KeyHead& key, const toml::node& node, const SourcePlace& place) {
   const auto found = value_of(node);
   const auto good = found ? admitted(key, *found) : std::nullopt;
   reading.given[&key] = {place, good};
-  if (!good)
+  if (!good && !complain_of_phrases(reading, key, node, place))
     reading.complain(
         place, fmt::format("key '{}'{}: expected {}{}{}", full_name(key), shown(node), expectation(key),
                            is_of_expected_kind(key, node) ? "" : ", found " + kind_of(node),
@@ -258,12 +284,25 @@ toml::table table_of(const KeyValue& number) {
   return toml::table{{"value", std::get<double>(number)}};
 }
 
+/// Phrases with commas between, without quotes, as a value that was read.
+toml::table table_of_phrases(std::string_view text) {
+  toml::array phrases;
+  while (true) {
+    const auto comma = text.find(',');
+    phrases.push_back(std::string(trimmed(text.substr(0, comma))));
+    if (comma == std::string_view::npos) return toml::table{{"value", std::move(phrases)}};
+    text.remove_prefix(comma + 1);
+  }
+}
+
 /// The value of a setting: TOML, a number as people type it, a list without its brackets, or a bare word that
 /// stands for a string; of a key that takes any text, also what is no TOML (`--set
 /// deposition.file=beds/dense.csv`). One entry, named "value"; nothing where it is none of these.
 std::optional<toml::table> parse_setting(const KeyHead& key, const std::string& value) {
   if (line_too_deep(value) != 0) return std::nullopt;
   const bool bare_list = std::holds_alternative<NumberList>(key.range) && !value.starts_with('[');
+  if (const auto* list = std::get_if<PhraseList>(&key.range); list != nullptr && value != list->word)
+    if (value.find_first_of("[\"'") == std::string::npos) return table_of_phrases(value);
   try {
     toml::table table = parse_toml("value = " + (bare_list ? fmt::format("[{}]", value) : value));
     const bool may_be_whole =

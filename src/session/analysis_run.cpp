@@ -8,6 +8,7 @@
 
 #include "analysis/failure_ratio.h"
 #include "analysis/frame_analysis.h"
+#include "analysis/last_rise.h"
 #include "analysis/local_deformation.h"
 #include "analysis/topology.h"
 #include "analysis/transition.h"
@@ -63,11 +64,15 @@ void analyse_frames(const RunFile& run, const AnalysisParameters& parameters, in
   take_network_changes(networks, run.header().statics.free_count, analysis.frames);
 }
 
-/// What the run has observed already: for each frame that of the last row not after it.
-void take_observables(const std::vector<ObservableRow>& rows, Analysis& analysis) {
-  for (FrameRecord& frame : analysis.frames) {
-    const auto after = std::ranges::upper_bound(
-        rows, frame.tilt, {}, [](const ObservableRow& row) { return at(row, Observable::tilt); });
+/// What the run has observed already: for each frame that of the last row not after it, by the tilt where
+/// this ascends.
+void take_observables(const RunFile& run, const std::vector<ObservableRow>& rows, Analysis& analysis) {
+  const Observable order = run.has_program() ? Observable::time : Observable::tilt;
+  for (std::size_t k = 0; k < analysis.frames.size(); ++k) {
+    FrameRecord& frame = analysis.frames[k];
+    const double place = run.has_program() ? run.all_frame_times()[k] : frame.tilt;
+    const auto after = std::ranges::upper_bound(rows, place, {},
+                                                [order](const ObservableRow& row) { return at(row, order); });
     if (after == rows.begin()) continue;
     const ObservableRow& row = *std::prev(after);
     frame.volume_strain = at(row, Observable::volume_strain);
@@ -103,14 +108,13 @@ void find_failure_ratio(const std::vector<ObservableRow>& rows, Analysis& analys
 }
 
 void find_transitions(Analysis& analysis) {
-  std::vector<double> tilts;
-  for (const FrameRecord& frame : analysis.frames) tilts.push_back(frame.tilt);
+  const auto [first, frames, tilts] = last_rise(analysis.frames);
   for (std::size_t f = 0; f < analysis.thresholds.size(); ++f) {
     std::vector<double> lengths;
     std::vector<Index> spans;
-    for (const FrameRecord& frame : analysis.frames) {
-      lengths.push_back(frame.thresholds[f].lc_max);
-      spans.push_back(frame.thresholds[f].spans_depth);
+    for (const FrameRecord* frame : frames) {
+      lengths.push_back(frame->thresholds[f].lc_max);
+      spans.push_back(frame->thresholds[f].spans_depth);
     }
     RunThreshold& threshold = analysis.thresholds[f];
     const LengthJump jump = length_jump(tilts, lengths, analysis.theta_c, analysis.lc_cut);
@@ -124,11 +128,11 @@ void find_transitions(Analysis& analysis) {
 }
 
 void find_growth(Analysis& analysis) {
-  std::vector<double> tilts, means, weighted_means;
-  for (const FrameRecord& frame : analysis.frames) {
-    tilts.push_back(frame.tilt);
-    means.push_back(frame.critical_mean);
-    weighted_means.push_back(frame.critical_weighted_mean);
+  const auto [first, frames, tilts] = last_rise(analysis.frames);
+  std::vector<double> means, weighted_means;
+  for (const FrameRecord* frame : frames) {
+    means.push_back(frame->critical_mean);
+    weighted_means.push_back(frame->critical_weighted_mean);
   }
   const std::vector<double>* const sizes[] = {&means, &weighted_means};
   for (std::size_t s = 0; s < std::size(sizes); ++s) {
@@ -156,13 +160,14 @@ Analysis analyse_run(const RunFile& run, const AnalysisParameters& parameters, i
   analysis.parameters = as_facts(parameters);
   analysis.key = analysis_key(run, parameters);
   analyse_frames(run, parameters, threads, progress, analysis);
-  const std::vector<ObservableRow> rows = run.observables();
-  take_observables(rows, analysis);
+  std::vector<ObservableRow> rows = run.observables();
+  take_observables(run, rows, analysis);
+  find_events(run, rows, parameters, analysis);
+  rows = rows_of_last_rise(rows);
   find_dilation(rows, analysis);
   find_failure_ratio(rows, analysis);
   find_transitions(analysis);
   find_growth(analysis);
-  find_events(run, rows, parameters, analysis);
   analysis.first_slide =
       first_slide(column(rows, Observable::tilt), column(rows, Observable::surface_displacement),
                   slide_distance * statics.mean_diameter, radians(slide_window));

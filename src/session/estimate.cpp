@@ -6,6 +6,7 @@
 
 #include "core/errors.h"
 #include "core/machine_memory.h"
+#include "scenario/tilt_program.h"
 #include "session/deposition.h"
 
 namespace talus {
@@ -51,6 +52,16 @@ double seconds_of_commits(const Scenario& scenario, const Estimate& sizes, doubl
   return commits * (seconds_per_commit + seconds_per_commit_and_grain * sizes.grains);
 }
 
+/// The steepest that the tilt comes to, deg.
+double steepest_expected(const Scenario& scenario, const TiltProgram& program) {
+  if (program.empty()) return scenario.tilt.end_angle.value_or(assumed_repose);
+  double steepest = program.ends_at_repose() ? assumed_repose : 0.0;
+  for (const TiltSegment& segment : program.segments())
+    if (!program.ends_at_repose() || &segment != &program.segments().back())
+      steepest = std::max({steepest, std::abs(segment.from), std::abs(segment.to)});
+  return steepest;
+}
+
 /// Steps that may follow failure, which a slope that holds up to tilt.end_angle does not see.
 double steps_of_flow(const Scenario& scenario, double end) {
   switch (scenario.tilt.after_failure) {
@@ -89,6 +100,16 @@ double estimated_file(const Estimate& sizes) {
 
 }  // namespace
 
+std::int64_t expected_tilt_steps(const Scenario& scenario) {
+  const TiltProgram program(scenario);
+  if (program.empty())
+    return std::llround(scenario.tilt.end_angle.value_or(assumed_repose) / scenario.tilt.step);
+  if (!program.ends_at_repose()) return program.steps();
+  const TiltSegment& last = program.segments().back();
+  const double rise = std::max(0.0, assumed_repose - last.from) / last.step;
+  return last.begin + std::min(last.steps, static_cast<std::int64_t>(std::llround(rise)));
+}
+
 Estimate estimate(const Scenario& scenario) {
   Estimate result;
   result.grains = grain_count(scenario);
@@ -99,13 +120,18 @@ Estimate estimate(const Scenario& scenario) {
   const double depth = scenario.bed.depth * scenario.grains.mean_diameter;
   const double rest = std::min(falls_until_rest * std::sqrt(depth / gravity), scenario.deposition.max_time);
   result.deposition_steps = std::llround((end_of_arrivals(scenario) + rest) / result.time_step);
-  const double end = scenario.tilt.end_angle.value_or(assumed_repose);
-  result.tilt_steps = std::llround(end / scenario.tilt.step);
+  const TiltProgram program(scenario);
+  const double end = steepest_expected(scenario, program);
+  result.tilt_steps = expected_tilt_steps(scenario);
+  result.program_parts = static_cast<std::int64_t>(program.segments().size());
   result.flow_steps = std::llround(steps_of_flow(scenario, end));
-  // The flow is stored at the same intervals of time as the tilt.
-  const double stored = end + static_cast<double>(result.flow_steps) * scenario.tilt.step;
-  result.frames = 1 + static_cast<std::int64_t>(stored / scenario.output.frame_every);
-  result.observable_rows = 1 + static_cast<std::int64_t>(stored / scenario.output.observable_every);
+  // The flow, and a programme, are stored at the same intervals of time as a tilt that grows.
+  const auto steps_of_tilt = static_cast<double>(result.tilt_steps);
+  const double stored = (program.empty() ? end : steps_of_tilt * scenario.tilt.step) +
+                        static_cast<double>(result.flow_steps) * scenario.tilt.step;
+  result.frames = 1 + static_cast<std::int64_t>(stored / scenario.output.frame_every) + result.program_parts;
+  result.observable_rows =
+      1 + static_cast<std::int64_t>(stored / scenario.output.observable_every) + result.program_parts;
 
   result.seconds = estimated_seconds(scenario, result);
   result.disk = estimated_file(result);

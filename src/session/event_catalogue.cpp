@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "analysis/events.h"
+#include "analysis/last_rise.h"
 #include "analysis/power_law.h"
 #include "core/trigonometry.h"
 #include "session/run_header.h"
@@ -110,9 +111,31 @@ EventRecord record_of(const Burst& burst, const TiltSteps& steps, const StepSeri
   return event;
 }
 
-/// Failure by theta_c, which is in the event that began before it and ends after it.
-EventKind kind_of(const Burst& burst, const EventRecord& event, double theta_c) {
-  if (event.end >= theta_c) return EventKind::failure;
+/// The number of the step with which the last rise of the tilt begins.
+double begin_of_last_rise(const std::vector<ObservableRow>& rows) {
+  std::vector<double> tilts;
+  for (const ObservableRow& row : rows) tilts.push_back(at(row, Observable::tilt));
+  return at(rows[last_rise(tilts).first], Observable::step);
+}
+
+/// The angle by which the bed is turned from one step to another, up or down, rad.
+double angle_turned(const StepSeries& series, std::int64_t from, std::int64_t to) {
+  double angle = 0.0, tilt = series.value(from, Observable::tilt);
+  const auto turn_to = [&](double next) {
+    angle += std::abs(next - tilt);
+    tilt = next;
+  };
+  for (const ObservableRow& row : series.rows)
+    if (at(row, Observable::step) > static_cast<double>(from) &&
+        at(row, Observable::step) < static_cast<double>(to))
+      turn_to(at(row, Observable::tilt));
+  turn_to(series.value(to, Observable::tilt));
+  return angle;
+}
+
+/// Failure by theta_c, which is in the event of the last rise that began before it and ends after it.
+EventKind kind_of(const Burst& burst, const EventRecord& event, double theta_c, bool in_last_rise) {
+  if (in_last_rise && std::abs(event.end) >= theta_c) return EventKind::failure;
   return burst.is_over ? EventKind::rearrangement : EventKind::unfinished;
 }
 
@@ -232,13 +255,16 @@ void find_events(const RunFile& run, const std::vector<ObservableRow>& rows,
       static_cast<std::size_t>(std::max(1.0, std::round(analysis.event_quiet_time / steps->h)));
   const std::vector<Burst> bursts = find_bursts(steps->velocity, analysis.event_threshold, quiet_steps);
   analysis.event_noise = quiet_velocity(steps->velocity, bursts);
+  const double last_rise_begins = begin_of_last_rise(rows);
   std::vector<EventSpan> spans;
   for (const Burst& burst : bursts) {
+    const std::int64_t first = steps->step(burst.first), last = steps->step(burst.last);
     EventRecord event = record_of(burst, *steps, series);
-    event.kind = static_cast<Index>(kind_of(burst, event, analysis.theta_c));
-    if (!analysis.events.empty()) event.waiting = event.begin - analysis.events.back().end;
+    event.kind = static_cast<Index>(
+        kind_of(burst, event, analysis.theta_c, static_cast<double>(last) >= last_rise_begins));
+    if (!spans.empty()) event.waiting = angle_turned(series, spans.back().last, first - 1);
     analysis.events.push_back(event);
-    spans.push_back({steps->step(burst.first), steps->step(burst.last)});
+    spans.push_back({first, last});
   }
   EventFrames(run, *steps, parameters, spans, analysis);
   const double unit = mean_grain_mass(statics) * statics.gravity * statics.mean_diameter;

@@ -74,6 +74,7 @@ std::vector<ScheduleField> fields(Schedule& s, bool follows) {
     all.push_back({reals, "tilt_from", &s.course->from});
     all.push_back({integers, "tilt_since", &s.course->since});
   }
+  if (s.last_tilt_step) all.push_back({integers, last_tilt_step_name, &*s.last_tilt_step});
   all.push_back({integers, "unconverged_in_a_row", &s.unconverged_in_a_row, where_not_zero});
   for (std::size_t k = 0; k < guard_count; ++k) {
     const std::string name = std::string("warnings_").append(guard_names[k]);
@@ -166,6 +167,7 @@ Schedule stored_schedule(const Checkpoint& checkpoint, bool follows, const std::
   Schedule schedule;
   if (find_value(checkpoint.reals, "friction")) schedule.friction.emplace();
   if (find_value(checkpoint.reals, "tilt_rate")) schedule.course.emplace();
+  if (find_value(checkpoint.integers, last_tilt_step_name)) schedule.last_tilt_step.emplace();
   for (const ScheduleField& field : fields(schedule, follows)) {
     if (field.kept == Kept::as_result) continue;
     if (const std::optional<double> number = find(field, checkpoint))

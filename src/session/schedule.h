@@ -49,18 +49,21 @@ struct Schedule {
   std::int64_t unconverged_in_a_row = 0;
   Baseline baseline;
   SurfaceFlow flow;
-  double surface_height = 0.0;          ///< m, mean free surface at the last row
-  double surface_displacement = 0.0;    ///< m
-  double residual_since_row = 0.0;      ///< worst eta since the last row
-  std::optional<double> friction;       ///< set by a command
-  std::optional<TiltCourse> course;     ///< set by a command
+  double surface_height = 0.0;        ///< m, mean free surface at the last row
+  double surface_displacement = 0.0;  ///< m
+  double residual_since_row = 0.0;    ///< worst eta since the last row
+  std::optional<double> friction;     ///< set by a command
+  std::optional<TiltCourse> course;   ///< set by a command
+  /// With a programme of the tilt: steps of the world when the last step of the tilt was taken. What is
+  /// recorded up to it is of the tilt, however far this went up and down; what comes later is of the flow.
+  std::optional<std::int64_t> last_tilt_step;
   std::optional<double> angle_at_rest;  ///< rad, of the free surface after failure
   SolverRecord record;
   GuardWarnings warnings;
   RunSeconds seconds;
 };
 
-/// theta_c, rad; no value while the slope has not failed.
+/// theta_c, rad, a magnitude; no value while the slope has not failed.
 std::optional<double> angle_of_repose(const Schedule& schedule);
 
 /// Adds the values of a schedule to a checkpoint, under the names of one table. What no command has changed,

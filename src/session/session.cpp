@@ -74,12 +74,16 @@ RunStatics run_statics(const Scenario& scenario, const World& world) {
 }
 
 Session::Session(const Scenario& scenario)
-    : scenario_(scenario), world_(initial_bed(scenario)), arrivals_(arrivals_of(scenario)) {
+    : scenario_(scenario),
+      program_(scenario),
+      world_(initial_bed(scenario)),
+      arrivals_(arrivals_of(scenario)) {
   let_arrive(arrivals_, pour_rule(scenario_), time_step(scenario_), world_);
 }
 
 Session::Session(const Scenario& scenario, Checkpoint checkpoint, const std::string& origin)
     : scenario_(scenario),
+      program_(scenario),
       world_(std::move(checkpoint.world)),
       schedule_(stored_schedule(checkpoint, follows_failure(scenario), origin)),
       arrivals_(arrivals_of(scenario)) {}
@@ -169,31 +173,40 @@ void Session::advance_deposition() {
 void Session::begin_tilt() {
   schedule_.phase = Phase::tilt;
   schedule_.baseline = measure_baseline(world_, scenario_.grains.mean_diameter);
+  if (!program_.empty()) schedule_.last_tilt_step = world_.step;
   record_row();
   segment_.frames.push_back(make_frame(world_, law()));
 }
 
 double Session::scheduled_tilt() const {
+  if (follows_program()) return program_.tilt(schedule_.tilt_steps);
   if (!schedule_.course) return static_cast<double>(schedule_.tilt_steps) * radians(scenario_.tilt.step);
   return schedule_.course->from + static_cast<double>(schedule_.tilt_steps - schedule_.course->since) *
                                       schedule_.course->rate * time_step(scenario_);
+}
+
+bool Session::tilt_is_over() const {
+  if (follows_program()) return schedule_.flow.failed || schedule_.tilt_steps >= program_.steps();
+  const double tilt = degrees(world_.tilt);
+  return scenario_.tilt.end_angle ? tilt >= *scenario_.tilt.end_angle - 0.5 * scenario_.tilt.step
+                                  : schedule_.flow.failed || tilt >= steepest_tilt;
 }
 
 void Session::advance_tilt() {
   ++schedule_.tilt_steps;
   world_.tilt = scheduled_tilt();
   const double velocity = take_step_and_follow();
+  if (schedule_.last_tilt_step) schedule_.last_tilt_step = world_.step;
   const bool failed_before = schedule_.flow.failed;
-  follow_surface(schedule_.flow, velocity, world_.tilt, time_step(scenario_),
+  const double downslope = world_.tilt < 0.0 ? -velocity : velocity;
+  follow_surface(schedule_.flow, downslope, std::abs(world_.tilt), time_step(scenario_),
                  flow_rule(scenario_.grains.mean_diameter, world_.gravity, world_.boundary));
 
-  const double tilt = degrees(world_.tilt);
   const bool followed = schedule_.flow.failed && follows_failure(scenario_);
-  const bool reached = scenario_.tilt.end_angle
-                           ? tilt >= *scenario_.tilt.end_angle - 0.5 * scenario_.tilt.step
-                           : schedule_.flow.failed || tilt >= steepest_tilt;
-  const bool ends = followed || reached;
-  record(ends, ends || schedule_.flow.failed != failed_before);
+  const bool ends = followed || tilt_is_over();
+  // Where a programme turns, what lies between two such places is a loop of its own.
+  const bool turns = follows_program() && program_.turns_at(schedule_.tilt_steps);
+  record(ends || turns, ends || turns || schedule_.flow.failed != failed_before);
   if (ends) schedule_.phase = followed ? Phase::flow : Phase::done;
 }
 
@@ -201,7 +214,9 @@ void Session::advance_flow() {
   ++schedule_.flow_steps;
   const double time = static_cast<double>(schedule_.flow_steps) * time_step(scenario_);
   const bool lowered = scenario_.tilt.after_failure == AfterFailure::lower;
-  if (lowered) world_.tilt = std::max(0.0, scheduled_tilt() - time * radians(scenario_.tilt.lowering_rate));
+  const double failed_at = scheduled_tilt(), side = failed_at < 0.0 ? -1.0 : 1.0;
+  if (lowered)
+    world_.tilt = side * std::max(0.0, side * failed_at - time * radians(scenario_.tilt.lowering_rate)) + 0.0;
   take_step_and_follow();
 
   const bool rests = is_at_rest() && report_.solver.converged;
@@ -209,8 +224,8 @@ void Session::advance_flow() {
   record(ends, ends);
   if (rests)
     schedule_.angle_at_rest =
-        world_.tilt - surface_inclination(world_.grains, world_.boundary,
-                                          surface_sample_spacing * scenario_.grains.mean_diameter);
+        side * (world_.tilt - surface_inclination(world_.grains, world_.boundary,
+                                                  surface_sample_spacing * scenario_.grains.mean_diameter));
   if (ends) schedule_.phase = Phase::done;
 }
 
@@ -282,6 +297,8 @@ void Session::record_row() {
 }
 
 double Session::tilt_rate() const {
+  if (follows_program())
+    return radians(program_.segment_of(schedule_.tilt_steps + 1).step) / time_step(scenario_);
   return schedule_.course ? schedule_.course->rate : radians(scenario_.tilt.rate);
 }
 

@@ -9,6 +9,7 @@
 #include "dynamics/step.h"
 #include "io/run_store.h"
 #include "scenario/scenario.h"
+#include "scenario/tilt_program.h"
 #include "session/command.h"
 #include "session/deposition.h"
 #include "session/schedule.h"
@@ -34,8 +35,10 @@ class Session {
 
   /// Does a command before the next step, and records it with the number of steps taken. Friction holds from
   /// then on, in a deposition for what is left of it as well; a rate of the tilt set in a deposition is that
-  /// with which the tilt begins. Throws Error(usage), with nothing changed, where check_command or
-  /// drop_grains refuses it, once the run is done, and for a rate of the tilt after failure.
+  /// with which the tilt begins. A rate of the tilt also ends a programme (tilt.program): from then on the
+  /// tilt grows at that rate until the slope fails, or is held. Throws Error(usage), with nothing changed,
+  /// where check_command or drop_grains refuses it, once the run is done, and for a rate of the tilt after
+  /// failure.
   void apply(Command command);
 
   /// Threads of the solver; the result does not depend on them.
@@ -46,11 +49,16 @@ class Session {
   const Schedule& schedule() const { return schedule_; }
   Phase phase() const { return schedule_.phase; }
   const StepReport& last_report() const { return report_; }
+  /// The course of the tilt that the scenario gives; empty: it grows.
+  const TiltProgram& program() const { return program_; }
+  /// Whether the tilt follows it: a command that sets the rate of the tilt ends this.
+  bool follows_program() const { return !program_.empty() && !schedule_.course; }
   /// The contact law of the next step.
   ContactLawParameters law() const;
-  /// rad/s, of the scenario or as a command has set it; 0: the tilt is held.
+  /// rad/s, of the scenario or as a command has set it, or of the part of a programme that the next step
+  /// belongs to, below 0 where it lowers the tilt; 0: the tilt is held.
   double tilt_rate() const;
-  /// rad; no value while the slope has not failed.
+  /// rad, the magnitude of the tilt; no value while the slope has not failed.
   std::optional<double> angle_of_repose() const { return talus::angle_of_repose(schedule_); }
   /// Slope of the free surface against the horizontal where the flow after failure has come to rest, rad; no
   /// value before, or where it has not: by 0 deg where the tilt is lowered, within deposition.max_time where
@@ -81,8 +89,10 @@ class Session {
   void record(bool row, bool frame);
   void record_row();
   double scheduled_tilt() const;  ///< rad, after the steps of the tilt taken so far
+  bool tilt_is_over() const;      ///< after these steps, whatever follows
 
   Scenario scenario_;
+  TiltProgram program_;
   World world_;
   Schedule schedule_;
   std::vector<Arrival> arrivals_;  ///< all that are poured; those of the first ids are in the world

@@ -90,7 +90,7 @@ void plot_observables(std::span<const ObservableRow> rows, const RunStatics& sta
   const double energy_unit = mass * statics.gravity * statics.mean_diameter;
   for (const ObservableRow& row : rows) {
     const double theta = at(row, Observable::tilt), x = degrees(theta);
-    add(sine_law, x, sine(theta));
+    add(sine_law, x, std::abs(sine(theta)));
     add(tangent_law, x, sine(theta) / cosine(theta));
     add(energy, x, positive(at(row, Observable::kinetic_energy) / energy_unit));
   }

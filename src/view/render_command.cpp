@@ -44,7 +44,7 @@ std::string render_command_line(const RenderRequest& shown) {
   };
   const auto flag = [&line](const std::string& option) { line += " " + option; };
   add("--map", layers_name(layers));
-  add("--at", number(degrees(shown.tilt)));
+  add("--at", shown.frame ? fmt::format("frame{}", *shown.frame) : number(degrees(shown.tilt)));
   if (shown.in_flow) flag("--flow");
   const bool by_theta_c = any_layer(layers, needs_theta_c);
   if (by_theta_c && settings.theta_c_assumed) add("--theta-c", number(degrees(settings.theta_c)));

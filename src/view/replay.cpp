@@ -1,6 +1,7 @@
 #include "view/replay.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/errors.h"
 #include "core/trigonometry.h"
@@ -41,6 +42,14 @@ void Replay::set_speed(double degrees_per_second) { speed_ = std::max(degrees_pe
 
 double Replay::seconds_shown(std::size_t k) const {
   const std::vector<double>& tilts = frames_->file().frame_tilts();
+  if (frames_->file().has_program()) {  // in proportion to time, also while the tilt is held
+    const std::vector<double>& times = frames_->file().all_frame_times();
+    double fastest = 0.0;  // rad/s
+    for (std::size_t j = 1; j < tilts.size(); ++j)
+      fastest = std::max(fastest, std::abs(tilts[j] - tilts[j - 1]) / (times[j] - times[j - 1]));
+    const double after = k + 1 < times.size() ? times[k + 1] - times[k] : 0.0;
+    return degrees(fastest > 0.0 ? fastest : radians(1.0)) * after / speed_;
+  }
   if (k + 1 < tilts.size()) return degrees(tilts[k + 1] - tilts[k]) / speed_;
   const double spacing =
       tilts.size() > 1 ? degrees(tilts.back() - tilts.front()) / static_cast<double>(tilts.size() - 1) : 1.0;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fmt/core.h>
 
+#include "analysis/last_rise.h"
 #include "analysis/transition.h"
 #include "core/trigonometry.h"
 #include "session/command.h"
@@ -19,34 +20,62 @@ std::vector<double> column_of(std::span<const ObservableRow> rows, Observable fi
   return values;
 }
 
-/// The tilt (rad) after so many steps, between two rows; that of the first row before it.
-double tilt_after(std::span<const ObservableRow> rows, std::int64_t step) {
+/// A field (tilt, rad, or time, s) after so many steps, between two rows; that of the first row before it.
+double value_after(std::span<const ObservableRow> rows, std::int64_t step, Observable field) {
   const auto wanted = static_cast<double>(step);
   const auto after = std::ranges::partition_point(
       rows, [wanted](const ObservableRow& row) { return at(row, Observable::step) < wanted; });
-  if (after == rows.begin()) return rows.empty() ? 0.0 : at(rows.front(), Observable::tilt);
-  if (after == rows.end()) return at(rows.back(), Observable::tilt);
+  if (after == rows.begin()) return rows.empty() ? 0.0 : at(rows.front(), field);
+  if (after == rows.end()) return at(rows.back(), field);
   const ObservableRow& before = *(after - 1);
   const double share =
       (wanted - at(before, Observable::step)) / (at(*after, Observable::step) - at(before, Observable::step));
-  return std::lerp(at(before, Observable::tilt), at(*after, Observable::tilt), share);
+  return std::lerp(at(before, field), at(*after, field), share);
 }
 
 /// Adds what has a tilt.
 struct EventList {
   const TimelineSource& source;
+  std::size_t rise_begins;         ///< frame
+  std::vector<double> rise_tilts;  ///< rad, magnitudes
   std::vector<TimelineEvent> events;
 
+  explicit EventList(const TimelineSource& of) : source(of) {
+    const SeriesPart rise = last_rise(of.tilts);
+    rise_begins = rise.first;
+    rise_tilts = magnitudes(of.tilts, rise);
+  }
+
+  /// What happens at a tilt (rad) of the last rise.
   void add(const char* name, const char* label, const std::string& what, double tilt,
            TimelineEvent::Kind kind = TimelineEvent::Kind::transition) {
     if (!std::isfinite(tilt)) return;
-    const double place = place_among(source.tilts, tilt);
+    add_at(name, label, what, tilt, static_cast<double>(rise_begins) + place_among(rise_tilts, tilt), kind);
+  }
+
+  void add_at(const std::string& name, const char* label, const std::string& what, double tilt, double place,
+              TimelineEvent::Kind kind) {
     events.push_back({name, label, what, kind, tilt, place, static_cast<std::size_t>(std::lround(place))});
+  }
+
+  /// What happens at a tilt (rad) and a time (s), in whichever rise.
+  void add_then(const std::string& name, const std::string& what, double tilt, double time,
+                TimelineEvent::Kind kind) {
+    const double place = std::ranges::is_sorted(source.tilts) ? place_among(source.tilts, tilt)
+                                                              : place_among(source.times, time);
+    add_at(name, "", what, tilt, place, kind);
+  }
+
+  void add_command(std::size_t k) {
+    const Command& command = source.commands[k];
+    add_then(fmt::format("command {}", k), command_text(command),
+             value_after(source.rows, command.step, Observable::tilt),
+             value_after(source.rows, command.step, Observable::time), TimelineEvent::Kind::command);
   }
 };
 
 void add_of_rows(EventList& list, double theta_c) {
-  const auto& rows = list.source.rows;
+  const std::vector<ObservableRow> rows = rows_of_last_rise(list.source.rows);
   const std::vector<double> tilts = column_of(rows, Observable::tilt);
   const auto onset = [&](Observable strain) {
     return dilation_onset(tilts, column_of(rows, strain), theta_c, radians(dilation_window)).tilt;
@@ -62,14 +91,15 @@ void add_of_rows(EventList& list, double theta_c) {
 void add_of_frames(EventList& list, double theta_c) {
   const TimelineSource& source = list.source;
   if (const auto first = percolation_frame(source.values))
-    list.add("spans", "spans", "a cluster first spans from floor to surface", source.values[*first].tilt);
+    list.add_at("spans", "spans", "a cluster first spans from floor to surface", source.values[*first].tilt,
+                static_cast<double>(*first), TimelineEvent::Kind::transition);
   if (source.may_change || source.values.size() < source.tilts.size()) return;
-  std::vector<double> tilts, lengths;
+  const auto [begin, frames, tilts] = last_rise(source.values);
+  std::vector<double> lengths;
   std::vector<Index> spans;
-  for (const FrameRecord& frame : source.values) {
-    tilts.push_back(frame.tilt);
-    lengths.push_back(frame.thresholds.front().lc_max);
-    spans.push_back(frame.thresholds.front().spans_depth);
+  for (const FrameRecord* frame : frames) {
+    lengths.push_back(frame->thresholds.front().lc_max);
+    spans.push_back(frame->thresholds.front().spans_depth);
   }
   list.add("length jump", "ℓ_c", "the largest ℓ_c jumps",
            length_jump(tilts, lengths, theta_c, source.cut).tilt);
@@ -91,11 +121,11 @@ void add_rearrangements(EventList& list) {
   for (const EventRecord& event : chosen) largest = std::fmax(largest, event.energy);
   for (std::size_t k = 0; k < chosen.size(); ++k) {
     const EventRecord& event = chosen[k];
-    list.add(fmt::format("rearrangement {}", k).c_str(), "",
-             fmt::format("rearrangement, {:.3g} m g D, {} grains moved; the bed {}",
-                         event.energy / list.source.energy_unit, event.grains,
-                         event.centre_of_mass_strain > 0.0 ? "dilates" : "contracts"),
-             event.begin, TimelineEvent::Kind::rearrangement);
+    list.add_then(fmt::format("rearrangement {}", k),
+                  fmt::format("rearrangement, {:.3g} m g D, {} grains moved; the bed {}",
+                              event.energy / list.source.energy_unit, event.grains,
+                              event.centre_of_mass_strain > 0.0 ? "dilates" : "contracts"),
+                  event.begin, event.time, TimelineEvent::Kind::rearrangement);
     const double below = std::log10(largest / event.energy) / told_decades;
     list.events.back().size = std::isfinite(below) ? std::clamp(1.0 - below, least_size, 1.0) : least_size;
   }
@@ -113,16 +143,14 @@ double place_among(std::span<const double> tilts, double tilt) {
 
 std::vector<TimelineEvent> timeline_events(const TimelineSource& source) {
   if (source.tilts.empty()) return {};
-  EventList list{source, {}};
+  EventList list(source);
   const double theta_c = source.theta_c.value_or(std::nan(""));
   add_of_rows(list, theta_c);
   add_of_frames(list, theta_c);
   if (source.theta_c)
     list.add("theta_c", "θ_c", "the slope fails", *source.theta_c, TimelineEvent::Kind::failure);
   add_rearrangements(list);
-  for (std::size_t k = 0; k < source.commands.size(); ++k)
-    list.add(fmt::format("command {}", k).c_str(), "", command_text(source.commands[k]),
-             tilt_after(source.rows, source.commands[k].step), TimelineEvent::Kind::command);
+  for (std::size_t k = 0; k < source.commands.size(); ++k) list.add_command(k);
   std::ranges::stable_sort(list.events, {}, &TimelineEvent::place);
   return std::move(list.events);
 }

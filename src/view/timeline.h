@@ -26,7 +26,8 @@ struct TimelineEvent {
 
 /// What the events follow from, as far as it is known.
 struct TimelineSource {
-  std::vector<double> tilts;                    ///< rad, of the frames of the tilt, ascending
+  std::vector<double> tilts;                    ///< rad, of the frames of the tilt
+  std::vector<double> times;                    ///< s, of the same
   std::span<const ObservableRow> rows;          ///< of the tilt
   std::span<const FrameRecord> values;          ///< of the first frames of the tilt, with one threshold
   std::span<const Command> commands;            ///< in their order
@@ -37,12 +38,14 @@ struct TimelineSource {
   bool may_change = false;                      ///< more frames will come
 };
 
-/// Where a tilt (rad) is among ascending tilts, in frames; not beyond the first and the last. 0 for none.
+/// Where a tilt is among ascending tilts, or a time among times, in frames; not beyond the first and the
+/// last. 0 for none.
 double place_among(std::span<const double> tilts, double tilt);
 
 /// theta_d by each estimator, the jump of l_c, where a cluster first spans, the first slide, theta_c, the
 /// rearrangements and the commands, as analyses find them (analysis/transition.h), in the order of their
 /// places. What needs the values of all frames comes when they are there. None where there are no frames.
+/// Where the tilt goes up and down, what is found at an angle is of the last rise.
 std::vector<TimelineEvent> timeline_events(const TimelineSource& source);
 
 }  // namespace talus

@@ -17,6 +17,7 @@ void ViewModel::Data::open_replay() {
   replay.emplace(frames);
   const RunFile& file = frames->file();
   pictures.run = file.header();
+  pictures.has_program = file.has_program();
   all_statics = statics();
   theta_c = find_value(file.checkpoint().results, "theta_c");
   if (theta_c && !std::isfinite(*theta_c)) theta_c.reset();  // it has not failed
@@ -51,6 +52,7 @@ void ViewModel::Data::start_live(const std::string& next_output, bool overwrite)
   output = next_output;
   series.reset();
   pictures.met = {};
+  pictures.has_program = !scenario.tilt.program.empty();
   live = std::move(next);
   pictures.run.statics = all_statics = live->statics();
   pictures.run.seed = scenario.seed;
@@ -145,6 +147,7 @@ std::string ViewModel::Data::take_end() {
 void ViewModel::Data::find_events() {
   TimelineSource source;
   source.tilts = frame_tilts();
+  source.times = frame_times();
   source.rows = rows;
   source.values = series->values();
   source.commands = commands;
@@ -188,7 +191,7 @@ std::optional<std::size_t> ViewModel::Data::place_of(Landmark landmark) const {
     case Landmark::last:
       return frame_count() - 1;
     case Landmark::theta_c:
-      if (!theta_c || tilts.front() > *theta_c) return std::nullopt;
+      if (!theta_c || std::abs(tilts.front()) > *theta_c) return std::nullopt;
       return frame_at_repose(tilts, *theta_c);
     case Landmark::percolation:
       return percolation_frame(series->values());

@@ -116,6 +116,8 @@ struct ViewModel::Data {
   const RunStatics& statics() const { return pictures.run.statics; }
   /// The tilts of the frames of the tilt.
   std::vector<double> frame_tilts() const;
+  /// s, of the same frames.
+  std::vector<double> frame_times() const;
   double shown_theta_c() const;
   /// The settings of the map, with what the run has to say.
   MapSettings map_settings(const ViewState& asked) const;

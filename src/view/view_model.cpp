@@ -100,6 +100,7 @@ std::size_t ViewModel::frame_index() const { return data_->shown_index(); }
 std::vector<double> ViewModel::frame_tilts() const {
   return data_->replay ? data_->frames->file().all_frame_tilts() : data_->frame_tilts();
 }
+bool ViewModel::has_program() const { return data_->pictures.has_program; }
 std::span<const TimelineEvent> ViewModel::events() const { return data_->events; }
 bool ViewModel::looks_back() const { return data_->held.has_value(); }
 void ViewModel::follow() {

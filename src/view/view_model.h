@@ -60,6 +60,8 @@ class ViewModel {
   std::size_t frame_count() const;
   std::size_t frame_index() const;  ///< of a live run that is followed, the count
   std::vector<double> frame_tilts() const;
+  /// Whether the tilt follows a programme, and so may fall and be held.
+  bool has_program() const;
   std::span<const TimelineEvent> events() const;
   /// In a live run, which goes on, until it is followed again; nothing where it has no frame yet.
   void go_to(std::size_t frame);

@@ -16,6 +16,17 @@ std::vector<double> ViewModel::Data::frame_tilts() const {
   return tilts;
 }
 
+std::vector<double> ViewModel::Data::frame_times() const {
+  std::vector<double> times;
+  if (replay) {
+    times = frames->file().all_frame_times();
+    times.resize(frames->file().frame_count());
+  } else {
+    for (const auto& recorded_frame : recorded->all()) times.push_back(recorded_frame->time);
+  }
+  return times;
+}
+
 std::size_t ViewModel::Data::shown_index() const {
   if (replay) return replay->index();
   const auto& all = recorded->all();
@@ -87,7 +98,11 @@ const FrameView& ViewModel::Data::whole_map(const ViewState& asked, const MapExt
   pictures.plan.maps = {map_settings(asked)};
   pictures.extent = depends_on_extent(asked.map.layers) ? common_part(shown, bed) : bed;
   pictures.since.reset();
-  if (const auto since = since_of(asked)) pictures.since = nearest_frame(frame_tilts(), *since).value_or(0);
+  if (const auto since = since_of(asked)) {
+    const std::vector<double> tilts = frame_tilts();
+    const auto first = tilts.empty() ? std::nullopt : frame_near(tilts, *since);
+    pictures.since = first ? first : nearest_frame(tilts, *since).value_or(0);
+  }
   const std::size_t k = shown_index();
   const std::optional<std::size_t> from = reference_of(pictures, k);
   std::shared_ptr<const Frame> reference;
@@ -122,9 +137,11 @@ std::string ViewModel::Data::render_command(const ViewState& asked) const {
   shown.tilt = frame->tilt;
   shown.since = since_of(asked);
   shown.mean_diameter = statics().mean_diameter;
+  if (pictures.has_program && frame_count() > 0) shown.frame = std::min(shown_index(), frame_count() - 1);
   if (replay && replay->index() >= frames->file().frame_count()) {
     shown.in_flow = true;
     shown.tilt = frames->file().frame_tilts().back();
+    if (shown.frame) shown.frame = frames->file().frame_count() - 1;
   }
   if (!replay) {
     if (output.empty()) return {};

@@ -5,7 +5,7 @@ import re
 
 import numpy as np
 import pytest
-from conftest import ROOT, json_of
+from conftest import ROOT, json_of, run_talus
 
 import talus
 
@@ -127,3 +127,29 @@ def test_analysis_as_a_table_has_what_the_page_gives_by_frame(run):
 def test_version_is_that_of_the_program():
     project = (ROOT / "CMakeLists.txt").read_text()
     assert f"project(talus VERSION {talus.__version__} " in project
+
+
+def test_a_tilt_that_goes_up_and_down(folder, tmp_path):
+    path = tmp_path / "cycles.h5"
+    run_talus("run", folder / "bed.toml", "-q", "-o", path, "--set", "tilt.end_angle=repose", "--set",
+              "tilt.program=to 2, to -2, hold 0.1, to 1")
+    run_talus("analyze", path)
+    with talus.open(path) as run:
+        assert run.has_program
+        assert run.frames_of_tilt == len(run.frames) == len(run.analysis["packing/volume"])
+        tilts = np.degrees(run.tilt)
+        assert tilts.min() == pytest.approx(-2) and tilts[-1] == pytest.approx(1)
+        assert run.frame_at(1).index == np.flatnonzero(np.isclose(tilts, 1))[0]
+        assert run.frame_at(-2).index == np.argmin(tilts)
+        assert run.scenario["tilt"]["program"] == ["to 2", "to -2", "hold 0.1", "to 1"]
+        with pytest.raises(talus.Error):
+            run.frame_at(3)
+
+
+def test_the_last_rise_of_tilts():
+    from talus.run import last_rise
+
+    assert last_rise(np.array([0.0, 1, 2])) == (0, 3)
+    assert last_rise(np.array([0.0, 2, 0, 0, 1, 1, 0])) == (2, 6)
+    assert last_rise(np.array([0.0, -2, -1, 1, 2])) == (2, 5)
+    assert last_rise(np.array([3.0, 2, 1])) == (0, 3)

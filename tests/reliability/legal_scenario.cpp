@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <fmt/core.h>
 #include <limits>
 #include <variant>
 
@@ -52,6 +53,19 @@ KeyValue value_in(const Choices& choices, Random& random) {
 }
 
 KeyValue value_in(const TextRange&, Random&) { return std::string(); }
+KeyValue value_in(const PhraseList&, Random& random) {
+  std::vector<std::string> phrases;
+  const std::uint32_t count = 1 + random.below(4);
+  for (std::uint32_t k = 0; k < count; ++k) {
+    const double angle = random.uniform(-3.0, 3.0);
+    phrases.push_back(random.below(3) == 0   ? fmt::format("hold {}", random.uniform(0.001, 0.2))
+                      : random.below(2) == 0 ? fmt::format("to {}", angle)
+                                             : fmt::format("by {} at {}", angle, random.uniform(1.0, 50.0)));
+  }
+  if (random.below(2) == 0) phrases.emplace_back("2 times");
+  if (random.below(3) == 0) phrases.emplace_back("to repose");
+  return phrases;
+}
 KeyValue value_in(const NumberList& list, Random& random) {
   return std::vector{random.uniform() * list.high};
 }

@@ -99,6 +99,56 @@ TEST(FrameChoice, NamesSortAndTellFramesApart) {
   EXPECT_THROW(angle_decimals({0.1, 0.1}, {0, 1}), Error);
 }
 
+/// Up to 2 deg, held, down to -1 deg, and up to 3 deg, by 0.5 deg a frame.
+std::vector<double> cycled_tilts() {
+  std::vector<double> tilts;
+  for (const double tilt : {0.0,  0.5,  1.0,  1.5, 2.0, 2.0, 2.0, 1.5, 1.0, 0.5, 0.0,
+                            -0.5, -1.0, -0.5, 0.0, 0.5, 1.0, 1.5, 2.0, 2.5, 3.0})
+    tilts.push_back(radians(tilt));
+  return tilts;
+}
+
+TEST(FrameChoice, WhereTheTiltGoesUpAndDownTheFirstFrameAtAnAngleCounts) {
+  EXPECT_EQ(frames_at(cycled_tilts(), {"1"}, nan), FrameChoice{2});
+  EXPECT_EQ(frames_at(cycled_tilts(), {"2"}, nan), FrameChoice{4}) << "where the hold begins";
+  EXPECT_EQ(frames_at(cycled_tilts(), {"-0.9"}, nan), FrameChoice{12});
+  EXPECT_EQ(frames_at(cycled_tilts(), {"3"}, nan), FrameChoice{20});
+  EXPECT_EQ(frames_at(cycled_tilts(), {"0.7"}, nan), FrameChoice{1});
+  EXPECT_FALSE(frame_near(cycled_tilts(), radians(3.3)).has_value());
+}
+
+TEST(FrameChoice, AFrameMayBeTakenByItsNumber) {
+  EXPECT_EQ(frames_at(cycled_tilts(), {"frame16", "1", "frame0"}, nan), (FrameChoice{0, 2, 16}));
+  for (const char* entry : {"frame", "frame-1", "frame1.5", "Frame1", "frame 1"}) try {
+      frames_at(cycled_tilts(), {entry}, nan);
+      ADD_FAILURE() << entry;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::usage) << entry;
+    }
+  try {
+    frames_at(cycled_tilts(), {"frame21"}, nan);
+    ADD_FAILURE() << "there is none";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::bad_data);
+    EXPECT_STREQ(error.what(), "--at frame21: the tilt of the run has 21 frames, frame0 to frame20");
+  }
+}
+
+TEST(FrameChoice, ReposeIsInTheLastRise) {
+  EXPECT_EQ(frame_at_repose(cycled_tilts(), radians(1.6)), 17u);
+  EXPECT_EQ(frame_at_repose(cycled_tilts(), radians(2.0)), 18u);
+  EXPECT_EQ(frame_at_repose(cycled_tilts(), radians(9.0)), 20u);
+  std::vector<double> mirrored = cycled_tilts();
+  for (double& tilt : mirrored) tilt = -tilt;
+  EXPECT_EQ(frame_at_repose(mirrored, radians(1.6)), 17u) << "of the magnitude";
+}
+
+TEST(FrameChoice, TakesOneFrameEveryStepOfEachWay) {
+  EXPECT_EQ(frames_every(cycled_tilts(), 1.0), (FrameChoice{0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20}))
+      << "and where the tilt turns";
+  EXPECT_EQ(frames_every(cycled_tilts(), 0.1).size(), 21u);
+}
+
 TEST(FrameChoice, MotionIsMeasuredFromAnEarlierFrame) {
   EXPECT_EQ(reference_frame(3, {}), 2u);
   EXPECT_EQ(reference_frame(3, 1), 1u);

@@ -38,7 +38,7 @@ Scenario paper_bed(BedBoundary boundary, double length) {
   scenario.contact = {
       .friction = 0.5, .wall_friction = 0.5, .restitution = 0.0, .tangential_restitution = 0.0};
   scenario.bed = {.boundary = boundary, .length = length, .depth = 40.0, .floor = BedFloor::rough};
-  scenario.tilt = {.rate = 1.0, .step = 0.001, .end_angle = std::nullopt};
+  scenario.tilt = {.rate = 1.0, .step = 0.001, .end_angle = std::nullopt, .program = {}};
   return scenario;
 }
 
@@ -54,6 +54,10 @@ TEST(Assets, have_a_small_demo) {
   EXPECT_EQ(asset("demo.toml"), expected);
   expected.tilt.after_failure = AfterFailure::lower;
   EXPECT_EQ(asset("dynamic-angle.toml"), expected) << "the same bed, lowered after failure";
+  expected.tilt.after_failure = AfterFailure::stop;
+  expected.tilt.program = {"to 12", "to 0", "10 times", "to repose"};
+  expected.output.frame_every = 0.5;
+  EXPECT_EQ(asset("cycles.toml"), expected) << "the same bed, in cycles";
 }
 
 }  // namespace

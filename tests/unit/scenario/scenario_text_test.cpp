@@ -20,6 +20,7 @@ KeyValue other_value(const ScenarioKey& key) {
   if (const auto* choices = std::get_if<Choices>(&key.range)) return choices->names.back();
   if (std::holds_alternative<IntegerRange>(key.range)) return std::int64_t{3};
   if (std::holds_alternative<TextRange>(key.range)) return std::string("beds/dense.csv");
+  if (std::holds_alternative<PhraseList>(key.range)) return std::vector<std::string>{"to 3", "hold 1"};
   const auto& range = std::get<NumberRange>(key.range);
   const double high = std::isinf(range.high) ? 5.0 : range.high;
   return range.low + (high - range.low) / 3.0;
@@ -80,10 +81,11 @@ Scenario all_fields_changed() {
   deposition_wall_friction = 0.0;
   rest_velocity = DBL_MIN;
   max_time = 3600.0;
-  auto& [rate, step, end_angle, after_failure, lowering_rate] = tilt;
+  auto& [rate, step, end_angle, program, after_failure, lowering_rate] = tilt;
   rate = 0.7;
   step = 0.0007;
   end_angle = std::nextafter(60.0, 0.0);
+  program = {"to 12 at 0.25", "by -0.1", "hold 1e-3 s", "7 times", "to repose"};
   after_failure = AfterFailure::lower;
   lowering_rate = 0.03;
   auto& [solver_method, tolerance, moving_tolerance, max_iterations, allowed_overlap, overlap_correction] =
@@ -108,12 +110,17 @@ Scenario all_fields_changed() {
 }
 
 TEST(ResolvedScenario, reads_back_extreme_values) {
-  const Scenario scenario = all_fields_changed();
-  const Scenario again = read_back(scenario);
-  EXPECT_EQ(again, scenario);
-  EXPECT_TRUE(std::signbit(*again.deposition.friction));
+  const Scenario all = all_fields_changed();
   for (const ScenarioKey& key : scenario_keys())
-    EXPECT_NE(key.get(again), key.get(Scenario{})) << full_name(key) << " sets no field of its own";
+    EXPECT_NE(key.get(all), key.get(Scenario{})) << full_name(key) << " sets no field of its own";
+  // One scenario has either of these.
+  Scenario with_end = all, with_program = all;
+  with_end.tilt.program.clear();
+  with_program.tilt.end_angle.reset();
+  for (const Scenario& scenario : {with_end, with_program}) {
+    EXPECT_EQ(read_back(scenario), scenario);
+    EXPECT_TRUE(std::signbit(*read_back(scenario).deposition.friction));
+  }
 }
 
 TEST(ShortText, is_short_and_exact) {

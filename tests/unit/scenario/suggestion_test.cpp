@@ -35,12 +35,12 @@ TEST(Suggestion, of_a_key_knows_it_by_one_word_of_its_name) {
 
 TEST(Suggestion, says_what_there_is_where_nothing_is_near) {
   EXPECT_EQ(suggest_key(keys, "tilt", "speed"),
-            "; [tilt] has rate, step, end_angle, after_failure, lowering_rate");
+            "; [tilt] has rate, step, end_angle, program, after_failure, lowering_rate");
   EXPECT_EQ(suggest_key(keys, "tilt", ""),
-            "; [tilt] has rate, step, end_angle, after_failure, lowering_rate");
+            "; [tilt] has rate, step, end_angle, program, after_failure, lowering_rate");
   EXPECT_TRUE(suggest_key(keys, "", "viscosity").starts_with("; expected seed, or a section: [grains], "));
   EXPECT_EQ(suggest_key(keys, "tilt", std::string(100000, 'r')),
-            "; [tilt] has rate, step, end_angle, after_failure, lowering_rate");
+            "; [tilt] has rate, step, end_angle, program, after_failure, lowering_rate");
 }
 
 TEST(Suggestion, of_a_section) {

@@ -28,6 +28,7 @@ Schedule full_schedule() {
   s.residual_since_row = 3e-7;
   s.friction = 0.3;
   s.course = TiltCourse{0.17, 0.2, 12};
+  s.last_tilt_step = 13;
   s.angle_at_rest = 0.28;
   s.record = {21, 22, 23, 1e-6, 2e-5};
   s.warnings = {{31, 32, 33, 34}, {41, 42, 43, 44}};
@@ -106,9 +107,9 @@ TEST(Schedule, has_names_of_its_own_in_a_checkpoint) {
   const auto added = [](const std::vector<std::string>& all, std::size_t from) {
     return std::vector<std::string>(all.begin() + static_cast<std::ptrdiff_t>(from), all.end());
   };
-  EXPECT_EQ(
-      added(names(full.integers), plain.integers.size()),
-      (std::vector<std::string>{"tilt_since", "unconverged_in_a_row", "flow_steps", "unconverged_flow"}));
+  EXPECT_EQ(added(names(full.integers), plain.integers.size()),
+            (std::vector<std::string>{"tilt_since", "last_tilt_step", "unconverged_in_a_row", "flow_steps",
+                                      "unconverged_flow"}));
   EXPECT_EQ(added(names(full.reals), plain.reals.size()),
             (std::vector<std::string>{"friction", "tilt_rate", "tilt_from"}));
   EXPECT_EQ(

@@ -106,6 +106,44 @@ TEST(Timeline, of_a_run_that_goes_on_has_no_largest_jump_yet) {
             (std::vector<std::string>{"command 0", "dilation", "spans", "first slide"}));
 }
 
+/// The same, after the bed was tilted to 5 deg and back, in 30 frames and 30 rows more.
+TEST(Timeline, of_a_tilt_that_went_up_and_down_is_of_its_last_rise) {
+  ExampleRun run;
+  std::vector<double> tilts;
+  std::vector<ObservableRow> rows;
+  std::vector<FrameRecord> values;
+  for (int k = 0; k < 30; ++k) {
+    const double tilt = radians(5.0 - std::abs(5.0 - k / 3.0));
+    tilts.push_back(tilt);
+    values.push_back({.tilt = tilt, .thresholds = {{.lc_max = 1.0, .spans_depth = 0}}});
+    ObservableRow row{};
+    at(row, Observable::step) = 10.0 * k;
+    at(row, Observable::tilt) = tilt;
+    rows.push_back(row);
+  }
+  for (ObservableRow& row : run.rows) at(row, Observable::step) += 300.0;
+  rows.insert(rows.end(), run.rows.begin(), run.rows.end());
+  for (std::size_t k = 0; k < rows.size(); ++k) at(rows[k], Observable::time) = 0.1 * static_cast<double>(k);
+  tilts.insert(tilts.end(), run.source.tilts.begin(), run.source.tilts.end());
+  values.insert(values.end(), run.values.begin(), run.values.end());
+  run.source.tilts = tilts;
+  run.source.rows = rows;
+  run.source.values = values;
+  for (std::size_t k = 0; k < tilts.size(); ++k)
+    run.source.times.push_back(k < 30 ? 0.1 * static_cast<double>(k)
+                                      : 3.0 + 1.25 * static_cast<double>(k - 30));
+  const std::vector<Command> commands = {{195, CommandKind::push, 3, 0.1, 0.0}};  // while the tilt falls
+  run.source.commands = commands;
+  const auto events = timeline_events(run.source);
+  ASSERT_EQ(names_of(events), (std::vector<std::string>{"command 0", "dilation", "spans", "percolation",
+                                                        "first slide", "length jump", "theta_c"}));
+  EXPECT_NEAR(events[0].place, 19.5, 1e-9);
+  EXPECT_NEAR(degrees(events[0].tilt), 5.0 - 4.5 / 3.0, 1e-9);
+  const double angles[] = {8.0, 10.0, 10.0, 11.2, 15.0, 20.0};
+  for (std::size_t k = 1; k < events.size(); ++k)
+    EXPECT_NEAR(events[k].place, 30.0 + angles[k - 1] / 5.0, 1e-9) << events[k].name;
+}
+
 TEST(Timeline, is_empty_before_the_first_frame) {
   ExampleRun run;
   run.source.tilts.clear();

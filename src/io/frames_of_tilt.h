@@ -1,0 +1,22 @@
+#pragma once
+/// Which frames of a run are of its tilt, and which of the flow that follows failure.
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace talus {
+
+/// How many frames, from the first one, are of the tilt: up to the first highest tilt (rad), or, with a
+/// programme of the tilt, whose `last_tilt_step` is known, up to the last one not after that step.
+inline std::size_t frames_of_tilt(const std::vector<double>& tilts, const std::vector<std::int64_t>& steps,
+                                  const std::optional<std::int64_t>& last_tilt_step) {
+  if (last_tilt_step)
+    return static_cast<std::size_t>(std::ranges::upper_bound(steps, *last_tilt_step) - steps.begin());
+  const auto highest = std::ranges::max_element(tilts);
+  return static_cast<std::size_t>((highest == tilts.end() ? highest : highest + 1) - tilts.begin());
+}
+
+}  // namespace talus

@@ -1,0 +1,240 @@
+#include "scenario/tilt_program.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fmt/core.h>
+
+#include "core/nearest_word.h"
+#include "core/trigonometry.h"
+#include "scenario/text.h"
+
+namespace talus {
+namespace {
+
+constexpr double steepest = 60.0;                  // deg
+constexpr double longest_hold = 3600.0;            // s
+constexpr double slowest = 1e-4, fastest = 100.0;  // deg/s
+constexpr double most_times = 10'000.0;
+constexpr std::size_t most_segments = 100'000;
+constexpr double most_steps = 1e12;
+constexpr double steepest_rounding = 1e-9;  // deg, of sums of angles
+
+/// The words of a phrase that are still to be read.
+struct Words {
+  std::vector<std::string_view> words;
+  std::size_t next = 0;
+
+  explicit Words(std::string_view text) {
+    while (true) {
+      const auto first = text.find_first_not_of(" \t");
+      if (first == std::string_view::npos) return;
+      text.remove_prefix(first);
+      const auto end = std::min(text.find_first_of(" \t"), text.size());
+      words.push_back(text.substr(0, end));
+      text.remove_prefix(end);
+    }
+  }
+
+  bool at_end() const { return next == words.size(); }
+
+  bool take(std::string_view word) {
+    if (at_end() || words[next] != word) return false;
+    ++next;
+    return true;
+  }
+
+  /// The next word as a number in [low, high].
+  std::optional<double> number(double low, double high) {
+    if (at_end()) return std::nullopt;
+    std::string_view word = words[next];
+    if (word.starts_with('+')) word.remove_prefix(1);
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    if (error != std::errc() || end != word.data() + word.size() || !(value >= low && value <= high))
+      return std::nullopt;
+    ++next;
+    return value + 0.0;  // no -0
+  }
+
+  /// The same, with its unit after it or not.
+  std::optional<double> number(double low, double high, std::string_view unit) {
+    const std::optional<double> value = number(low, high);
+    if (value) take(unit);
+    return value;
+  }
+};
+
+using Verb = ProgramPhrase::Verb;
+
+std::optional<ProgramPhrase> verb_of(Words& words) {
+  const auto with = [](Verb verb, std::optional<double> value) {
+    return value ? std::optional(ProgramPhrase{verb, *value, {}}) : std::nullopt;
+  };
+  if (words.take("once")) return with(Verb::times, 1.0);
+  if (words.take("hold")) {
+    const std::optional<double> seconds = words.number(0.0, longest_hold, "s");
+    return seconds == 0.0 ? std::nullopt : with(Verb::hold, seconds);
+  }
+  if (words.take("to")) {
+    if (words.take("repose")) return with(Verb::to_repose, 0.0);
+    return with(Verb::to, words.number(-steepest, steepest, "deg"));
+  }
+  if (words.take("by")) {
+    const std::optional<double> angle = words.number(-steepest, steepest, "deg");
+    return angle == 0.0 ? std::nullopt : with(Verb::by, angle);
+  }
+  const std::optional<double> times = words.number(1.0, most_times);
+  if (!times || *times != std::floor(*times) || !(words.take("times") || words.take("time")))
+    return std::nullopt;
+  return with(Verb::times, times);
+}
+
+/// A programme while its phrases are carried out.
+struct Course {
+  const Scenario& scenario;
+  std::vector<TiltSegment> segments;
+  std::size_t block = 0;  ///< phrases of it begin here
+  bool to_repose = false;
+  std::string fault;
+
+  double tilt() const { return segments.empty() ? 0.0 : segments.back().to; }
+  std::int64_t end() const { return segments.empty() ? 0 : segments.back().end(); }
+
+  /// A segment without a step is none.
+  void add(double to, double step, double steps) {
+    if (!(steps + static_cast<double>(end()) <= most_steps)) return complain("takes more than 1e12 steps");
+    if (std::abs(to) > steepest + steepest_rounding)
+      return complain(fmt::format("tilts to {} deg, beyond {} deg", short_text(to), short_text(steepest)));
+    if (segments.size() == most_segments)
+      return complain(fmt::format("has more than {} parts, repetitions included", most_segments));
+    if (steps >= 1.0) segments.push_back({tilt(), to, step, end(), static_cast<std::int64_t>(steps)});
+  }
+
+  void go_to(double angle, const std::optional<double>& rate) {
+    const double size =
+        rate ? *rate * time_step(scenario) : scenario.tilt.step;  // so that "at tilt.rate" changes no bit
+    const double way = angle - tilt();
+    add(angle, way < 0.0 ? -size : size, way == 0.0 ? 0.0 : std::max(1.0, std::round(std::abs(way) / size)));
+  }
+
+  void carry_out(const ProgramPhrase& phrase) {
+    switch (phrase.verb) {
+      case Verb::to:
+        return go_to(phrase.value, phrase.rate);
+      case Verb::to_repose:
+        return go_to(steepest, phrase.rate);
+      case Verb::by:
+        return go_to(tilt() + phrase.value, phrase.rate);
+      case Verb::hold:
+        return add(tilt(), 0.0, std::max(1.0, std::round(phrase.value / time_step(scenario))));
+      case Verb::times:
+        return;
+    }
+  }
+
+  void complain(std::string what) {
+    if (fault.empty()) fault = std::move(what);
+  }
+};
+
+/// Carries out the phrases from `first` to `end`, `times` times.
+void repeat(Course& course, const std::vector<ProgramPhrase>& phrases, std::size_t first, std::size_t end,
+            double times) {
+  for (double done = 0.0; done < times && course.fault.empty(); ++done)
+    for (std::size_t k = first; k < end && course.fault.empty(); ++k) course.carry_out(phrases[k]);
+}
+
+Course course_of(const Scenario& scenario) {
+  Course course{scenario, {}, 0, false, {}};
+  std::vector<ProgramPhrase> phrases;
+  for (const std::string& text : scenario.tilt.program)
+    if (const std::optional<ProgramPhrase> phrase = program_phrase(text)) phrases.push_back(*phrase);
+  std::size_t block = 0;
+  for (std::size_t k = 0; k < phrases.size(); ++k) {
+    if (phrases[k].verb == Verb::to_repose && k + 1 < phrases.size())
+      course.complain("goes on after \"to repose\", with which it has to end");
+    if (phrases[k].verb != Verb::times) continue;
+    if (k == block)
+      course.complain(fmt::format("has nothing to repeat before \"{}\"", scenario.tilt.program[k]));
+    repeat(course, phrases, block, k, phrases[k].value);
+    block = k + 1;
+  }
+  repeat(course, phrases, block, phrases.size(), 1.0);
+  course.to_repose = !phrases.empty() && phrases.back().verb == Verb::to_repose;
+  if (course.segments.empty()) course.complain("neither tilts nor holds the bed for a step");
+  return course;
+}
+
+}  // namespace
+
+std::optional<ProgramPhrase> program_phrase(std::string_view text) {
+  Words words(text);
+  std::optional<ProgramPhrase> phrase = verb_of(words);
+  if (!phrase) return std::nullopt;
+  const bool moves = phrase->verb != Verb::hold && phrase->verb != Verb::times;
+  if (moves && words.take("at")) {
+    phrase->rate = words.number(slowest, fastest, "deg/s");
+    if (!phrase->rate) return std::nullopt;
+  }
+  return words.at_end() ? phrase : std::nullopt;
+}
+
+std::string program_phrase_forms() {
+  return fmt::format(
+      "\"to A\" or \"by A\" (an angle in [-{0}, {0}] deg) or \"to repose\", each also with \"at R\" (a rate "
+      "in "
+      "[{1}, {2}] deg/s), \"hold T\" (a time in (0, {3}] s), \"N times\" (1 ... {4}), or \"once\"",
+      short_text(steepest), short_text(slowest), short_text(fastest), short_text(longest_hold),
+      short_text(most_times));
+}
+
+std::string meant_program_phrase(const std::string& text) {
+  static const std::vector<std::string> verbs = {"to", "by", "hold", "once", "repose", "repeat"};
+  Words words(text);
+  if (words.words.empty()) return {};
+  std::string rest;
+  for (std::size_t k = 1; k < words.words.size(); ++k) rest.append(" ").append(words.words[k]);
+  const std::string first(words.words.front());
+  const std::string meant = nearest_word(first, verbs);
+  std::string phrase;
+  if (meant == "repeat" && words.words.size() > 1)
+    phrase = fmt::format("{} times", words.words[1]);
+  else if (meant == "repose")
+    phrase = "to repose";
+  else if (!meant.empty())
+    phrase = meant + rest;
+  else if (words.words.size() == 1)
+    phrase = "to " + first;  // an angle alone
+  return program_phrase(phrase) ? fmt::format("; did you mean '{}'?", phrase) : "";
+}
+
+TiltProgram::TiltProgram(const Scenario& scenario) {
+  if (scenario.tilt.program.empty()) return;
+  Course course = course_of(scenario);
+  segments_ = std::move(course.segments);
+  to_repose_ = course.to_repose;
+}
+
+const TiltSegment& TiltProgram::segment_of(std::int64_t step) const {
+  const auto found = std::ranges::partition_point(
+      segments_, [step](const TiltSegment& segment) { return segment.end() < step; });
+  return found == segments_.end() ? segments_.back() : *found;
+}
+
+double TiltProgram::tilt(std::int64_t steps) const {
+  const TiltSegment& segment = segment_of(steps);
+  if (steps >= segment.end()) return radians(segment.to);
+  return radians(segment.from) + static_cast<double>(steps - segment.begin) * radians(segment.step);
+}
+
+std::string program_fault(const Scenario& scenario) {
+  if (scenario.tilt.program.empty()) return {};
+  if (scenario.tilt.end_angle)
+    return fmt::format("no tilt.end_angle with it, as the programme says where it ends; it is {} deg",
+                       short_text(*scenario.tilt.end_angle));
+  const std::string fault = course_of(scenario).fault;
+  return fault.empty() ? "" : "a programme that can be carried out; this one " + fault;
+}
+
+}  // namespace talus
