@@ -19,7 +19,7 @@ std::vector<Quantity> rows_of_events() {
       {&EventRecord::duration, "events/duration", "E", "s",
        "from its first to its last such step, both included", bursts},
       {&EventRecord::waiting, "events/waiting", "E", "rad",
-       "tilt since the end of the event before; NaN for the first", bursts},
+       "angle by which the bed is turned after the end of the event before; NaN for the first", bursts},
       {&EventRecord::kind, "events/kind", "E", "1",
        "0 a rearrangement, 1 the flow that failed the slope and what comes after it, 2 one that is not over "
        "where the tilt ends; distributions are of those with 0",
