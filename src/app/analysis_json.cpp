@@ -1,6 +1,6 @@
 #include "app/analysis_report.h"
-#include "app/json.h"
 #include "io/analysis_schema.h"
+#include "scenario/json.h"
 
 namespace talus {
 namespace {

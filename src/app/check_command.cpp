@@ -8,10 +8,10 @@
 
 #include "app/commands.h"
 #include "app/count_progress.h"
-#include "app/json.h"
 #include "core/errors.h"
 #include "core/visible_text.h"
 #include "io/run_repair.h"
+#include "scenario/json.h"
 #include "scenario/keys.h"
 #include "scenario/tilt_program.h"
 #include "session/estimate.h"

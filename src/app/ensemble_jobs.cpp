@@ -4,12 +4,12 @@
 #include <cctype>
 #include <fmt/core.h>
 
-#include "app/json.h"
 #include "app/program_output.h"
 #include "core/errors.h"
 #include "core/text.h"
 #include "core/visible_text.h"
 #include "ensemble/slurm_jobs.h"
+#include "scenario/json.h"
 
 namespace talus {
 namespace {

@@ -5,13 +5,13 @@
 #include <cmath>
 #include <fmt/core.h>
 
-#include "app/json.h"
 #include "core/statistics.h"
 #include "core/text.h"
 #include "core/visible_text.h"
 #include "ensemble/claim.h"
 #include "ensemble/plus_minus.h"
 #include "ensemble/until.h"
+#include "scenario/json.h"
 
 namespace talus {
 namespace {

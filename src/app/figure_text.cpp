@@ -4,11 +4,11 @@
 #include <cmath>
 #include <fmt/core.h>
 
-#include "app/json.h"
 #include "core/hash.h"
 #include "core/text.h"
 #include "core/version.h"
 #include "figures/scripts.h"
+#include "scenario/json.h"
 
 namespace talus {
 namespace {

@@ -7,11 +7,11 @@
 
 #include "app/choices.h"
 #include "app/commands.h"
-#include "app/json.h"
 #include "core/errors.h"
 #include "core/trigonometry.h"
 #include "pictures/frame_choice.h"
 #include "problems/admissible_forces.h"
+#include "scenario/json.h"
 #include "session/analysis_parameters.h"
 
 namespace talus {

@@ -9,12 +9,12 @@
 #include <optional>
 
 #include "app/commands.h"
-#include "app/json.h"
 #include "core/errors.h"
 #include "core/hash.h"
 #include "core/trigonometry.h"
 #include "core/visible_text.h"
 #include "io/run_file.h"
+#include "scenario/json.h"
 #include "scenario/scenario.h"
 #include "session/command.h"
 #include "session/run_header.h"

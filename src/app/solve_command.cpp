@@ -10,12 +10,12 @@
 
 #include "app/choices.h"
 #include "app/commands.h"
-#include "app/json.h"
 #include "app/moving_step.h"
 #include "core/output_file.h"
 #include "problems/local_solvers.h"
 #include "problems/problem_file.h"
 #include "problems/siconos_error.h"
+#include "scenario/json.h"
 
 namespace talus {
 namespace {

@@ -9,10 +9,10 @@
 #include "app/commands.h"
 #include "app/ensemble_workers.h"
 #include "app/jobs_option.h"
-#include "app/json.h"
 #include "core/output_file.h"
 #include "ensemble/study_report.h"
 #include "io/durable_file.h"
+#include "scenario/json.h"
 
 namespace talus {
 namespace {

@@ -43,8 +43,6 @@ Swatch line_swatch(const Colour& colour, double width, const std::string& label)
 }  // namespace
 
 MapLayer forces_layer(const MapFrame& of, const OverColour& over) {
-  constexpr double half_width = 0.05;  // D, at the mean force
-  constexpr double widest = 6.0;       // mean forces: then nearly as wide as the smallest grains
   const Colour strong_colour = over.value_or(black);
   Colour weak_colour = over.value_or(gray(0.4));
   if (over) weak_colour.alpha = 110;  // so that the grains are seen through it
@@ -59,7 +57,8 @@ MapLayer forces_layer(const MapFrame& of, const OverColour& over) {
       const double force = contacts.fn[c] / mean;
       if ((force > 1.0) != strong) continue;
       Line line = centre_line(of, c);
-      line.half_width = static_cast<float>(half_width * std::min(force, widest) * of.statics.mean_diameter);
+      line.half_width = static_cast<float>(force_lines.half_width * std::min(force, force_lines.widest) *
+                                           of.statics.mean_diameter);
       line.colour = strong ? strong_colour : weak_colour;
       layer.lines.push_back(line);
     }
@@ -69,14 +68,13 @@ MapLayer forces_layer(const MapFrame& of, const OverColour& over) {
 }
 
 MapLayer critical_layer(const MapFrame& of, const OverColour& over) {
-  constexpr double length = 0.7, half_width = 0.11;  // D
   const Colour colour = over.value_or(Colour{200, 40, 0});
   const FrameContacts& contacts = of.frame.contacts;
   MapLayer layer;
   for (Index c = 0; c < contacts.count(); ++c) {
     if (contacts.status[c] != ContactStatus::sliding) continue;
-    Line line = sliding_line(contacts, c, length * of.statics.mean_diameter);
-    line.half_width = static_cast<float>(half_width * of.statics.mean_diameter);
+    Line line = sliding_line(contacts, c, critical_lines.length * of.statics.mean_diameter);
+    line.half_width = static_cast<float>(critical_lines.half_width * of.statics.mean_diameter);
     line.colour = colour;
     layer.lines.push_back(line);
   }

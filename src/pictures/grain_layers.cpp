@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/core.h>
+#include <utility>
 
 #include "pictures/layers.h"
 #include "pictures/texts.h"
@@ -37,7 +38,7 @@ MapLayer speed_layer(const MapFrame& of, const ScaleChoice& choice) {
   std::vector<double> speeds;
   for (Index i = 0; i < of.statics.free_count; ++i)
     speeds.push_back(std::hypot(of.frame.vx[i], of.frame.vy[i]) / unit);
-  return {"Speed of grains", looks_of(scale, speeds), {}, {{bar_of(scale, "in √(gD)")}, {}}};
+  return scaled_layer("Speed of grains", scale, std::move(speeds), bar_of(scale, "in √(gD)"));
 }
 
 MapLayer size_layer(const MapFrame& of, const ScaleChoice& choice) {
@@ -56,7 +57,7 @@ MapLayer size_layer(const MapFrame& of, const ScaleChoice& choice) {
     high += alike;
   }
   const Scale scale = chosen({ColourMap::viridis, low, high}, choice);
-  return {"Size of grains", looks_of(scale, sizes), {}, {{bar_of(scale, "diameter in D")}, {}}};
+  return scaled_layer("Size of grains", scale, std::move(sizes), bar_of(scale, "diameter in D"));
 }
 
 MapLayer dyed_layer(const MapFrame& of, const ScaleChoice& choice) {

@@ -16,7 +16,22 @@ struct MapLayer {
   std::vector<GrainLook> looks;  ///< of each free grain; empty: the layer has lines only
   std::vector<Line> lines;       ///< without copies across a periodic edge
   Legend legend;
+  std::vector<double> values{};  ///< of each free grain, where looks follow from a value: by this scale
+  std::optional<Scale> scale{};
 };
+
+// maps.cpp
+/// Layer k of the settings.
+MapLayer make_layer(const MapFrame& of, const MapSettings& settings, const MapExtent& extent, std::size_t k);
+/// Of lines over layer k: black, or, where its grains can be dark, what tells from its colours, and from
+/// black and white also in gray.
+Colour colour_over(const MapSettings& settings, std::size_t k);
+/// "θ = 12.25°, θ_c = 19.52°", with "(assumed)" where it is.
+std::string caption_of(const Frame& frame, const MapSettings& settings);
+
+/// Grains in the colours of their values.
+MapLayer scaled_layer(const std::string& title, const Scale& scale, std::vector<double> values,
+                      const Bar& bar);
 
 // stress_layers.cpp
 MapLayer gamma_layer(const MapFrame& of, const MapSettings& settings, const ScaleChoice& choice);
@@ -50,6 +65,11 @@ MapLayer field_layer(MapKind kind, const MapFrame& of, const MapSettings& settin
                      const ScaleChoice& choice);
 
 // contact_layers.cpp
+/// D: half the width of the line of a contact with the mean force, and the largest force that is told from
+/// others, over the mean: then the line is nearly as wide as the smallest grains.
+inline constexpr struct { double half_width, widest; } force_lines = {0.05, 6.0};
+/// D: the line of a contact whose friction is fully mobilised.
+inline constexpr struct { double length, half_width; } critical_lines = {0.7, 0.11};
 MapLayer forces_layer(const MapFrame& of, const OverColour& over);
 MapLayer critical_layer(const MapFrame& of, const OverColour& over);
 

@@ -34,8 +34,49 @@ ScaleChoice choice_of(const MapSettings& settings, std::size_t k) {
   return first ? ScaleChoice{settings.colours, settings.range_low, settings.range_high} : ScaleChoice{};
 }
 
-/// Lines over layer k: black, or, where its grains can be dark, what tells from its colours, and from black
-/// and white also in gray.
+void check_theta_c(const MapSettings& settings) {
+  const bool needed = any_layer(settings.layers, needs_theta_c);
+  if (needed && !(settings.theta_c > radians(2.0) && settings.theta_c < radians(89.0)))
+    throw Error(ExitCode::bad_data,
+                fmt::format("theta_c = {:.3f} deg: expected an angle of repose between 2 and 89 deg",
+                            degrees(settings.theta_c)));
+}
+
+/// In the looks of the lower layer that has any, else as outlines; those of a second one as smaller discs
+/// within.
+void add_grains(FrameView& view, const BedFrame& bed, std::span<const std::vector<GrainLook>> looks) {
+  constexpr float inner_radius = 0.5f;  // of that of the grain
+  const std::size_t count = bed.frame.x.size();
+  view.discs.reserve(count * std::max<std::size_t>(1, looks.size()) + count / 16);
+  const auto add = [&](Index i, const GrainLook& look, float scale) {
+    Disc disc = disc_of(bed, i);
+    disc.radius *= scale;
+    disc.fill = look.fill;
+    disc.rim = look.rim;
+    add_disc(view, disc, bed.statics);
+  };
+  for (Index i = 0; i < bed.statics.free_count; ++i) {
+    const auto grain = static_cast<std::size_t>(i);
+    add(i, looks.empty() ? outline_look() : looks[0][grain], 1.0f);
+    if (looks.size() > 1 && looks[1][grain].marked) add(i, looks[1][grain], inner_radius);
+  }
+  for (Index i = bed.statics.free_count; i < bed.frame.grain_count(); ++i)
+    add_disc(view, disc_of(bed, i), bed.statics);
+}
+
+/// "Overloaded grains, p_o = 0.300; force chains".
+std::string joint_title(std::span<const MapLayer> layers) {
+  std::string title = layers[0].title;
+  for (const MapLayer& layer : layers.subspan(1)) {
+    title.append("; ").append(layer.title);
+    char& first = title[title.size() - layer.title.size()];
+    first = static_cast<char>(std::tolower(static_cast<unsigned char>(first)));
+  }
+  return title;
+}
+
+}  // namespace
+
 Colour colour_over(const MapSettings& settings, std::size_t k) {
   const MapKind kind = settings.layers[k];
   const bool is_signed = needs_reference(kind) && motion_map(kind).is_signed;
@@ -99,47 +140,6 @@ MapLayer make_layer(const MapFrame& of, const MapSettings& settings, const MapEx
   throw Error(ExitCode::internal, "a map of no kind");
 }
 
-void check_theta_c(const MapSettings& settings) {
-  const bool needed = any_layer(settings.layers, needs_theta_c);
-  if (needed && !(settings.theta_c > radians(2.0) && settings.theta_c < radians(89.0)))
-    throw Error(ExitCode::bad_data,
-                fmt::format("theta_c = {:.3f} deg: expected an angle of repose between 2 and 89 deg",
-                            degrees(settings.theta_c)));
-}
-
-/// In the looks of the lower layer that has any, else as outlines; those of a second one as smaller discs
-/// within.
-void add_grains(FrameView& view, const BedFrame& bed, std::span<const std::vector<GrainLook>> looks) {
-  constexpr float inner_radius = 0.5f;  // of that of the grain
-  const std::size_t count = bed.frame.x.size();
-  view.discs.reserve(count * std::max<std::size_t>(1, looks.size()) + count / 16);
-  const auto add = [&](Index i, const GrainLook& look, float scale) {
-    Disc disc = disc_of(bed, i);
-    disc.radius *= scale;
-    disc.fill = look.fill;
-    disc.rim = look.rim;
-    add_disc(view, disc, bed.statics);
-  };
-  for (Index i = 0; i < bed.statics.free_count; ++i) {
-    const auto grain = static_cast<std::size_t>(i);
-    add(i, looks.empty() ? outline_look() : looks[0][grain], 1.0f);
-    if (looks.size() > 1 && looks[1][grain].marked) add(i, looks[1][grain], inner_radius);
-  }
-  for (Index i = bed.statics.free_count; i < bed.frame.grain_count(); ++i)
-    add_disc(view, disc_of(bed, i), bed.statics);
-}
-
-/// "Overloaded grains, p_o = 0.300; force chains".
-std::string joint_title(std::span<const MapLayer> layers) {
-  std::string title = layers[0].title;
-  for (const MapLayer& layer : layers.subspan(1)) {
-    title.append("; ").append(layer.title);
-    char& first = title[title.size() - layer.title.size()];
-    first = static_cast<char>(std::tolower(static_cast<unsigned char>(first)));
-  }
-  return title;
-}
-
 std::string caption_of(const Frame& frame, const MapSettings& settings) {
   std::string caption = fmt::format("θ = {:.2f}°", degrees(frame.tilt));
   if (std::isfinite(settings.theta_c) && settings.theta_c > 0.0) {
@@ -149,7 +149,10 @@ std::string caption_of(const Frame& frame, const MapSettings& settings) {
   return caption;
 }
 
-}  // namespace
+MapLayer scaled_layer(const std::string& title, const Scale& scale, std::vector<double> values,
+                      const Bar& bar) {
+  return {title, looks_of(scale, values), {}, {{bar}, {}}, std::move(values), scale};
+}
 
 MapExtent bed_extent(const RunStatics& statics) { return {0.0, statics.length, 0.0, 0.0}; }
 

@@ -68,10 +68,7 @@ MapLayer motion_layer(MapKind kind, const MapFrame& of, const MotionRanges& moti
   const Scale scale = scale_of(map, motion, span, choice);
   const std::string title =
       fmt::format("{}{}{}{}", map.bar, span.unit, map.sign, share_text(map, motion, span, choice));
-  return {std::string(map.title) + span.title,
-          looks_of(scale, map.values(of, span)),
-          {},
-          {{bar_of(scale, title)}, {}}};
+  return scaled_layer(std::string(map.title) + span.title, scale, map.values(of, span), bar_of(scale, title));
 }
 
 MapLayer displacement_arrows(const MapFrame& of, const MotionRanges& motion, const OverColour& over,

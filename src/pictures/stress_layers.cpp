@@ -62,12 +62,11 @@ MapLayer gamma_layer(const MapFrame& of, const MapSettings& settings, const Scal
   const std::string end =
       choice.high ? fmt::format("{:.6g}", scale.high) : fmt::format("2Γ_c = {:.2f}", scale.high);
   const auto free_grains = std::span(of.frame.gamma).first(static_cast<std::size_t>(of.statics.free_count));
-  return {fmt::format("Stress ratio γ of {}{}",
-                      settings.l_min > 0.0 ? "grains with their neighbours, " : std::string(),
-                      reading_text(settings)),
-          looks_of(scale, free_grains),
-          {},
-          {{stress_ratio_bar(scale, gamma_c, "γ = q/p", end)}, {}}};
+  return scaled_layer(fmt::format("Stress ratio γ of {}{}",
+                                  settings.l_min > 0.0 ? "grains with their neighbours, " : std::string(),
+                                  reading_text(settings)),
+                      scale, {free_grains.begin(), free_grains.end()},
+                      stress_ratio_bar(scale, gamma_c, "γ = q/p", end));
 }
 
 MapLayer coarse_layer(const MapFrame& of, const MapSettings& settings, const ScaleChoice& choice) {
@@ -75,10 +74,8 @@ MapLayer coarse_layer(const MapFrame& of, const MapSettings& settings, const Sca
   const double gamma_c = gamma_c_of(settings);
   const Scale scale = chosen({ColourMap::gray, 0.0, black_coarse * gamma_c}, choice);
   const std::string end = choice.high ? fmt::format("{:.6g}", scale.high) : fmt::format("{:.2f}", scale.high);
-  return {fmt::format("Stress ratio γ_l of neighbourhoods, l = {:.6g} D", settings.length),
-          looks_of(scale, coarse_stress_ratio(of, length)),
-          {},
-          {{stress_ratio_bar(scale, gamma_c, "γ_l", end)}, {}}};
+  return scaled_layer(fmt::format("Stress ratio γ_l of neighbourhoods, l = {:.6g} D", settings.length), scale,
+                      coarse_stress_ratio(of, length), stress_ratio_bar(scale, gamma_c, "γ_l", end));
 }
 
 MapLayer pressure_layer(const MapFrame& of, const ScaleChoice& choice) {
@@ -87,10 +84,7 @@ MapLayer pressure_layer(const MapFrame& of, const ScaleChoice& choice) {
   const double largest = 3.0 * std::max(1.0, of.statics.depth / of.statics.mean_diameter);
   const double step = round_step(largest, most_ticks);
   const Scale scale = chosen({ColourMap::viridis, 0.0, std::ceil(largest / step) * step}, choice);
-  return {"Pressure in each grain",
-          looks_of(scale, pressures(of)),
-          {},
-          {{bar_of(scale, "P = σ_1 + σ_2 in ρgD")}, {}}};
+  return scaled_layer("Pressure in each grain", scale, pressures(of), bar_of(scale, "P = σ_1 + σ_2 in ρgD"));
 }
 
 }  // namespace talus

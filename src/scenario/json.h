@@ -57,6 +57,25 @@ inline std::string object(const Members& members, int depth = 0) {
   return fmt::format("{}\n{}}}", text, margin);
 }
 
+/// {"name": value, ...} in one line.
+inline std::string line(const Members& members) {
+  return fmt::format("{{{}}}", joined(members, ",", [](const auto& member) {
+                       return fmt::format("{}:{}", quoted(member.first), member.second);
+                     }));
+}
+
+/// Values that are JSON already, in one line.
+inline std::string list(const std::vector<std::string>& values) {
+  return fmt::format("[{}]", joined(values, ","));
+}
+
+/// Numbers with so many significant digits, null for one that is none, in one line.
+inline std::string rounded(const std::vector<double>& values, int digits) {
+  return fmt::format("[{}]", joined(values, ",", [digits](double value) {
+                       return std::isfinite(value) ? fmt::format("{:.{}g}", value, digits) : "null";
+                     }));
+}
+
 /// [ "text", ... ]
 inline std::string array(const std::vector<std::string>& texts) {
   return fmt::format("[{}]", joined(texts, ", ", quoted));
