@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "analysis/record.h"
+#include "app/analysed_run.h"
 #include "app/choices.h"
 #include "app/commands.h"
 #include "app/count_progress.h"
@@ -61,6 +62,7 @@ ExportPlan plan_export(const ExportArguments& arguments) {
   ExportPlan plan;
   plan.format = format_of(arguments.format);
   plan.output = arguments.output;
+  plan.run = arguments.run;
   plan.flow = arguments.frames.flow;
   plan.parameters = parse_analysis_settings(arguments.settings);
   check_output_name(plan.format, plan.output);
@@ -86,6 +88,8 @@ void export_run(const ExportArguments& arguments) {
     require_flow(run, arguments.run, arguments.frames);
   for (const std::string& file : files_of(plan))
     output_target(file, output_of_run(arguments.run, arguments.overwrite));
+  if (format.needs_analysis)
+    plan.analysis = analysed_run(arguments.run, plan.parameters, {.quiet = arguments.quiet}).analysis;
   const std::size_t count =
       export_files(run, plan, {count_shown("exporting", arguments.quiet), asked_to_stop});
   if (arguments.quiet) return;
@@ -99,7 +103,7 @@ void export_run(const ExportArguments& arguments) {
 void add_export_command(CLI::App& app) {
   auto arguments = std::make_shared<ExportArguments>();
   CLI::App* command = app.add_subcommand(
-      "export", "Write frames of a run for other programs: ParaView, OVITO, networkx, tables");
+      "export", "Write frames of a run for other programs: ParaView, OVITO, networkx, tables, web browsers");
   command
       ->add_option("RUN", arguments->run,
                    "Run to export: RUN.h5, or the folder RUN.h5.run of one that is under way")

@@ -16,6 +16,7 @@
 #include "export/vtp.h"
 #include "export/xyz.h"
 #include "io/durable_file.h"
+#include "page/run_page.h"
 
 namespace talus {
 namespace {
@@ -124,6 +125,11 @@ void export_tables(const RunFile& run, const ExportPlan& plan, const Watch& watc
   for (CsvFile* file : {&frames, &grains, &contacts}) file->commit();
 }
 
+void export_page(const RunFile& run, const ExportPlan& plan, const Watch& watch) {
+  prepare_folder_of(plan.output);
+  write_text(plan.output, run_page(run, plan.run, plan.analysis, plan.frames, watch));
+}
+
 std::size_t export_observables(const RunFile& run, const ExportPlan& plan) {
   const std::vector<ObservableRow> rows = plan.flow ? run.all_observables() : run.observables();
   prepare_folder_of(plan.output);
@@ -167,6 +173,7 @@ std::vector<std::string> files_of(const ExportPlan& plan) {
     case ExportFormat::xyz:
     case ExportFormat::lammps:
     case ExportFormat::observables:
+    case ExportFormat::html:
       break;
   }
   return {plan.output};
@@ -194,6 +201,9 @@ std::size_t export_files(const RunFile& run, const ExportPlan& plan, const Watch
       break;
     case ExportFormat::observables:
       return export_observables(run, plan);
+    case ExportFormat::html:
+      export_page(run, plan, watch);
+      break;
   }
   return plan.frames.size();
 }

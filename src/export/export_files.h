@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "analysis/parameters.h"
+#include "analysis/record.h"
 #include "core/watch.h"
 #include "export/formats.h"
 #include "io/run_file.h"
@@ -19,6 +20,8 @@ struct ExportPlan {
   bool flow = false;                ///< where it has none: also what was observed after failure
   AnalysisParameters parameters;    ///< of overloaded grains, their lengths and clusters
   double field_width = 10.0;        ///< D: diameter of the coarse-graining function of vti
+  std::string run;                  ///< path of the run, where a format tells its name
+  Analysis analysis;                ///< of the run by these parameters, where the format needs it
 };
 
 /// Throws Error(usage) where a format that writes one file has another ending than the name of the output.

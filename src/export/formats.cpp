@@ -25,6 +25,8 @@ constexpr auto entries = std::to_array<FormatEntry>({
      "frames.csv, grains.csv and contacts.csv, one row for each"},
     {ExportFormat::observables, "observables", "pandas, R and spreadsheets", ExportOutput::file, ".csv",
      "observables of the tilt as CSV, one row for each time that they were recorded", false},
+    {ExportFormat::html, "html", "web browsers", ExportOutput::file, ".html",
+     "one page with maps, time line and curves, which needs neither Talus nor a network", true, true},
 });
 
 }  // namespace

@@ -8,7 +8,7 @@
 
 namespace talus {
 
-enum class ExportFormat { paraview, vti, xyz, lammps, graphml, csv, observables };
+enum class ExportFormat { paraview, vti, xyz, lammps, graphml, csv, observables, html };
 
 /// What the output of a format is called.
 enum class ExportOutput {
@@ -25,6 +25,7 @@ struct FormatEntry {
   std::string_view ending;  ///< of the name of a file; empty for a folder
   std::string_view help;    ///< a line for users: what is written
   bool has_frames = true;
+  bool needs_analysis = false;  ///< of the whole run
 };
 
 /// All of them, in the order in which they are listed to users.

@@ -69,6 +69,7 @@ TEST_F(Export, refuses_what_makes_no_sense) {
       {{"--to", "stl", "-o", "x"}, 64, "expected one of paraview, vti, xyz, "},
       {{"--to", "xyz", "-o", "x"}, 64, "x: expected a name that ends in .xyz"},
       {{"--to", "lammps", "-o", "x.xyz"}, 64, "ends in .dump"},
+      {{"--to", "html", "-o", "x"}, 64, "x: expected a name that ends in .html"},
       {{"--to", "graphml", "-o", "x.graphml"}, 64, "there are 4 frames, each in a file of its own"},
       {{"--to", "observables", "-o", "x.csv", "--at", "1"}, 64, "have no meaning for it"},
       {{"--to", "observables", "-o", "x.csv", "--flow"}, 65, "after failure"},
@@ -115,7 +116,7 @@ TEST_F(Export, replaces_files_only_when_told_and_never_the_run) {
   over.emplace_back("--overwrite");
   EXPECT_EQ(exported(over).exit_code, 0);
   EXPECT_EQ(exported({"--to", "paraview", "-o", "bed.h5"}).exit_code, 73) << "a file is no folder";
-  for (const char* format : {"xyz", "lammps", "graphml", "observables"}) {
+  for (const char* format : {"xyz", "lammps", "graphml", "observables", "html"}) {
     const std::string ending = format == std::string("lammps")        ? ".dump"
                                : format == std::string("observables") ? ".csv"
                                                                       : "." + std::string(format);

@@ -24,6 +24,7 @@ TEST(Formats, of_one_file_have_its_ending) {
   EXPECT_EQ(exit_code_of([] { check_output_name(ExportFormat::xyz, "a.dump"); }), ExitCode::usage);
   EXPECT_EQ(exit_code_of([] { check_output_name(ExportFormat::lammps, "a.dump"); }), ExitCode::done);
   EXPECT_EQ(exit_code_of([] { check_output_name(ExportFormat::paraview, "a.dump"); }), ExitCode::done);
+  EXPECT_EQ(exit_code_of([] { check_output_name(ExportFormat::html, "a.htm"); }), ExitCode::usage);
 }
 
 TEST(Formats, name_their_files_by_the_numbers_of_frames) {
@@ -43,6 +44,7 @@ TEST(Formats, name_their_files_by_the_numbers_of_frames) {
   EXPECT_EQ(files(ExportFormat::csv, "out", {0, 3}),
             (Files{"out/frames.csv", "out/grains.csv", "out/contacts.csv"}));
   EXPECT_EQ(files(ExportFormat::xyz, "a.xyz", {0, 3}), Files{"a.xyz"});
+  EXPECT_EQ(files(ExportFormat::html, "a.html", {0, 3}), Files{"a.html"});
   EXPECT_EQ(files(ExportFormat::paraview, "out", {3, 12345}),
             (Files{"out/grains.pvd", "out/contacts.pvd", "out/frames/grains_0003.vtp",
                    "out/frames/contacts_0003.vtp", "out/frames/grains_12345.vtp",

@@ -1,0 +1,187 @@
+// What belongs together: buttons, keys, time line, map and plots.
+
+const plotNames = ["packing/stress_ratio", "overloaded/fraction", "lc/max", "clusters/largest_share", "packing/volume_strain",
+                   "contacts/coordination_number", "contacts/critical_share"];
+const shownPlots = 6;
+
+let cells = [], card = null, line = null, play = null;
+
+function goTo(frame) {
+  view.frame = frame;
+  if (view.turned) turnCamera(view.width, view.height, turnOf(frame));
+  if (view.turned && view.whole) fitCamera(view.width, view.height, turnOf(frame));
+  line.move(frame);
+  const tilt = frames.tilts[frame];
+  for (const cell of cells) cell.plot.cursor(tilt);
+  card.plot.cursor(tilt);
+  card.show();
+  redraw();
+  writeState(cells);
+}
+
+/** By a user's hand: what plays is paused. */
+function goByHand(frame) {
+  play.pause();
+  goTo(Math.min(Math.max(frame, 0), frames.count - 1));
+}
+
+function selectGrain(grain) {
+  view.grain = grain >= 0 && grain < bed.free ? grain : -1;
+  card.show();
+  card.showHistory();
+  card.plot.cursor(frames.tilts[view.frame]);
+  redraw();
+  writeState(cells);
+}
+
+/** A row of buttons of which one is pressed. */
+function choiceButtons(holder, choices, chosen, choose) {
+  const buttons = choices.map(({ value, label, help }) =>
+    element("button", { type: "button", title: help, "aria-pressed": String(value === chosen()), onclick: () => { choose(value); update(); } }, label));
+  const update = () => buttons.forEach((button, k) => button.setAttribute("aria-pressed", String(choices[k].value === chosen())));
+  holder.replaceChildren(...buttons);
+  return update;
+}
+
+let updateMaps = null, updateLines = null;
+
+function setMap(map) {
+  view.map = map;
+  redraw();
+  writeState(cells);
+}
+
+function setLines(lines) {
+  view.lines = lines;
+  redraw();
+  writeState(cells);
+}
+
+function setTurned(turned) {
+  view.turned = turned;
+  byId("turned").setAttribute("aria-pressed", String(turned));
+  fitMap();
+  writeState(cells);
+}
+
+function makeButtons() {
+  updateMaps = choiceButtons(byId("maps"), [...data.maps.map((map) => ({ value: map, label: map.name, help: map.help })),
+    { value: null, label: "outlines", help: "grains alone" }], () => view.map, setMap);
+  updateLines = choiceButtons(byId("lines"), [{ value: null, label: "no lines", help: "the map alone" },
+    ...data.lines.map((lines) => ({ value: lines, label: lines.name, help: lines.help }))], () => view.lines, setLines);
+  byId("turned").addEventListener("click", () => setTurned(!view.turned));
+  byId("fit").addEventListener("click", fitMap);
+}
+
+function zoomBy(factor) {
+  view.whole = false;
+  zoomCamera(factor, view.width / 2, view.height / 2, view.fitted);
+  redraw();
+}
+
+function nextLines() {
+  const all = [null, ...data.lines];
+  setLines(all[(all.indexOf(view.lines) + 1) % all.length]);
+  updateLines();
+}
+
+const keyActions = {
+  " ": () => play.toggle(),
+  ArrowRight: (event) => goByHand(view.frame + (event.shiftKey ? 10 : 1)),
+  ArrowLeft: (event) => goByHand(view.frame - (event.shiftKey ? 10 : 1)),
+  Home: () => goByHand(0),
+  End: () => goByHand(frames.count - 1),
+  o: nextLines,
+  t: () => setTurned(!view.turned),
+  f: fitMap,
+  "+": () => zoomBy(1.25),
+  "=": () => zoomBy(1.25),
+  "-": () => zoomBy(0.8),
+  n: () => selectGrain((view.grain + 1) % bed.free),
+  Escape: () => selectGrain(-1),
+};
+
+function listenToKeys() {
+  document.addEventListener("keydown", (event) => {
+    if (event.ctrlKey || event.altKey || event.metaKey || event.target.closest("select, input, textarea")) return;
+    // A button that has the focus is pressed by the space bar.
+    if (event.key === " " && event.target.closest("button, summary")) return;
+    const digit = /^[1-9]$/.test(event.key) ? Number(event.key) : 0;
+    const action = digit > 0 && digit <= data.maps.length ? () => { setMap(data.maps[digit - 1]); updateMaps(); } : keyActions[event.key];
+    if (!action) return;
+    event.preventDefault();
+    action(event);
+  });
+}
+
+function makePlots(state) {
+  const known = plotNames.filter((name) => data.curves.quantities.some((quantity) => quantity.name === name));
+  const asked = (state.plots || "").split(",").filter((name) => data.curves.quantities.some((quantity) => quantity.name === name));
+  const names = asked.concat(known.filter((name) => !asked.includes(name))).slice(0, shownPlots);
+  const go = (tilt) => goByHand(frameAtTilt(tilt));
+  cells = names.map((name) => quantityCell(name, go, () => writeState(cells)));
+  byId("grain").parentElement.append(...cells.map((cell) => cell.cell));
+  card = grainCard((holder) => curvePlot(holder, go));
+  for (const cell of cells) cell.show();
+}
+
+function tellEvent(event) {
+  byId("event").replaceChildren(event ? rich(`${event.tilt.toFixed(2)}°: ${event.what}`) : "");
+}
+
+/** What a test asks of the page, in its document: "#check=1". */
+function writeCheck() {
+  const places = Array.from({ length: frames.count }, (_, frame) => Array.from(centres(frame)));
+  const check = { drawing: view.drawer.name, frames: frames.count, tilts: frames.tilts, centres: places, radii: Array.from(radii()),
+    values: Object.fromEntries(data.fields.map((field) => [field.name, Array.from({ length: frames.count }, (_, frame) =>
+      Array.from({ length: bed.free }, (_unused, grain) => fieldValue(field, grain, frame)))])),
+    coordination: Array.from(coordinations(view.frame)), box: byId("bed").getBoundingClientRect(),
+    screen: Array.from({ length: bed.free }, (_, grain) => project(centres(view.frame)[2 * grain], centres(view.frame)[2 * grain + 1])),
+    scale: camera.scale };
+  document.body.append(element("script", { type: "application/json", id: "check" }, JSON.stringify(check)));
+}
+
+async function start() {
+  if (typeof DecompressionStream === "undefined")
+    throw new Error("this browser is too old for the page: it needs Chromium 80, Firefox 113, Safari 16.4, or later");
+  const state = readState();
+  showDetails(goByHand);
+  await readTables(["radius", "x", "y", "cluster", "a", "b", "shift", "force", "sliding", ...data.fields.map((field) => field.name)]);
+  const best = data.maps.find((map) => map.name === "clusters") || data.maps[0];
+  view.map = state.map === "none" ? null : data.maps.find((map) => map.name === state.map) || best;
+  view.lines = data.lines.find((lines) => lines.name === state.lines) || null;
+  chooseDrawer(state.draw);
+  makeButtons();
+  makePlots(state);
+  line = timeLine(goByHand, tellEvent);
+  play = player(() => {
+    goTo((view.frame + 1) % frames.count);
+    return view.frame + 1 < frames.count;
+  });
+  listenToMap({ hover: showHover, click: selectGrain });
+  listenToKeys();
+  setTurned(state.turned === "1");
+  line.show();
+  const asked = frameOfState(state);
+  goTo(asked === null ? frameAtRepose() : asked);
+  if (state.grain !== undefined) selectGrain(Number(state.grain));
+  onWidth(byId("bed"), sizeMap);
+  window.addEventListener("resize", sizeMap);
+  matchMedia("print").addEventListener("change", sizeMap);
+  requestAnimationFrame(() => {
+    drawMap();
+    if (state.check) writeCheck();
+    document.documentElement.dataset.state = "ready";
+  });
+}
+
+function tellProblem(error) {
+  const problem = byId("problem");
+  problem.hidden = false;
+  problem.textContent = `The page cannot be shown: ${error.message || error}.`;
+  document.documentElement.dataset.state = "failed";
+}
+
+window.addEventListener("error", (event) => tellProblem(event.error || event.message));
+window.addEventListener("unhandledrejection", (event) => tellProblem(event.reason));
+start().catch(tellProblem);

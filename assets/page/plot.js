@@ -1,0 +1,148 @@
+// Curves over the tilt, in SVG.
+
+const plotHeight = 150, plotLeft = 46, plotRight = 10, plotTop = 8, plotBottom = 22;
+
+function extentOf(lists) {
+  let low = Infinity, high = -Infinity;
+  for (const list of lists)
+    for (const value of list)
+      if (Number.isFinite(value) && value !== null) {
+        low = Math.min(low, value);
+        high = Math.max(high, value);
+      }
+  if (low > high) return [0, 1];
+  if (low === high) return [low - (Math.abs(low) * 0.1 || 0.5), high + (Math.abs(high) * 0.1 || 0.5)];
+  return [low, high];
+}
+
+/** The path of a curve; a missing value parts it. */
+function curvePath(curve, toX, toY) {
+  let path = "", pen = "M";
+  for (let k = 0; k < curve.x.length; ++k) {
+    const y = curve.y[k];
+    if (y === null || !Number.isFinite(y)) {
+      pen = "M";
+      continue;
+    }
+    path += `${pen}${toX(curve.x[k]).toFixed(1)} ${toY(y).toFixed(1)}`;
+    pen = "L";
+  }
+  return path;
+}
+
+/** The value of a curve at the tilt nearest to x. */
+function valueNear(curve, x) {
+  let best = 0;
+  for (let k = 1; k < curve.x.length; ++k) if (Math.abs(curve.x[k] - x) < Math.abs(curve.x[best] - x)) best = k;
+  return curve.y[best];
+}
+
+/**
+ * A plot in a holder; `go` is called with a tilt that was clicked. Of what it returns, `set` takes curves
+ * { label, x, y, points }, and `cursor` a tilt.
+ */
+function curvePlot(holder, go) {
+  const svg = shape("svg", { role: "img", height: plotHeight });
+  const reading = element("div", { class: "reading" });
+  holder.replaceChildren(svg, reading);
+  let shown = { curves: [] }, tilt = 0, pointed = null, range = null, line = null;
+
+  const draw = () => {
+    const width = holder.clientWidth;
+    if (width === 0) return;
+    const [xLow, xHigh] = extentOf([data.curves.frames, data.curves.rows]);
+    const [low, high] = extentOf(shown.curves.map((curve) => curve.y));
+    const { ticks, step } = roundTicks(low, high, 4);
+    const bottom = Math.min(low, step * Math.floor(low / step + 1e-9)), top = Math.max(high, step * Math.ceil(high / step - 1e-9));
+    const toX = (x) => plotLeft + ((width - plotLeft - plotRight) * (x - xLow)) / (xHigh - xLow);
+    const toY = (y) => plotTop + ((plotHeight - plotTop - plotBottom) * (top - y)) / (top - bottom);
+    range = { toX, back: (px) => xLow + ((px - plotLeft) * (xHigh - xLow)) / (width - plotLeft - plotRight), xLow, xHigh };
+    svg.setAttribute("viewBox", `0 0 ${width} ${plotHeight}`);
+    svg.setAttribute("width", width);
+    const parts = [];
+    for (const tick of roundTicks(bottom, top, 4).ticks)
+      parts.push(shape("path", { class: "grid", d: `M${plotLeft} ${toY(tick.value).toFixed(1)}H${width - plotRight}` }),
+                 shape("text", { x: plotLeft - 6, y: toY(tick.value) + 4, "text-anchor": "end" }, tick.label));
+    for (const tick of roundTicks(xLow, xHigh, Math.max(2, Math.floor(width / 60))).ticks)
+      parts.push(shape("text", { x: toX(tick.value), y: plotHeight - 6, "text-anchor": "middle" }, `${tick.label}°`));
+    if (data.theta_c !== null)
+      parts.push(shape("path", { class: "failure", d: `M${toX(data.theta_c)} ${plotTop}V${plotHeight - plotBottom}` }));
+    shown.curves.forEach((curve, k) => {
+      parts.push(shape("path", { class: `curve curve-${k}`, d: curvePath(curve, toX, toY) }));
+      if (curve.points)
+        curve.y.forEach((y, at) => Number.isFinite(y) && parts.push(shape("circle", { class: `dot curve-${k}`, cx: toX(curve.x[at]), cy: toY(y), r: 1.6 })));
+    });
+    line = shape("path", { class: "cursor" });
+    svg.replaceChildren(...parts, line);
+    moveLine();
+  };
+  const moveLine = () => {
+    if (!line || !range) return;
+    line.setAttribute("d", `M${range.toX(tilt).toFixed(1)} ${plotTop}V${plotHeight - plotBottom}`);
+    tell();
+  };
+  const tell = () => {
+    const at = pointed === null ? tilt : pointed;
+    const values = shown.curves.map((curve, k) => element("span", { class: `curve-${k}` }, rich(`${curve.label ? `${curve.label} ` : ""}${numberText(valueNear(curve, at), 4)}`)));
+    reading.replaceChildren(element("span", {}, `θ = ${at.toFixed(2)}°`), ...values);
+  };
+  const clamped = (event) => Math.min(Math.max(range.back(event.clientX - svg.getBoundingClientRect().left), range.xLow), range.xHigh);
+  svg.addEventListener("pointermove", (event) => {
+    pointed = range && clamped(event);
+    tell();
+  });
+  svg.addEventListener("pointerleave", () => {
+    pointed = null;
+    tell();
+  });
+  svg.addEventListener("click", (event) => range && go(clamped(event)));
+  onWidth(holder, draw);
+  return {
+    set(next) {
+      shown = next;
+      draw();
+    },
+    cursor(next) {
+      tilt = next;
+      moveLine();
+    },
+    describe(text) {
+      svg.setAttribute("aria-label", text);
+    },
+  };
+}
+
+/** The curves of a quantity of the table. */
+const curvesOf = (quantity) =>
+  quantity.curves.map((curve) => ({ label: curve.label, x: data.curves[curve.over], y: curve.values, points: curve.over === "frames" }));
+
+/** A title over the list that it is chosen from: titles have subscripts, lists have none. */
+const chooser = (title, choice) => element("div", { class: "head chooser" }, title, element("span", { class: "arrow", "aria-hidden": "true" }, "▾"), choice);
+
+/** A cell whose quantity can be chosen from all of the table. */
+function quantityCell(name, go, onChange) {
+  const title = element("span", { class: "title" });
+  const choice = element("select", { "aria-label": "Quantity of the plot" });
+  for (const [label, common] of [["Curves", true], ["All numbers of a frame", false]]) {
+    const group = element("optgroup", { label });
+    for (const quantity of data.curves.quantities)
+      if (quantity.common === common) group.append(element("option", { value: quantity.name }, quantity.title));
+    if (group.children.length > 0) choice.append(group);
+  }
+  choice.value = name;
+  const holder = element("div", { class: "plot" });
+  const plot = curvePlot(holder, go);
+  const show = () => {
+    const quantity = data.curves.quantities.find((known) => known.name === choice.value);
+    choice.title = quantity.definition;
+    title.replaceChildren(quantity.common ? rich(quantity.title) : quantity.title);
+    plot.describe(`${quantity.title} over the tilt`);
+    plot.set({ curves: curvesOf(quantity) });
+  };
+  choice.addEventListener("change", () => {
+    show();
+    onChange();
+  });
+  const cell = element("article", { class: "cell" }, chooser(title, choice), holder);
+  return { cell, plot, show, name: () => choice.value, choose: (next) => { choice.value = next; } };
+}

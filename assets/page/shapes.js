@@ -1,0 +1,74 @@
+// What is drawn of a frame: discs and lines in mean diameters, as arrays with so many numbers for each.
+
+/** x, y, radius, hatched of all grains; the looks come beside them. */
+function discShapes(frame) {
+  const places = centres(frame), sizes = radii(), discs = new Float32Array(4 * bed.grains);
+  for (let i = 0; i < bed.grains; ++i) {
+    discs[4 * i] = places[2 * i];
+    discs[4 * i + 1] = places[2 * i + 1];
+    discs[4 * i + 2] = sizes[i];
+    discs[4 * i + 3] = i < bed.free ? 0 : 1;
+  }
+  return discs;
+}
+
+/** The unit normal of a contact, from a to b, and how far apart the centres are, or a and its plane. */
+function branch(c, places) {
+  const a = tables.a.codes[c], b = tables.b.codes[c], x = places[2 * a], y = places[2 * a + 1];
+  if (b >= bed.grains) {
+    const [, nx, ny] = data.contacts.planes.find((plane) => plane[0] === b);
+    return { x, y, nx, ny, length: radii()[a], radius: radii()[a] };
+  }
+  const shift = tables.shift.codes[c] === 255 ? -1 : tables.shift.codes[c];
+  const dx = places[2 * b] + shift * bed.length - x, dy = places[2 * b + 1] - y, length = Math.hypot(dx, dy);
+  return { x, y, nx: dx / length, ny: dy / length, length, radius: radii()[a] };
+}
+
+/** Ends, half width and four bytes of colour, as "lines" of a list; the strong ones last, so that they lie above. */
+function forceLines(frame, places, swatches) {
+  const [strong, weak] = swatches.map((swatch) => colourBytes(swatch.fill));
+  const weakLines = [], strongLines = [];
+  for (let c = 0, at = frame; c < tables.a.rows; ++c, at += frames.count) {
+    const code = tables.force.codes[at];
+    if (code === 0) continue;
+    const force = forceOf(code), { x, y, nx, ny, length } = branch(c, places);
+    const line = { ends: [x, y, x + length * nx, y + length * ny], half: data.contacts.half_width * force };
+    if (force > 1) strongLines.push({ ...line, colour: strong });
+    else weakLines.push({ ...line, colour: weak });
+  }
+  return weakLines.concat(strongLines);
+}
+
+/** Along the two surfaces, through the contact point. */
+function criticalLines(frame, places, swatches) {
+  const colour = colourBytes(swatches[0].fill), reach = 0.5 * data.contacts.critical_length, lines = [];
+  for (let c = 0, at = frame; c < tables.a.rows; ++c, at += frames.count) {
+    if (tables.sliding.codes[at] === 0) continue;
+    const { x, y, nx, ny, radius } = branch(c, places), px = x + radius * nx, py = y + radius * ny;
+    lines.push({ ends: [px + reach * ny, py - reach * nx, px - reach * ny, py + reach * nx],
+                 half: data.contacts.critical_half_width, colour });
+  }
+  return lines;
+}
+
+/** The legend of lines over a map; `map` null: over outlines. */
+const linesLegend = (lines, map) => lines.legends.find((legend) => legend.over === (map ? map.over : "")).legend;
+
+/** The lines of a frame, as { ends: 4 numbers each, half: 1, colour: 4 bytes }. */
+function lineShapes(lines, map, frame) {
+  if (!lines) return { count: 0, numbers: new Float32Array(0), colours: new Uint8Array(0) };
+  const make = lines.name === "forces" ? forceLines : criticalLines;
+  const made = make(frame, centres(frame), linesLegend(lines, map).swatches);
+  const numbers = new Float32Array(5 * made.length), colours = new Uint8Array(4 * made.length);
+  made.forEach((line, k) => {
+    numbers.set(line.ends, 5 * k);
+    numbers[5 * k + 4] = line.half;
+    colours.set(line.colour, 4 * k);
+  });
+  return { count: made.length, numbers, colours };
+}
+
+/** The shifts by which the bed is drawn: around a period also its images. */
+const shifts = bed.periodic ? [0, -bed.length, bed.length] : [0];
+
+const faded = 0.28;  // of the images beyond the edges of the period

@@ -1,0 +1,98 @@
+// Texts and elements.
+
+const byId = (id) => document.getElementById(id);
+
+/** An element with attributes ("on..." are listeners) and children: nodes or plain texts. */
+function element(tag, attributes = {}, ...children) {
+  const made = document.createElement(tag);
+  return furnish(made, attributes, children);
+}
+
+/** The same in SVG. */
+function shape(tag, attributes = {}, ...children) {
+  const made = document.createElementNS("http://www.w3.org/2000/svg", tag);
+  return furnish(made, attributes, children);
+}
+
+function furnish(made, attributes, children) {
+  for (const [name, value] of Object.entries(attributes)) {
+    if (name.startsWith("on")) made.addEventListener(name.slice(2), value);
+    else if (value !== null && value !== undefined && value !== false) made.setAttribute(name, value === true ? "" : value);
+  }
+  made.append(...children);
+  return made;
+}
+
+/** A rich text, in which "_c" sets c as a subscript. */
+function rich(text) {
+  const parts = document.createDocumentFragment();
+  let plain = "";
+  const letters = Array.from(text);
+  for (let k = 0; k < letters.length; ++k) {
+    if (letters[k] === "_" && k + 1 < letters.length) {
+      parts.append(plain, element("sub", {}, letters[++k]));
+      plain = "";
+    } else plain += letters[k];
+  }
+  parts.append(plain);
+  return parts;
+}
+
+/** The same as one text of SVG. */
+function richShape(text, attributes) {
+  const made = shape("text", attributes);
+  for (const part of rich(text).childNodes)
+    if (part.nodeType === Node.TEXT_NODE) made.append(part.cloneNode());
+    else
+      made.append(shape("tspan", { dy: "0.22em", "font-size": "78%" }, part.textContent),
+                  shape("tspan", { dy: "-0.17em" }, "\u200b"));
+  return made;
+}
+
+/** The plain text of a rich one: "θ_c" as "θc". */
+const plainText = (text) => text.replace(/_(.)/gu, "$1");
+
+/** Calls `use` once an element has another width; in the next picture, as a size must not change while it is told. */
+function onWidth(of, use) {
+  let width = of.clientWidth;
+  new ResizeObserver(() => requestAnimationFrame(() => {
+    if (of.clientWidth === width) return;
+    width = of.clientWidth;
+    use();
+  })).observe(of);
+}
+
+const firstLower = (text) => text.charAt(0).toLowerCase() + text.slice(1);
+
+/** A number to so many significant digits; a dash for none. */
+function numberText(value, digits = 3) {
+  if (value === null || value === undefined || !Number.isFinite(value)) return "–";
+  if (value === 0) return "0";
+  const size = Math.abs(value);
+  const text = size >= 1e5 || size < 1e-4 ? powerText(size, digits) : fixedText(size, digits);
+  return (value < 0 ? "−" : "") + text;
+}
+
+function fixedText(size, digits) {
+  const decimals = Math.max(0, digits - 1 - Math.floor(Math.log10(size)));
+  return size.toFixed(Math.min(decimals, 12));
+}
+
+const superscripts = "⁰¹²³⁴⁵⁶⁷⁸⁹";
+
+function powerText(size, digits) {
+  const [factor, power] = size.toExponential(Math.max(0, digits - 1)).split("e");
+  const raised = Array.from(String(Math.abs(power)), (digit) => superscripts[digit]).join("");
+  return `${factor}·10${power < 0 ? "⁻" : ""}${raised}`;
+}
+
+/** Round numbers from low to high, at most `most` steps apart, with equally many decimals. */
+function roundTicks(low, high, most) {
+  const decade = 10 ** Math.floor(Math.log10((high - low) / most));
+  const step = [1, 2, 5, 10].map((f) => f * decade).find((s) => (high - low) <= s * most * (1 + 1e-9));
+  const decimals = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
+  const ticks = [];
+  for (let k = Math.ceil(low / step - 1e-6); k <= Math.floor(high / step + 1e-6); ++k)
+    ticks.push({ value: k * step, label: (k < 0 ? "−" : "") + Math.abs(k * step).toFixed(decimals) });
+  return { ticks, step };
+}
