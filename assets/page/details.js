@@ -26,7 +26,8 @@ function showDetails(go) {
     rich(event.label || "–"), rich(event.what)]);
   byId("events").append(events.length > 0 ? table(["θ", "", "what"], events) : element("p", {}, "Nothing is known of this run."));
   byId("definitions").append(
-    element("p", {}, "Lengths are in mean diameters D, angles in degrees; g is gravity, ρ the density of the grains. Stresses are positive in compression."),
+    element("p", {}, "Lengths are in mean diameters D, angles in degrees; g is gravity, ρ the density of the grains. Stresses are positive in compression. " +
+      "The paper is Staron, Vilotte and Radjai, Multiscale Analysis of the Stress State in a Granular Slope in Transition to Failure."),
     table(["quantity", "meaning"], data.curves.quantities.map((quantity) => [
       quantity.common ? rich(quantity.title) : quantity.title, quantity.definition])));
   byId("provenance").append(table(["", ""], [["run", data.name], ...data.provenance]),

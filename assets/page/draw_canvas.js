@@ -31,8 +31,8 @@ function canvasDrawer(canvas) {
     pen.lineWidth = Math.max(0.24 * radius, 0.5);
     for (const offset of [-0.8, 0, 0.8]) {
       pen.beginPath();
-      pen.moveTo(x - radius + offset * radius, y - radius - offset * radius);
-      pen.lineTo(x + radius + offset * radius, y + radius - offset * radius);
+      pen.moveTo(x - radius + offset * radius, y + radius + offset * radius);
+      pen.lineTo(x + radius + offset * radius, y - radius + offset * radius);
       pen.stroke();
     }
     pen.restore();

@@ -69,6 +69,7 @@ function grainCard(makePlot) {
     heading.textContent = chosen ? `Grain ${view.grain}` : "Grain";
     hint.hidden = chosen;
     for (const part of [clear, list, history]) part.hidden = !chosen;
+    sides.classList.toggle("alone", !chosen);
     if (!chosen) return;
     list.replaceChildren(...valueRows(view.grain, view.frame));
   };

@@ -29,7 +29,7 @@ function sizeMap() {
   if (width === 0) return;
   const box = boxAt(view.turned ? (Math.max(0, ...frames.tilts) * Math.PI) / 180 : 0);
   const natural = (width * (box.high - box.low)) / (box.right - box.left);
-  const height = Math.round(Math.min(Math.max(natural, 150), Math.max(260, 0.62 * window.innerHeight)));
+  const height = Math.round(Math.min(Math.max(natural, 110), Math.max(260, 0.62 * window.innerHeight)));
   holder.style.height = `${height}px`;
   view.width = width;
   view.height = height;

@@ -1,6 +1,6 @@
 // The time line: a place for each frame, and a mark for what happened.
 
-const lineLeft = 14, lineRight = 14, lineY = 50, lineHeight = 76;
+const lineLeft = 14, lineRight = 14, lineY = 58, lineHeight = 84;
 
 /**
  * `go` is called with a frame, `tell` with an event or null. `show` draws it anew, `move` moves its handle.
