@@ -181,7 +181,7 @@ std::string data_json(const PageRun& run, const std::string& name, const PagePar
 }
 
 /// JSON as the text of a script element, which ends at "</".
-std::string as_script(std::string text) {
+std::string as_script(const std::string& text) {
   std::string result;
   for (const char c : text)
     if (c == '<')

@@ -141,6 +141,15 @@ TEST_F(RunPage, needs_nothing_but_itself) {
   EXPECT_TRUE(found.empty()) << found.str();
   EXPECT_EQ(count_of(text, "{{"), 0U) << "all of the template is filled";
   EXPECT_EQ(count_of(text, "<script"), count_of(text, "</script>"));
+  EXPECT_EQ(element(text, "data").find('<'), std::string::npos) << "no text of the run ends its element";
+}
+
+TEST_F(RunPage, is_small) {
+  // A byte or two for each number of a grain: what remains is the page itself.
+  const std::size_t frames = file_->all_frame_tilts().size();
+  Frames all(frames);
+  for (std::size_t k = 0; k < frames; ++k) all[k] = k;
+  EXPECT_LT(page(all).size(), 150'000U);
 }
 
 TEST_F(RunPage, is_the_same_each_time) { EXPECT_EQ(page({0, 3}), page({0, 3})); }
