@@ -93,7 +93,7 @@ const std::array<MotionMap, 6> motion_maps = {{
     {MapKind::dilation, "Dilation", "ΔA/A of neighbourhoods", "", true, {0.2, 0.1}, {}, strains<area_strain>},
     {MapKind::vorticity,
      "Vorticity",
-     "twice the turn of neighbourhoods in rad",
+     "2 × turn in rad",
      ", counter-clockwise positive",
      true,
      {0.5, 0.2},

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/random.h"
 #include "core/trigonometry.h"
 #include "unit/analysis/packings.h"
 
@@ -102,6 +103,24 @@ TEST(LocalDeformation, is_unrolled_over_the_period) {
   for (const LocalDeformation& of : local_deformations(bed.frame, {now, bed.statics})) {
     EXPECT_NEAR(of.gradient.xy, 2.0, 1e-12);
     EXPECT_NEAR(of.nonaffine, 0.0, 1e-12);
+  }
+}
+
+TEST(LocalDeformation, has_neighbours_across_the_period) {
+  const Packing bed = with_images(test::random_packing(6, 120, 12.0, 8.0, true));
+  const Packing elsewhere = test::moved(bed, 5.5);
+  Random random(8);
+  Frame now = bed.frame, now_elsewhere = elsewhere.frame;
+  for (std::size_t i = 0; i < now.x.size(); ++i) {
+    const double x = random.below(1024) / 8192.0;  // exact
+    now.x[i] += x;
+    now_elsewhere.x[i] += x;
+  }
+  const auto here = local_deformations(bed.frame, {now, bed.statics});
+  const auto there = local_deformations(elsewhere.frame, {now_elsewhere, bed.statics});
+  for (std::size_t i = 0; i < here.size(); ++i) {
+    EXPECT_NEAR(here[i].nonaffine, there[i].nonaffine, 1e-12);
+    EXPECT_NEAR(here[i].gradient.xy, there[i].gradient.xy, 1e-12);
   }
 }
 
