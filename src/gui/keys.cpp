@@ -22,7 +22,7 @@ constexpr KeyLine key_lines[] = {
     {"0", "no overlay"},
     {"o", "next overlay"},
     {"m", "next colours"},
-    {"v", "displacement since the angle shown, or per degree"},
+    {"v", "motion and strain since the angle shown, or per degree"},
     {"[ ]", "threshold of overloaded grains"},
     {", .", "length of coarse graining"},
     {"; '", "neighbourhood of the selected grain"},
