@@ -57,13 +57,14 @@ do for [k = 7:9] {
   } else {
     unset key
   }
-  plot ends using "cycle":(factor * column(name . "_end")):(factor * column(name . "_end_error")) \
-      with yerrorbars linecolor rgb ink[2] linewidth 1 pointtype 7 pointsize 0.4 * symbol notitle, \
-    ends using "cycle":(factor * column(name . "_top")):(factor * column(name . "_top_error")) \
-      with yerrorbars linecolor rgb ink[3] linewidth 1 pointtype 6 pointsize 0.5 * symbol notitle, \
+  scale = factor
+  plot ends using "cycle":(bar_from(name . "_end")):(0):(bar_length(name . "_end")) \
+      with vectors nohead linecolor rgb ink[2] dashtype solid linewidth 1 notitle, \
+    ends using (column("cycle") + 0.15):(bar_from(name . "_top")):(0):(bar_length(name . "_top")) \
+      with vectors nohead linecolor rgb ink[3] dashtype solid linewidth 1 notitle, \
     ends using "cycle":(factor * column(name . "_end")) with linespoints linecolor rgb ink[2] dashtype solid linewidth 1 \
       pointtype 7 pointsize 0.4 * symbol title "end of the cycle", \
-    ends using "cycle":(factor * column(name . "_top")) with linespoints linecolor rgb ink[3] dashtype (6,3) linewidth 1 \
+    ends using (column("cycle") + 0.15):(factor * column(name . "_top")) with linespoints linecolor rgb ink[3] dashtype (6,3) linewidth 1 \
       pointtype 6 pointsize 0.5 * symbol title "highest tilt"
 }
 unset multiplot
