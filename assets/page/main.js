@@ -182,6 +182,8 @@ function tellProblem(error) {
   document.documentElement.dataset.state = "failed";
 }
 
+// An address that a user has changed is shown anew; those that the page writes tell nobody.
+window.addEventListener("hashchange", () => location.reload());
 window.addEventListener("error", (event) => tellProblem(event.error || event.message));
 window.addEventListener("unhandledrejection", (event) => tellProblem(event.reason));
 start().catch(tellProblem);
