@@ -11,11 +11,22 @@ function timeLine(go, tell) {
   const last = Math.max(1, frames.count - 1);
   const toX = (place) => lineLeft + ((width - lineLeft - lineRight) * place) / last;
 
+  /** A bar on the line, as high as the rearrangement is large. */
+  const rearrangementMark = (event, x) => {
+    const mark = shape("g", { class: `event ${event.kind}` },
+      shape("path", { class: "bar", d: `M${x} ${lineY - 3}v${-3 - 9 * event.size}` }),
+      shape("rect", { x: x - 3, y: lineY - 16, width: 6, height: 16, fill: "transparent" }));
+    mark.addEventListener("pointerenter", () => tell(event));
+    mark.addEventListener("pointerleave", () => tell(null));
+    return mark;
+  };
   /** Labels in two rows, so that neighbours do not lie on each other. */
   const eventMarks = () => {
     const ends = [-Infinity, -Infinity, -Infinity];
     return data.events.map((event) => {
-      const x = toX(event.place), half = 4 + 3.6 * plainText(event.label).length;
+      const x = toX(event.place);
+      if (event.kind === "rearrangement") return rearrangementMark(event, x);
+      const half = 4 + 3.6 * plainText(event.label).length;
       const row = event.label ? ends.findIndex((end) => x - half > end) : -1;
       if (row >= 0) ends[row] = x + half;
       const mark = shape("g", { class: `event ${event.kind}` },

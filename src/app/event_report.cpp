@@ -7,10 +7,10 @@
 
 #include "analysis/power_law.h"
 #include "analysis/quantities.h"
-#include "app/json.h"
 #include "core/text.h"
 #include "core/trigonometry.h"
 #include "ensemble/plus_minus.h"
+#include "scenario/json.h"
 #include "session/event_catalogue.h"
 
 namespace talus {

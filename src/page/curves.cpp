@@ -8,6 +8,7 @@
 #include "analysis/quantities.h"
 #include "core/trigonometry.h"
 #include "scenario/json.h"
+#include "session/event_catalogue.h"
 #include "view/frame_values.h"
 #include "view/timeline.h"
 
@@ -89,9 +90,17 @@ std::string quantity_json(const Quantity& quantity, const std::vector<PageCurve>
 }
 
 std::string kind_text(TimelineEvent::Kind kind) {
-  return kind == TimelineEvent::Kind::failure   ? "failure"
-         : kind == TimelineEvent::Kind::command ? "command"
-                                                : "transition";
+  switch (kind) {
+    case TimelineEvent::Kind::failure:
+      return "failure";
+    case TimelineEvent::Kind::command:
+      return "command";
+    case TimelineEvent::Kind::rearrangement:
+      return "rearrangement";
+    case TimelineEvent::Kind::transition:
+      break;
+  }
+  return "transition";
 }
 
 /// The frames of the page that are of the tilt.
@@ -130,6 +139,8 @@ std::string events_json(const PageRun& run) {
   source.rows = rows;
   source.values = values;
   source.commands = commands;
+  source.rearrangements = run.analysis.events;
+  source.energy_unit = mean_grain_mass(run.statics()) * run.statics().gravity * run.statics().mean_diameter;
   if (std::isfinite(run.analysis.theta_c)) source.theta_c = run.analysis.theta_c;
   source.mean_diameter = run.statics().mean_diameter;
   source.cut = run.analysis.lc_cut;
@@ -145,6 +156,7 @@ std::string events_json(const PageRun& run) {
                                 {"label", json::quoted(event.label)},
                                 {"what", json::quoted(event.what)},
                                 {"kind", json::quoted(kind_text(event.kind))},
+                                {"size", fmt::format("{:.3f}", event.size)},
                                 {"tilt", fmt::format("{:.4f}", degrees(event.tilt))},
                                 {"place", fmt::format("{:.4f}", place_among(tilts, event.tilt))}}));
   }

@@ -18,8 +18,8 @@ constexpr double middle_code = 32767.0;
 
 /// Signed, about zero.
 Quantum rotation_quantum(const MapSettings& settings) {
-  const auto& fitting =
-      settings.motion.rotation[1] ? settings.motion.rotation[1] : settings.motion.rotation[0];
+  const auto per_degree = settings.motion.of(MapKind::rotation, true);
+  const auto fitting = per_degree ? per_degree : settings.motion.of(MapKind::rotation, false);
   const double step = fitting.value_or(fixed_motion_range(MapKind::rotation, true)).high / rotation_steps;
   return {-middle_code * step, step};
 }

@@ -79,9 +79,12 @@ std::string colour_text(const Colour& colour) {
 }
 
 std::vector<MapKind> filling_maps(const PageRun& run) {
+  constexpr MapKind on_pages[] = {MapKind::gamma,   MapKind::overloaded, MapKind::clusters,
+                                  MapKind::coarse,  MapKind::pressure,   MapKind::displacement,
+                                  MapKind::rotation};
   std::vector<MapKind> kinds;
-  for (const MapKind kind : map_kinds())
-    if (kind != MapKind::forces && kind != MapKind::critical && run.shows(kind)) kinds.push_back(kind);
+  for (const MapKind kind : on_pages)
+    if (run.shows(kind)) kinds.push_back(kind);
   return kinds;
 }
 

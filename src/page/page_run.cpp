@@ -62,10 +62,15 @@ bool PageRun::shows(MapKind kind) const {
 }
 
 PageRun begin_page(const RunFile& file, const Analysis& analysis, std::vector<std::size_t> frames) {
+  if (file.has_program())
+    throw Error(
+        ExitCode::bad_data,
+        "the tilt of this run follows a programme (tilt.program), and a page shows runs whose tilt only "
+        "grows; look at it with talus view, or export it to another format");
   const AnalysisParameters parameters = from_facts(analysis.parameters);
   PageRun run{file, analysis, std::move(frames), parameters, settings_of(analysis, parameters), {}};
   run.extent = bed_extent(run.statics());
-  MotionSample sample;
+  MotionSample sample({MapKind::displacement, MapKind::rotation});
   Frame before;
   for (std::size_t k = 0; k < file.all_frame_tilts().size(); ++k) {
     Frame frame = file.frame(k);
@@ -79,7 +84,7 @@ PageRun begin_page(const RunFile& file, const Analysis& analysis, std::vector<st
 }
 
 MapFrame PageFrame::mapped(const PageRun& run) const {
-  return {{frame, run.statics()}, reference, true, colours, nullptr};
+  return {{frame, run.statics()}, reference, true, colours, nullptr, {}};
 }
 
 void for_each_frame(const PageRun& run, const Watch& watch,

@@ -8,6 +8,7 @@
 
 #include "core/errors.h"
 #include "core/trigonometry.h"
+#include "page/map_texts.h"
 #include "page/page_run.h"
 #include "page/quantised.h"
 #include "pictures/layers.h"
@@ -107,8 +108,9 @@ TEST_F(RunPage, says_what_the_pictures_say) {
   const PageRun run = begin_page(*file_, analysis_, frames);
   std::size_t maps = 0;
   for_each_frame(run, {}, [&](const PageFrame& frame) {
-    for (const MapKind kind : map_kinds()) {
-      if (!run.shows(kind)) continue;
+    std::vector<MapKind> kinds = filling_maps(run);
+    kinds.insert(kinds.end(), {MapKind::forces, MapKind::critical});
+    for (const MapKind kind : kinds) {
       MapSettings settings = run.settings;
       settings.layers = {kind};
       const FrameView view = make_map(frame.mapped(run), settings, run.extent);

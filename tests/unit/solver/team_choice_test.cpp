@@ -51,7 +51,9 @@ TEST(TeamChoice, one_slow_window_changes_nothing) {
   for (int k = 0; k < 300; ++k) {
     const bool in_team = choice.in_team();
     choice.add(window, window / (in_team ? 4.0 : k % 7 == 0 ? 6.0 : 2.0));
-    if (in_team) EXPECT_FALSE(choice.in_team()) << "kept the team at " << k;
+    if (in_team) {
+      EXPECT_FALSE(choice.in_team()) << "kept the team at " << k;
+    }
   }
 }
 
