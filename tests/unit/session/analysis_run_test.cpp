@@ -6,8 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
+#include <cstddef>
 #include <limits>
+#include <span>
 
 #include "analysis/local_deformation.h"
 #include "analysis/quantities.h"
@@ -264,9 +265,8 @@ TEST_F(AnalysisRun, is_the_same_on_any_number_of_threads) {
     const Values other = values_of(quantity, three);
     std::visit(
         [&]<typename T>(const std::vector<T>& numbers) {
-          EXPECT_EQ(
-              std::memcmp(numbers.data(), std::get<std::vector<T>>(other).data(), numbers.size() * sizeof(T)),
-              0)
+          const auto& others = std::get<std::vector<T>>(other);
+          EXPECT_TRUE(std::ranges::equal(std::as_bytes(std::span(numbers)), std::as_bytes(std::span(others))))
               << quantity.name;
         },
         values_of(quantity, one));
