@@ -45,6 +45,8 @@ class Ranking : public ::testing::Test {
       frame.coordination_number = 3.0 + 0.5 * std::exp(-left / 3.0) * (1.0 + 0.01 * random.uniform());
       frame.stress_ratio = sine(frame.tilt) * (1.0 + 1e-4 * random.uniform());
       frame.critical_share = random.uniform();
+      frame.gamma_mean = (2.0 + offset) * (1.0 + std::exp(-left / 3.0)) * (1.0 + 0.001 * random.uniform());
+      frame.volume_strain = offset + std::exp(-left / 3.0) + 0.05 * random.uniform();
       for (FrameThreshold& at : frame.thresholds) {
         at.lc_mean = 10.0 - left + offset;
         at.overloaded_fraction = 0.5;
@@ -92,6 +94,13 @@ TEST_F(Ranking, ReadsEachThresholdAndSaysWhereItFollowsFromFailure) {
   for (FigureRun& run : groups[0].runs) run.analysis.gamma_c = 0.3;
   ranked = ranked_measures(groups[0]);
   EXPECT_FALSE(measure("lc/mean").by_own_failure) << "the same threshold for all beds";
+}
+
+TEST_F(Ranking, ComparesABedWithItselfFarFromFailure) {
+  ranked = ranked_measures(groups[0]);
+  EXPECT_LT(measure("gamma/mean").error.value, 0.6) << "by the ratio: each bed has a scale of its own";
+  EXPECT_LT(measure("packing/volume_strain").error.value, 0.6) << "by the difference: it has either sign";
+  EXPECT_EQ(measure("packing/volume_strain").beds, 12u);
 }
 
 TEST_F(Ranking, IsAFigureOfEightBedsOrMore) {
