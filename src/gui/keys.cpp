@@ -32,6 +32,7 @@ constexpr KeyLine key_lines[] = {
     {"f", "whole bed"},
     {"n", "select the next grain; escape: none"},
     {"i, y", "outline its cluster; draw its neighbourhoods"},
+    {"B", "bookmark of the frame shown, with a note"},
     {"g, b", "run to the angle; deposit the bed"},
     {"r", "reset, with the seed given"},
     {"s", "save the state of a run that is computed"},
@@ -192,6 +193,9 @@ void act(Gui& gui, ImWchar key) {
       break;
     case 'b':
       if (model.is_live()) model.live()->finish_deposition();
+      break;
+    case 'B':
+      model.state.bookmark_asked = true;
       break;
     case 'R':
     case 'M':

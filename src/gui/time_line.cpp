@@ -22,6 +22,8 @@ ImU32 event_colour(TimelineEvent::Kind kind) {
       return IM_COL32(0, 114, 178, 255);
     case TimelineEvent::Kind::rearrangement:
       return IM_COL32(176, 92, 0, 255);
+    case TimelineEvent::Kind::bookmark:
+      return IM_COL32(110, 60, 160, 255);
     case TimelineEvent::Kind::transition:
       break;
   }
@@ -91,21 +93,24 @@ void draw_labels(ImDrawList& list, const Track& track, std::span<const TimelineE
     }
 }
 
-/// A stroke for each event; that of a rearrangement stands at the bottom, as high as it is large, and a
-/// command has an arrow.
+/// A stroke for each event; that of a rearrangement stands at the bottom, as high as it is large, a command
+/// has an arrow, and a bookmark a flag.
 void draw_events(Gui& gui, ImDrawList& list, const Track& track) {
   const float em = gui.em, top = track.low.y;
   for (const TimelineEvent& event : gui.model.events()) {
     const float x = track.px(event.place);
     const ImU32 colour = event_colour(event.kind);
     const bool rearranges = event.kind == TimelineEvent::Kind::rearrangement;
+    const float above = event.kind == TimelineEvent::Kind::bookmark ? 0.55f : 0.15f;
     const float high =
-        rearranges ? std::lerp(track.high.y, top, static_cast<float>(event.size)) : top - 0.15f * em;
+        rearranges ? std::lerp(track.high.y, top, static_cast<float>(event.size)) : top - above * em;
     list.AddLine({x, high}, {x, track.high.y}, colour, 0.14f * em);
     note_place(gui, "event " + event.name, {x - 0.2f * em, top}, {x + 0.2f * em, track.high.y});
     if (event.kind == TimelineEvent::Kind::command)
       list.AddTriangleFilled({x, top + 0.3f * em}, {x - 0.3f * em, top - 0.2f * em},
                              {x + 0.3f * em, top - 0.2f * em}, colour);
+    if (event.kind == TimelineEvent::Kind::bookmark)
+      list.AddRectFilled({x, top - 0.55f * em}, {x + 0.6f * em, top - 0.1f * em}, colour);
   }
   draw_labels(list, track, gui.model.events(), em);
 }
@@ -133,8 +138,13 @@ void tell(const Gui& gui, const Track& track, const std::vector<double>& tilts) 
     rich_text(fmt::format("frame {} of {}, {:.2f}°", k + 1, tilts.size(), degrees(tilts[k])));
   }
   for (const TimelineEvent& event : gui.model.events())
-    if (std::abs(track.px(event.place) - x) <= 0.4f * gui.em)
-      rich_text(fmt::format("{:.2f}°: {}", degrees(event.tilt), event.what));
+    if (std::abs(track.px(event.place) - x) <= 0.4f * gui.em) {
+      const std::string text = fmt::format("{:.2f}°: {}", degrees(event.tilt), event.what);
+      if (event.kind == TimelineEvent::Kind::bookmark)
+        ImGui::TextUnformatted(text.c_str());
+      else
+        rich_text(text);
+    }
   ImGui::EndTooltip();
 }
 
@@ -149,21 +159,62 @@ void use_line(Gui& gui, const Track& track, const std::vector<double>& tilts) {
   gui.model.go_to(event ? event->frame : static_cast<std::size_t>(std::lround(track.place(x))));
 }
 
+/// The note of the bookmark of the frame shown: enter keeps it.
+void draw_bookmark_note(Gui& gui) {
+  ViewModel& model = gui.model;
+  if (std::exchange(model.state.bookmark_asked, false)) {
+    const Bookmark* const marked = model.bookmark();
+    model.state.bookmark_note = marked ? marked->note : std::string();
+    model.play(false);
+    ImGui::OpenPopup("bookmark note");
+  }
+  if (!ImGui::BeginPopup("bookmark note")) return;
+  rich_text(fmt::format("Bookmark at {:.2f}°", degrees(model.frame().tilt)));
+  if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
+  ImGui::SetNextItemWidth(20.0f * gui.em);
+  named_text(gui, "note", "", model.state.bookmark_note, "what is worth remembering here; may be empty");
+  const bool entered = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter));
+  if (named_button(gui, "keep bookmark", "keep", "enter") || entered) {
+    model.set_bookmark(model.state.bookmark_note);
+    ImGui::CloseCurrentPopup();
+  }
+  ImGui::SameLine();
+  ImGui::BeginDisabled(model.bookmark() == nullptr);
+  if (named_button(gui, "remove bookmark", "remove")) {
+    model.remove_bookmark();
+    ImGui::CloseCurrentPopup();
+  }
+  ImGui::EndDisabled();
+  ImGui::EndPopup();
+}
+
+/// The buttons at the right end of the line. Returns how wide they are.
+float draw_line_buttons(Gui& gui, const ImVec2& corner, float right) {
+  const float em = gui.em;
+  float width = 6.6f * em;
+  ImGui::SetCursorScreenPos({right - width + 0.4f * em, corner.y + 0.6f * em});
+  if (named_button(gui, "bookmark", gui.model.bookmark() ? "bookmark*" : "bookmark",
+                   "mark this frame, with a note that is kept beside the run: B"))
+    gui.model.state.bookmark_asked = true;
+  draw_bookmark_note(gui);
+  if (!gui.model.is_live()) return width;
+  width += 5.4f * em;
+  ImGui::SetCursorScreenPos({right - width + 0.4f * em, corner.y + 0.6f * em});
+  ImGui::BeginDisabled(!gui.model.looks_back());
+  if (named_button(gui, "follow", gui.model.looks_back() ? "follow" : "live",
+                   "show the run as it is now: end"))
+    gui.model.follow();
+  ImGui::EndDisabled();
+  return width;
+}
+
 }  // namespace
 
 void draw_time_line(Gui& gui) {
   const float em = gui.em;
-  float width = ImGui::GetContentRegionAvail().x;
   const ImVec2 corner = ImGui::GetCursorScreenPos();
-  if (gui.model.is_live()) {
-    width -= 6.0f * em;
-    ImGui::SetCursorScreenPos({corner.x + width + em, corner.y + 0.6f * em});
-    ImGui::BeginDisabled(!gui.model.looks_back());
-    if (named_button(gui, "follow", gui.model.looks_back() ? "follow" : "live",
-                     "show the run as it is now: end"))
-      gui.model.follow();
-    ImGui::EndDisabled();
-  }
+  const float available = ImGui::GetContentRegionAvail().x;
+  const float width = available - draw_line_buttons(gui, corner, corner.x + available);
   ImGui::SetCursorScreenPos(corner);
   ImGui::InvisibleButton("time line", {std::max(width, 1.0f), 3.2f * em});
   note_place(gui, "time line");

@@ -97,6 +97,8 @@ std::string kind_text(TimelineEvent::Kind kind) {
       return "command";
     case TimelineEvent::Kind::rearrangement:
       return "rearrangement";
+    case TimelineEvent::Kind::bookmark:
+      return "bookmark";
     case TimelineEvent::Kind::transition:
       break;
   }

@@ -8,15 +8,16 @@
 
 #include "core/command.h"
 #include "core/observables.h"
+#include "view/bookmarks.h"
 #include "view/frame_values.h"
 
 namespace talus {
 
 struct TimelineEvent {
-  enum class Kind { transition, failure, command, rearrangement };
+  enum class Kind { transition, failure, command, rearrangement, bookmark };
   std::string name;   ///< "dilation", "theta_c", "command 0": also the name of its widget
-  std::string label;  ///< rich text, short: "θ_d"; empty for a command, and for a rearrangement
-  std::string what;   ///< rich text: what happens, by which measure
+  std::string label;  ///< rich text, short: "θ_d"; empty for a command, a rearrangement, a bookmark
+  std::string what;   ///< rich text: what happens, by which measure; of a bookmark its note, as it is
   Kind kind = Kind::transition;
   double tilt = 0.0;      ///< rad
   double place = 0.0;     ///< frames from the first one, between two of them
@@ -32,6 +33,8 @@ struct TimelineSource {
   std::span<const FrameRecord> values;          ///< of the first frames of the tilt, with one threshold
   std::span<const Command> commands;            ///< in their order
   std::span<const EventRecord> rearrangements;  ///< of a stored analysis, in their order
+  std::span<const Bookmark> bookmarks;          ///< in their order
+  std::vector<double> all_times;                ///< s, of all frames, also of those after failure
   double energy_unit = 1.0;                     ///< m g D, J/m
   std::optional<double> theta_c;                ///< rad
   double mean_diameter = 0.0, cut = 0.0;        ///< m; l_c is searched for up to the second
@@ -43,9 +46,9 @@ struct TimelineSource {
 double place_among(std::span<const double> tilts, double tilt);
 
 /// theta_d by each estimator, the jump of l_c, where a cluster first spans, the first slide, theta_c, the
-/// rearrangements and the commands, as analyses find them (analysis/transition.h), in the order of their
-/// places. What needs the values of all frames comes when they are there. None where there are no frames.
-/// Where the tilt goes up and down, what is found at an angle is of the last rise.
+/// rearrangements, the commands and the bookmarks, as analyses find them (analysis/transition.h), in the
+/// order of their places. What needs the values of all frames comes when they are there. None where there are
+/// no frames. Where the tilt goes up and down, what is found at an angle is of the last rise.
 std::vector<TimelineEvent> timeline_events(const TimelineSource& source);
 
 }  // namespace talus

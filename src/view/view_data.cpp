@@ -26,6 +26,7 @@ void ViewModel::Data::open_replay() {
   plot_observables(rows, statics(), plots);
   plot_steps(file.steps(), plots);
   commands = file.commands();
+  open_bookmarks();
   // The bed is highest at its beginning or at its end.
   bed = bed_extent(statics());
   extend(bed, {*frames->read(replay->count() - 1), statics()});
@@ -64,6 +65,8 @@ void ViewModel::Data::start_live(const std::string& next_output, bool overwrite)
   ended = false;
   events.clear();
   commands.clear();
+  bookmarks.clear();
+  bookmarks_unread.clear();
   dilation.reset();
   show(newest);
   recorded = std::make_shared<RecordedFrames>();
@@ -152,6 +155,8 @@ void ViewModel::Data::find_events() {
   source.values = series->values();
   source.commands = commands;
   if (analysis) source.rearrangements = analysis->events;
+  source.bookmarks = bookmarks;
+  source.all_times = all_frame_times();
   source.energy_unit = mean_grain_mass(all_statics) * all_statics.gravity * all_statics.mean_diameter;
   source.theta_c = theta_c;
   source.mean_diameter = statics().mean_diameter;

@@ -63,6 +63,8 @@ struct ViewModel::Data {
   std::optional<std::size_t> dilation;  ///< the frame at which it begins
   std::vector<Command> commands;
   std::vector<TimelineEvent> events;
+  std::vector<Bookmark> bookmarks;
+  std::string bookmarks_unread;  ///< why those beside the run could not be read, and must not be replaced
 
   std::unique_ptr<FrameSeries> series;
 
@@ -104,6 +106,13 @@ struct ViewModel::Data {
   void hold_at(std::optional<std::size_t> frame);
   /// What there is to say of a live run that has just failed or ended; empty else.
   std::string take_end();
+  void open_bookmarks();
+  /// The file beside the run; empty where the run is in no file.
+  std::string bookmarks_file() const;
+  /// The frame that a bookmark would be of; none where there is no frame.
+  std::optional<std::size_t> marked_frame() const;
+  /// Takes over other bookmarks once they are written. Returns why they are not, or nothing.
+  std::string keep_bookmarks(std::vector<Bookmark> next);
   /// The events anew.
   void find_events();
   /// Begins the series of frames anew where `rule` is another, and takes in what it has made; true where
@@ -118,6 +127,8 @@ struct ViewModel::Data {
   std::vector<double> frame_tilts() const;
   /// s, of the same frames.
   std::vector<double> frame_times() const;
+  /// s, of all frames that can be gone to.
+  std::vector<double> all_frame_times() const;
   double shown_theta_c() const;
   /// The settings of the map, with what the run has to say.
   MapSettings map_settings(const ViewState& asked) const;

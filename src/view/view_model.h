@@ -63,6 +63,13 @@ class ViewModel {
   /// Whether the tilt follows a programme, and so may fall and be held.
   bool has_program() const;
   std::span<const TimelineEvent> events() const;
+  /// The bookmark of the frame shown; of a live run that is followed, of the frame recorded last. Null where
+  /// there is none.
+  const Bookmark* bookmark() const;
+  /// Gives that frame a bookmark, or takes it away, and writes the file beside the run. What stands in the
+  /// way is put into state.message, and nothing is changed.
+  void set_bookmark(const std::string& note);
+  void remove_bookmark();
   /// In a live run, which goes on, until it is followed again; nothing where it has no frame yet.
   void go_to(std::size_t frame);
   bool looks_back() const;  ///< whether a live run is not followed

@@ -16,14 +16,16 @@ std::vector<double> ViewModel::Data::frame_tilts() const {
   return tilts;
 }
 
-std::vector<double> ViewModel::Data::frame_times() const {
+std::vector<double> ViewModel::Data::all_frame_times() const {
+  if (replay) return frames->file().all_frame_times();
   std::vector<double> times;
-  if (replay) {
-    times = frames->file().all_frame_times();
-    times.resize(frames->file().frame_count());
-  } else {
-    for (const auto& recorded_frame : recorded->all()) times.push_back(recorded_frame->time);
-  }
+  for (const auto& recorded_frame : recorded->all()) times.push_back(recorded_frame->time);
+  return times;
+}
+
+std::vector<double> ViewModel::Data::frame_times() const {
+  std::vector<double> times = all_frame_times();
+  if (replay) times.resize(frames->file().frame_count());
   return times;
 }
 

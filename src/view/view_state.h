@@ -36,9 +36,11 @@ struct ViewState {
   bool show_controls = true, show_inspector = true, show_plots = true;
   std::map<std::string, PlotLook> plot_looks;  ///< by the names of plots
   std::string enlarged_plot;                   ///< its name; empty: all are shown
-  float picture_share = 0.0f;  ///< of the height, for the map; 0: as high as the bed, the plots get the rest
-  std::string announcement;    ///< of a run that has failed or ended, until it is clicked away
-  std::string message;         ///< last thing worth telling: a file written, an error
+  float picture_share = 0.0f;   ///< of the height, for the map; 0: as high as the bed, the plots get the rest
+  bool bookmark_asked = false;  ///< a key has asked for the note of a bookmark
+  std::string bookmark_note;    ///< what is being written
+  std::string announcement;     ///< of a run that has failed or ended, until it is clicked away
+  std::string message;          ///< last thing worth telling: a file written, an error
 
   // What the action widgets hold.
   double push_speed = 1.0;  ///< sqrt(g D)

@@ -27,6 +27,7 @@ Frame bed_frame(double tilt, Index overloaded) {
   Frame frame;
   frame.tilt = radians(tilt);
   frame.step = std::lround(1000.0 * tilt);
+  frame.time = 0.1 * tilt;
   for (Index i = 0; i < columns * (rows + 1); ++i) {
     const bool floor = i >= statics.free_count;
     const Index column = i % columns, row = floor ? -1 : i / columns;
@@ -64,6 +65,7 @@ void write_run(const std::string& path, double theta_c, std::vector<Frame> frame
   for (int i = 0; i <= 50; ++i) {
     ObservableRow row{};
     at(row, Observable::tilt) = radians(0.5 * i);
+    at(row, Observable::time) = 0.05 * i;
     segment.observables.push_back(row);
   }
   Checkpoint checkpoint;
@@ -85,6 +87,7 @@ void write_bed_run(const std::string& path, double theta_c) {
   for (const double tilt : {24.0, 23.0}) {
     frames.push_back(bed_frame(tilt, 1));
     frames.back().step = 30000 + std::lround(100.0 * (25.0 - tilt));
+    frames.back().time = 3.0 + 0.1 * (25.0 - tilt);
   }
   write_run(path, theta_c, std::move(frames));
 }
