@@ -75,7 +75,7 @@ void draw_curve(Gui& gui, const Inspection& grain) {
   plot.name = "neighbourhood";
   plot.title = "γ_ℓ";
   plot.x_title = "ℓ/D";
-  plot.over_tilt = false;
+  plot.along_run = false;
   PlotSeries curve{"γ_ℓ", {}, grain.curve.gamma, false}, threshold{"Γ_c", {}, {}, true};
   for (const double l : grain.curve.l) curve.x.push_back(l / diameter);
   if (!curve.x.empty()) {
@@ -117,11 +117,12 @@ void draw_frame_values(Gui& gui) {
   ImGui::TextWrapped("Click a grain to see its stress, its contacts and its neighbourhood.");
   ImGui::Separator();
   const double tilt = degrees(gui.model.frame().tilt);
+  const double place = *gui.model.plot_marks().shown;
   fact("θ", fmt::format("{:.3f}°", tilt));
   for (const Plot& plot : gui.model.plots())
     for (const PlotSeries& series : plot.series) {
       if (!series.quantity || series.law) continue;
-      const double value = value_near(series, tilt);
+      const double value = value_near(series, place);
       if (std::isfinite(value))
         fact(plot.series.size() == 2 ? plot.title + ", " + series.name : series.name,
              fmt::format("{:.4g}{}", value, series.quantity->display.percent ? " %" : ""));

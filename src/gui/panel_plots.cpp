@@ -1,10 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/trigonometry.h"
 #include "gui/panels.h"
 #include "gui/plot_widget.h"
-#include "pictures/frame_choice.h"
 
 namespace talus {
 namespace {
@@ -25,14 +23,12 @@ PlotGrid lay_out_plots(const ImVec2& room, int count, float em) {
   return grid;
 }
 
-/// A click on a curve over the tilt goes to the frame nearest to it.
+/// A click on a curve along the run goes to the frame nearest to it.
 void draw_and_answer(Gui& gui, const Plot& plot, const ImVec2& size, const PlotMarks& marks) {
-  const auto clicked = draw_plot(gui, plot, size, plot.over_tilt ? marks : PlotMarks{});
-  if (!clicked || !plot.over_tilt) return;
-  if (const auto frame = nearest_frame(gui.model.frame_tilts(), radians(*clicked))) {
-    gui.model.play(false);
-    gui.model.go_to(*frame);
-  }
+  const auto clicked = draw_plot(gui, plot, size, plot.along_run ? marks : PlotMarks{});
+  if (!clicked || !plot.along_run) return;
+  gui.model.play(false);
+  gui.model.go_to_place(*clicked);
 }
 
 /// One plot in all of the room, with what can be chosen of it.
@@ -46,17 +42,41 @@ void draw_enlarged(Gui& gui, const Plot& plot, const PlotMarks& marks) {
   draw_and_answer(gui, plot, ImGui::GetContentRegionAvail(), marks);
 }
 
+/// What all plots along the run are over.
+void draw_axis(Gui& gui) {
+  constexpr std::pair<PlotAxis, const char*> axes[] = {
+      {PlotAxis::tilt, "θ"}, {PlotAxis::angle_left, "θ_c − θ"}, {PlotAxis::time, "t"}};
+  constexpr const char* names[] = {"over tilt", "over angle left", "over time"};
+  constexpr const char* tips[] = {"all curves over the tilt",
+                                  "all curves over the angle that is left to failure",
+                                  "all curves over time"};
+  for (std::size_t k = 0; k < std::size(axes); ++k) {
+    const bool missing = !gui.model.has_plot_axis(axes[k].first);
+    const bool chosen = gui.model.plot_axis() == axes[k].first;
+    if (k > 0) ImGui::SameLine();
+    ImGui::BeginDisabled(missing);
+    if (chosen) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetColorU32(ImGuiCol_ButtonActive));
+    if (named_button(gui, names[k], axes[k].second, tips[k])) gui.model.set_plot_axis(axes[k].first);
+    if (chosen) ImGui::PopStyleColor();
+    ImGui::EndDisabled();
+  }
+}
+
+void draw_choices(Gui& gui) {
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted("over");
+  ImGui::SameLine();
+  draw_axis(gui);
+}
+
 }  // namespace
 
 void draw_plots(Gui& gui) {
+  draw_choices(gui);
   const auto plots = gui.model.plots();
   const ImVec2 room = ImGui::GetContentRegionAvail();
   const PlotGrid grid = lay_out_plots(room, static_cast<int>(plots.size()), gui.em);
-  PlotMarks marks;
-  marks.shown = degrees(gui.model.frame().tilt);
-  if (gui.model.theta_c_known()) marks.theta_c = degrees(gui.model.theta_c());
-  for (const TimelineEvent& event : gui.model.events())
-    if (event.kind == TimelineEvent::Kind::rearrangement) marks.ticks.push_back(degrees(event.tilt));
+  const PlotMarks marks = gui.model.plot_marks();
   const auto enlarged = std::ranges::find(plots, gui.model.state.enlarged_plot, &Plot::name);
   if (enlarged != plots.end()) return draw_enlarged(gui, *enlarged, marks);
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0.0f, 0.0f});

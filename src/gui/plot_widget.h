@@ -2,18 +2,10 @@
 /// A plot: axes with round ticks, curves, a line at the frame shown, values under the mouse.
 
 #include <optional>
-#include <vector>
 
 #include "gui/widgets.h"
 
 namespace talus {
-
-/// Vertical lines.
-struct PlotMarks {
-  std::optional<double> shown;    ///< x of the frame shown
-  std::optional<double> theta_c;  ///< dashed
-  std::vector<double> ticks{};    ///< short ones, up from the axis: rearrangements
-};
 
 /// The value of a curve nearest to x; NaN where it has none.
 double value_near(const PlotSeries& series, double x);

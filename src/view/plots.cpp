@@ -43,27 +43,51 @@ double largest_of(std::span<const StepRow> rows, StepField field) {
 
 PlotSeries series_of(const Quantity& quantity) { return {quantity.display.symbol, {}, {}, false, quantity}; }
 
-Plot plot_over_tilt(const std::string& name, const std::string& title, std::vector<PlotSeries> series) {
-  return {name, title, "θ in °", true, false, std::move(series)};
+double place_on(const PlotAbscissa& abscissa, double tilt, double time) {
+  switch (abscissa.axis) {
+    case PlotAxis::tilt:
+      return degrees(tilt);
+    case PlotAxis::angle_left:
+      return degrees(abscissa.theta_c - tilt);
+    case PlotAxis::time:
+      return time;
+  }
+  return not_known;
+}
+
+std::string title_of(PlotAxis axis) {
+  switch (axis) {
+    case PlotAxis::tilt:
+      return "θ in °";
+    case PlotAxis::angle_left:
+      return "θ_c − θ in °";
+    case PlotAxis::time:
+      return "t in s";
+  }
+  return {};
+}
+
+Plot plot_along_run(const std::string& name, const std::string& title, std::vector<PlotSeries> series) {
+  return {name, title, title_of(PlotAxis::tilt), true, false, std::move(series)};
 }
 
 std::vector<Plot> empty_plots() {
   std::vector<Plot> plots(plot_count);
   const auto set = [&plots](PlotKind kind, Plot plot) { plot_of(plots, kind) = std::move(plot); };
   const auto set_quantity = [&set](PlotKind kind, const std::string& name, const QuantityMember& member) {
-    set(kind, plot_over_tilt(name, shown_title(quantity_of(member)), {series_of(member)}));
+    set(kind, plot_along_run(name, shown_title(quantity_of(member)), {series_of(member)}));
   };
   set(PlotKind::stress,
-      plot_over_tilt("stress", "Packing",
+      plot_along_run("stress", "Packing",
                      {series_of(&FrameRecord::stress_ratio), series_of(&FrameRecord::sigma_t_over_n),
                       law("sin θ"), law("tan θ")}));
   set_quantity(PlotKind::overloaded, "overloaded", &FrameThreshold::overloaded_fraction);
   set_quantity(PlotKind::cluster, "cluster", &FrameThreshold::largest_share);
   set(PlotKind::lengths,
-      plot_over_tilt("lengths", "ℓ_c in D",
+      plot_along_run("lengths", "ℓ_c in D",
                      {series_of(&FrameThreshold::lc_mean), series_of(&FrameThreshold::lc_max)}));
   set_quantity(PlotKind::strain, "strain", &FrameRecord::volume_strain);
-  set(PlotKind::energy, plot_over_tilt("energy", "Energy E_k/mgD of a grain", {curve("kinetic energy")}));
+  set(PlotKind::energy, plot_along_run("energy", "Energy E_k/mgD of a grain", {curve("kinetic energy")}));
   plot_of(plots, PlotKind::energy).log_y = true;
   set(PlotKind::gamma, {"gamma", "Density of γ, this frame", "γ = q/p", false, false, {curve("pdf")}});
   set(PlotKind::residual, {"residual", "Solver residual η", "step", false, true, {curve("η")}});
@@ -71,14 +95,22 @@ std::vector<Plot> empty_plots() {
   return plots;
 }
 
+void name_axis(PlotAxis axis, std::vector<Plot>& plots) {
+  for (Plot& plot : plots)
+    if (plot.along_run) plot.x_title = title_of(axis);
+}
+
 void plot_observables(std::span<const ObservableRow> rows, const RunStatics& statics,
-                      std::vector<Plot>& plots) {
+                      const PlotAbscissa& abscissa, std::vector<Plot>& plots) {
+  const auto place_of = [&abscissa](const ObservableRow& row) {
+    return place_on(abscissa, at(row, Observable::tilt), at(row, Observable::time));
+  };
   for (Plot& plot : plots)
     for (PlotSeries& series : plot.series) {
       if (!series.quantity || !series.quantity->display.observable) continue;
       clear(series);
       for (const ObservableRow& row : rows)
-        add(series, degrees(at(row, Observable::tilt)),
+        add(series, place_of(row),
             shown(*series.quantity, at(row, *series.quantity->display.observable), statics.mean_diameter));
     }
   PlotSeries& sine_law = plot_of(plots, PlotKind::stress).series[2];
@@ -89,21 +121,22 @@ void plot_observables(std::span<const ObservableRow> rows, const RunStatics& sta
   for (Index i = 0; i < statics.free_count; ++i) mass += statics.mass[i];
   const double energy_unit = mass * statics.gravity * statics.mean_diameter;
   for (const ObservableRow& row : rows) {
-    const double theta = at(row, Observable::tilt), x = degrees(theta);
+    const double theta = at(row, Observable::tilt), x = place_of(row);
     add(sine_law, x, std::abs(sine(theta)));
     add(tangent_law, x, sine(theta) / cosine(theta));
     add(energy, x, positive(at(row, Observable::kinetic_energy) / energy_unit));
   }
 }
 
-void plot_frames(std::span<const FrameRecord> frames, double mean_diameter, std::vector<Plot>& plots) {
+void plot_frames(std::span<const FrameRecord> frames, std::span<const double> times, double mean_diameter,
+                 const PlotAbscissa& abscissa, std::vector<Plot>& plots) {
   for (Plot& plot : plots)
     for (PlotSeries& series : plot.series) {
       if (!series.quantity || series.quantity->display.observable) continue;
       clear(series);
-      for (const FrameRecord& frame : frames)
-        add(series, degrees(frame.tilt),
-            shown(*series.quantity, number_of(*series.quantity, frame), mean_diameter));
+      for (std::size_t k = 0; k < frames.size(); ++k)
+        add(series, place_on(abscissa, frames[k].tilt, times[k]),
+            shown(*series.quantity, number_of(*series.quantity, frames[k]), mean_diameter));
     }
 }
 

@@ -14,20 +14,41 @@
 
 namespace talus {
 
-/// One curve over the tilt, and what is known of it.
+/// What the curves of a run are over.
+enum class PlotAxis { tilt, angle_left, time };
+
+/// The axis, and what places on it depend on.
+struct PlotAbscissa {
+  PlotAxis axis = PlotAxis::tilt;
+  double theta_c = not_known;  ///< rad; without it there is no angle_left
+};
+
+/// theta or theta_c - theta in deg, or t in s: where a tilt (rad) and a time (s) are.
+double place_on(const PlotAbscissa& abscissa, double tilt, double time);
+/// Rich text: "θ_c − θ in °".
+std::string title_of(PlotAxis axis);
+
+/// Places on the axis of the run that all its plots mark.
+struct PlotMarks {
+  std::optional<double> shown;    ///< of the frame shown
+  std::optional<double> theta_c;  ///< dashed
+  std::vector<double> ticks{};    ///< short ones, up from the axis: rearrangements
+};
+
+/// One curve along the run, and what is known of it.
 struct PlotSeries {
   std::string name;                                 ///< "p_o": short, for the legend
-  std::vector<double> x, y;                         ///< tilt in deg; NaN where there is none
+  std::vector<double> x, y;                         ///< places on the axis; NaN where there is none
   bool law = false;                                 ///< what theory says, beside what was measured
   std::optional<Quantity> quantity = std::nullopt;  ///< what it shows, where the table has it
 };
 
-/// A plot beside the map: curves over the tilt, or over what `x_title` says.
+/// A plot beside the map: curves along the run, or over what else `x_title` says.
 struct Plot {
   std::string name;       ///< "stress", "overloaded", ...: also the name of its widget
   std::string title;      ///< "Γ = Q/P, σ_T/σ_N"
   std::string x_title;    ///< "θ in °"
-  bool over_tilt = true;  ///< the line at the frame shown stands at its tilt
+  bool along_run = true;  ///< over the axis of the run, on which the frame shown has a place
   bool log_y = false;
   std::vector<PlotSeries> series;  ///< the first is what was measured, others laws or measures beside it
   std::string note{};              ///< rich text: what the curves depend on, "at 0.9 Γ_c"
@@ -49,19 +70,23 @@ enum class PlotKind : std::size_t {
 };
 inline constexpr std::size_t plot_count = static_cast<std::size_t>(PlotKind::count);
 
-/// An empty curve of a quantity, called by its symbol, and an empty plot of some over the tilt.
+/// An empty curve of a quantity, called by its symbol, and an empty plot of some along the run.
 PlotSeries series_of(const Quantity& quantity);
-Plot plot_over_tilt(const std::string& name, const std::string& title, std::vector<PlotSeries> series);
+Plot plot_along_run(const std::string& name, const std::string& title, std::vector<PlotSeries> series);
 
-/// All plots, empty.
+/// All plots, empty, over the tilt.
 std::vector<Plot> empty_plots();
+/// Says on the plots along the run what they are over; their curves are to be filled anew.
+void name_axis(PlotAxis axis, std::vector<Plot>& plots);
 
 /// Fills the curves of the observables: of the quantities that a run records more often than its frames, the
 /// laws beside them, and the energy.
 void plot_observables(std::span<const ObservableRow> rows, const RunStatics& statics,
-                      std::vector<Plot>& plots);
-/// Fills the curves of all other quantities, from frames with one threshold. Values that are NaN make a gap.
-void plot_frames(std::span<const FrameRecord> frames, double mean_diameter, std::vector<Plot>& plots);
+                      const PlotAbscissa& abscissa, std::vector<Plot>& plots);
+/// Fills the curves of all other quantities, from frames with one threshold; `times` (s) are theirs, and may
+/// be more. Values that are NaN make a gap.
+void plot_frames(std::span<const FrameRecord> frames, std::span<const double> times, double mean_diameter,
+                 const PlotAbscissa& abscissa, std::vector<Plot>& plots);
 /// Notes the threshold, in Gamma_c, of the plots whose quantities have one; `assumed` (rad): the theta_c that
 /// it follows from while the slope has not failed.
 void note_threshold(double factor, std::optional<double> assumed, std::vector<Plot>& plots);

@@ -36,26 +36,41 @@ double value_after(std::span<const ObservableRow> rows, std::int64_t step, Obser
 /// Adds what has a tilt.
 struct EventList {
   const TimelineSource& source;
-  std::size_t rise_begins;         ///< frame
-  std::vector<double> rise_tilts;  ///< rad, magnitudes
+  std::size_t rise_begins;                   ///< frame
+  std::vector<double> rise_tilts;            ///< rad, magnitudes
+  std::vector<double> row_tilts, row_times;  ///< rad, magnitudes, and s: of the rows of the rise
   std::vector<TimelineEvent> events;
 
   explicit EventList(const TimelineSource& of) : source(of) {
     const SeriesPart rise = last_rise(of.tilts);
     rise_begins = rise.first;
     rise_tilts = magnitudes(of.tilts, rise);
+    const std::vector<ObservableRow> rows = rows_of_last_rise(of.rows);
+    row_tilts = column_of(rows, Observable::tilt);
+    row_times = column_of(rows, Observable::time);
   }
 
   /// What happens at a tilt (rad) of the last rise.
   void add(const char* name, const char* label, const std::string& what, double tilt,
            TimelineEvent::Kind kind = TimelineEvent::Kind::transition) {
     if (!std::isfinite(tilt)) return;
-    add_at(name, label, what, tilt, static_cast<double>(rise_begins) + place_among(rise_tilts, tilt), kind);
+    add_at(name, label, what, tilt, static_cast<double>(rise_begins) + place_among(rise_tilts, tilt),
+           time_of(tilt), kind);
+  }
+
+  /// s, at which the last rise comes to a tilt (rad), between two rows.
+  double time_of(double tilt) const {
+    if (row_tilts.empty()) return not_known;
+    const double place = place_among(row_tilts, tilt);
+    const auto before = static_cast<std::size_t>(place);
+    const std::size_t after = std::min(before + 1, row_times.size() - 1);
+    return std::lerp(row_times[before], row_times[after], place - std::floor(place));
   }
 
   void add_at(const std::string& name, const char* label, const std::string& what, double tilt, double place,
-              TimelineEvent::Kind kind) {
+              double time, TimelineEvent::Kind kind) {
     events.push_back({name, label, what, kind, tilt, place, static_cast<std::size_t>(std::lround(place))});
+    events.back().time = time;
   }
 
   /// What happens at a tilt (rad) and a time (s), in whichever rise.
@@ -63,7 +78,7 @@ struct EventList {
                 TimelineEvent::Kind kind) {
     const double place = std::ranges::is_sorted(source.tilts) ? place_among(source.tilts, tilt)
                                                               : place_among(source.times, time);
-    add_at(name, "", what, tilt, place, kind);
+    add_at(name, "", what, tilt, place, time, kind);
   }
 
   void add_command(std::size_t k) {
@@ -92,7 +107,8 @@ void add_of_frames(EventList& list, double theta_c) {
   const TimelineSource& source = list.source;
   if (const auto first = percolation_frame(source.values))
     list.add_at("spans", "spans", "a cluster first spans from floor to surface", source.values[*first].tilt,
-                static_cast<double>(*first), TimelineEvent::Kind::transition);
+                static_cast<double>(*first), *first < source.times.size() ? source.times[*first] : not_known,
+                TimelineEvent::Kind::transition);
   if (source.may_change || source.values.size() < source.tilts.size()) return;
   const auto [begin, frames, tilts] = last_rise(source.values);
   std::vector<double> lengths;

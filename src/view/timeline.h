@@ -23,6 +23,7 @@ struct TimelineEvent {
   double place = 0.0;     ///< frames from the first one, between two of them
   std::size_t frame = 0;  ///< the nearest
   double size = 1.0;      ///< in (0, 1]: of a rearrangement, by the logarithm of its energy
+  double time = 0.0;      ///< s; NaN where no row tells
 };
 
 /// What the events follow from, as far as it is known.

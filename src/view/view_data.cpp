@@ -23,7 +23,7 @@ void ViewModel::Data::open_replay() {
   if (theta_c && !std::isfinite(*theta_c)) theta_c.reset();  // it has not failed
   analysis = read_usable_analysis(pictures.path, file);
   rows = file.observables();
-  plot_observables(rows, statics(), plots);
+  plot_rows();
   plot_steps(file.steps(), plots);
   commands = file.commands();
   open_bookmarks();
@@ -60,6 +60,8 @@ void ViewModel::Data::start_live(const std::string& next_output, bool overwrite)
   theta_c.reset();
   rows.clear();
   plots = empty_plots();
+  if (axis == PlotAxis::angle_left) axis = PlotAxis::tilt;
+  name_axis(axis, plots);
   newest = live->frame();
   held.reset();
   ended = false;
@@ -71,6 +73,12 @@ void ViewModel::Data::start_live(const std::string& next_output, bool overwrite)
   show(newest);
   recorded = std::make_shared<RecordedFrames>();
   begin_series();
+}
+
+void ViewModel::Data::plot_rows() { plot_observables(rows, statics(), abscissa(), plots); }
+
+void ViewModel::Data::plot_values() {
+  plot_frames(series->values(), frame_times(), statics().mean_diameter, abscissa(), plots);
 }
 
 std::shared_ptr<const Frame> ViewModel::Data::read(std::size_t k) {
@@ -122,7 +130,7 @@ bool ViewModel::Data::take_live() {
   series->set_counts(recorded->all().size(), recorded->all().size());
   const std::vector<ObservableRow> more = live->observables(rows.size());
   rows.insert(rows.end(), more.begin(), more.end());
-  if (!more.empty()) plot_observables(rows, statics(), plots);
+  if (!more.empty()) plot_rows();
   plot_steps(live->steps(0), plots);
   const std::size_t commands_before = std::exchange(commands, live->commands()).size();
   if (recorded->all().size() != before || commands.size() != commands_before || !status.running)
@@ -178,7 +186,7 @@ bool ViewModel::Data::follow_frames(const OverloadRule& rule) {
     changed = true;
   }
   if (changed) {
-    plot_frames(series->values(), statics().mean_diameter, plots);
+    plot_values();
     note_threshold(rule.threshold_factor, theta_c ? std::nullopt : std::optional(rule.theta_c), plots);
     find_events();
   }

@@ -42,7 +42,8 @@ struct ViewModel::Data {
   MapExtent bed;                        ///< as far as its frames are known
   std::vector<ObservableRow> rows;
   std::vector<Plot> plots = empty_plots();
-  std::string error;  ///< what has gone wrong since the last update
+  PlotAxis axis = PlotAxis::tilt;  ///< of the plots along the run
+  std::string error;               ///< what has gone wrong since the last update
 
   // Of a run that is replayed.
   std::shared_ptr<RunFrames> frames;
@@ -121,6 +122,10 @@ struct ViewModel::Data {
   std::optional<std::size_t> place_of(Landmark landmark) const;
   std::size_t frame_count() const;
 
+  /// The curves along the run anew: of what it records, and of its frames.
+  void plot_rows();
+  void plot_values();
+
   // view_shown.cpp: what is made of it.
   const RunStatics& statics() const { return pictures.run.statics; }
   /// The tilts of the frames of the tilt.
@@ -130,6 +135,7 @@ struct ViewModel::Data {
   /// s, of all frames that can be gone to.
   std::vector<double> all_frame_times() const;
   double shown_theta_c() const;
+  PlotAbscissa abscissa() const { return {axis, theta_c.value_or(not_known)}; }
   /// The settings of the map, with what the run has to say.
   MapSettings map_settings(const ViewState& asked) const;
   const Clusters& shown_clusters(const MapSettings& settings);

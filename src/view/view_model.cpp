@@ -1,9 +1,11 @@
 #include "view/view_model.h"
 
+#include <cmath>
 #include <filesystem>
 #include <fmt/core.h>
 
 #include "core/errors.h"
+#include "core/trigonometry.h"
 #include "io/run_file.h"
 #include "pictures/bed_view.h"
 #include "pictures/frame_choice.h"
@@ -199,6 +201,49 @@ std::optional<Index> ViewModel::grain_at(double x, double y) const {
 
 const Inspection* ViewModel::inspection() const { return data_->inspect_selected(state); }
 std::span<const Plot> ViewModel::plots() const { return data_->plots; }
+PlotAxis ViewModel::plot_axis() const { return data_->axis; }
+
+bool ViewModel::has_plot_axis(PlotAxis axis) const {
+  return axis != PlotAxis::angle_left || data_->theta_c.has_value();
+}
+
+void ViewModel::set_plot_axis(PlotAxis axis) {
+  if (axis == data_->axis || !has_plot_axis(axis)) return;
+  data_->axis = axis;
+  name_axis(axis, data_->plots);
+  data_->plot_rows();
+  data_->plot_values();
+  for (const Plot& plot : data_->plots) {
+    if (!plot.along_run) continue;
+    state.plot_looks[plot.name].zoomed.reset();
+    state.plot_looks[plot.name].chosen.reset();
+  }
+}
+
+PlotMarks ViewModel::plot_marks() const {
+  const PlotAbscissa abscissa = data_->abscissa();
+  PlotMarks marks;
+  marks.shown = place_on(abscissa, data_->frame->tilt, data_->frame->time);
+  for (const TimelineEvent& event : data_->events) {
+    const double place = place_on(abscissa, event.tilt, event.time);
+    if (!std::isfinite(place)) continue;
+    if (event.kind == TimelineEvent::Kind::failure) marks.theta_c = place;
+    if (event.kind == TimelineEvent::Kind::rearrangement) marks.ticks.push_back(place);
+  }
+  return marks;
+}
+
+void ViewModel::go_to_place(double x) {
+  std::optional<std::size_t> frame;
+  if (data_->axis == PlotAxis::time)
+    frame = nearest_frame(data_->replay ? data_->frames->file().all_frame_times() : data_->frame_times(), x);
+  else if (data_->axis == PlotAxis::angle_left)
+    frame = nearest_frame(frame_tilts(), data_->theta_c.value_or(not_known) - radians(x));
+  else
+    frame = nearest_frame(frame_tilts(), radians(x));
+  if (frame) go_to(*frame);
+}
+
 std::string ViewModel::render_command() const { return data_->render_command(state); }
 
 }  // namespace talus

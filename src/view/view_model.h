@@ -116,6 +116,15 @@ class ViewModel {
   const Inspection* inspection() const;
   /// Plots in the order in which they are shown; values that are worked out in the background come in later.
   std::span<const Plot> plots() const;
+  /// What all plots along the run are over; the angle left only where theta_c is known. Another axis takes
+  /// back what was zoomed and chosen on the one before; one that the run does not have is ignored.
+  PlotAxis plot_axis() const;
+  bool has_plot_axis(PlotAxis axis) const;
+  void set_plot_axis(PlotAxis axis);
+  /// On that axis: the frame shown, theta_c, rearrangements.
+  PlotMarks plot_marks() const;
+  /// The frame nearest to a place on that axis (deg or s).
+  void go_to_place(double x);
 
   /// "talus render RUN --map ... --at 12.25 ...": draws what is shown. Empty for a live run that is not
   /// recorded.

@@ -81,6 +81,27 @@ TEST_F(Replay, a_plot_answers) {
   EXPECT_TRUE(gui_.has("plot energy"));
 }
 
+TEST_F(Replay, plots_answer_over_time_as_well) {
+  gui_.drag("plot stress", 0.3f, 0.5f, 0.7f, 0.5f);
+  gui_.click("over time");
+  EXPECT_EQ(model_.plot_axis(), PlotAxis::time);
+  EXPECT_FALSE(model_.state.plot_looks["stress"].chosen.has_value()) << "it was chosen in degrees";
+  const double begin = *model_.plot_marks().shown;
+  gui_.click("plot stress", 0.86f);
+  EXPECT_GE(model_.frame_index(), 3u);
+  EXPECT_GT(*model_.plot_marks().shown, begin);
+  gui_.drag("plot stress", 0.3f, 0.5f, 0.7f, 0.5f);
+  const auto chosen = model_.state.plot_looks["stress"].chosen;
+  ASSERT_TRUE(chosen.has_value());
+  EXPECT_GT((*chosen)[0], begin);
+  gui_.scroll("plot stress", 3.0f);
+  EXPECT_TRUE(model_.state.plot_looks["stress"].zoomed.has_value());
+  gui_.click("over angle left");
+  EXPECT_EQ(model_.plot_axis(), PlotAxis::time) << "theta_c is not known";
+  gui_.click("over tilt");
+  EXPECT_EQ(model_.plot_axis(), PlotAxis::tilt);
+}
+
 TEST_F(Replay, an_announcement_stays_until_it_is_clicked) {
   EXPECT_FALSE(gui_.has("announcement"));
   model_.state.announcement = "The slope failed at 1.00°.";

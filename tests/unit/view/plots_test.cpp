@@ -20,7 +20,7 @@ const Plot& plot(const std::vector<Plot>& plots, const std::string& name) {
 
 std::vector<Plot> of_row(const ObservableRow& row) {
   std::vector<Plot> plots = empty_plots();
-  plot_observables(std::vector{row}, example::bed_statics(), plots);
+  plot_observables(std::vector{row}, example::bed_statics(), {}, plots);
   return plots;
 }
 
@@ -57,7 +57,7 @@ TEST(Plots, give_strain_in_percent_and_energy_by_the_weight_of_a_grain) {
   RunStatics statics = example::bed_statics();
   statics.mean_diameter = 0.5;
   std::vector<Plot> plots = empty_plots();
-  plot_observables(std::vector{row}, statics, plots);
+  plot_observables(std::vector{row}, statics, {}, plots);
   EXPECT_NEAR(plot(plots, "strain").series[0].y.at(0), -2.0, 1e-12);
   EXPECT_NEAR(plot(plots, "energy").series[0].y.at(0), 4.0 / (40 * 2.0 * 10.0 * 0.5), 1e-15);
   EXPECT_TRUE(plot(plots, "energy").log_y);
@@ -72,8 +72,8 @@ TEST(Plots, of_frames_are_over_degrees) {
   const FrameRecord frame{
       .tilt = radians(10.0),
       .thresholds = {{.overloaded_fraction = 0.25, .lc_mean = 1.5, .lc_max = 3.5, .largest_share = 0.5}}};
-  plot_frames(std::vector{frame, frame}, 0.5, plots);
-  plot_frames(std::vector{frame}, 0.5, plots);  // instead of those before
+  plot_frames(std::vector{frame, frame}, std::vector{1.0, 2.0}, 0.5, {}, plots);
+  plot_frames(std::vector{frame}, std::vector{1.0}, 0.5, {}, plots);  // instead of those before
   ASSERT_EQ(plot(plots, "overloaded").series[0].x.size(), 1u);
   EXPECT_NEAR(plot(plots, "overloaded").series[0].x[0], 10.0, 1e-12);
   EXPECT_EQ(plot(plots, "overloaded").series[0].y[0], 0.25);
@@ -82,11 +82,34 @@ TEST(Plots, of_frames_are_over_degrees) {
   EXPECT_EQ(plot(plots, "lengths").series[1].y[0], 7.0);
 }
 
+TEST(Plots, are_over_the_tilt_the_angle_left_or_time) {
+  FrameRecord frame{.tilt = radians(18.0), .thresholds = {{}}};
+  ObservableRow row{};
+  at(row, Observable::tilt) = radians(15.0);
+  at(row, Observable::time) = 2.5;
+  for (const auto& [axis, title, of_frame, of_row] : {std::tuple{PlotAxis::tilt, "θ in °", 18.0, 15.0},
+                                                      {PlotAxis::angle_left, "θ_c − θ in °", 2.0, 5.0},
+                                                      {PlotAxis::time, "t in s", 3.5, 2.5}}) {
+    std::vector<Plot> plots = empty_plots();
+    name_axis(axis, plots);
+    const PlotAbscissa abscissa{axis, radians(20.0)};
+    plot_frames(std::vector{frame}, std::vector{3.5, 4.5}, 0.5, abscissa, plots);
+    plot_observables(std::vector{row}, example::bed_statics(), abscissa, plots);
+    EXPECT_EQ(plot(plots, "cluster").x_title, title);
+    EXPECT_EQ(plot(plots, "gamma").x_title, "γ = q/p");
+    EXPECT_NEAR(plot(plots, "cluster").series[0].x.at(0), of_frame, 1e-12) << title;
+    for (const PlotSeries& series : plot(plots, "stress").series)
+      EXPECT_NEAR(series.x.at(0), of_row, 1e-12) << title;
+    EXPECT_NEAR(plot(plots, "energy").series[0].x.at(0), of_row, 1e-12) << title;
+  }
+}
+
 TEST(Plots, are_of_any_quantity) {
   const Quantity made_up = {
       &FrameRecord::critical_largest, "made_up", "T", "1", "made up", "", {"M", "Made up"}};
-  std::vector<Plot> plots = {plot_over_tilt("made_up", shown_title(made_up), {series_of(made_up)})};
-  plot_frames(std::vector{FrameRecord{.tilt = radians(10.0), .critical_largest = 7}}, 0.5, plots);
+  std::vector<Plot> plots = {plot_along_run("made_up", shown_title(made_up), {series_of(made_up)})};
+  plot_frames(std::vector{FrameRecord{.tilt = radians(10.0), .critical_largest = 7}}, std::vector{0.0}, 0.5,
+              {}, plots);
   EXPECT_EQ(plots[0].title, "Made up");
   EXPECT_EQ(plots[0].series[0].name, "M");
   EXPECT_EQ(plots[0].series[0].y, std::vector{7.0});
@@ -119,7 +142,7 @@ TEST(Plots, of_gamma_are_a_density_of_the_frame) {
   plot_gamma({example::bed_frame(0.0, 4), example::bed_statics()}, plots);
   const Plot& gamma = plot(plots, "gamma");
   const PlotSeries& density = gamma.series[0];
-  EXPECT_FALSE(gamma.over_tilt);
+  EXPECT_FALSE(gamma.along_run);
   const double width = density.x[1] - density.x[0];
   EXPECT_NEAR(density.y.front() * width, 0.9, 1e-12);  // 36 grains at 0, 4 at 1
   EXPECT_NEAR(density.y.back() * width, 0.1, 1e-12);

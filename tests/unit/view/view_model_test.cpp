@@ -64,6 +64,33 @@ TEST_F(ViewOfRun, opens_at_its_first_frame_with_the_map_of_gamma) {
   EXPECT_GE(region[3], 4.0);
 }
 
+TEST_F(ViewOfRun, has_places_on_each_axis_of_its_plots) {
+  ASSERT_TRUE(wait_for_all());
+  model_->go_to(3);
+  for (const PlotAxis axis : {PlotAxis::time, PlotAxis::angle_left, PlotAxis::tilt}) {
+    model_->state.plot_looks["stress"].zoomed = {1.0, 2.0};
+    model_->set_plot_axis(axis);
+    EXPECT_EQ(model_->plot_axis(), axis);
+    EXPECT_FALSE(model_->state.plot_looks["stress"].zoomed.has_value());
+    const auto number = static_cast<int>(axis);
+    const double shown = *model_->plot_marks().shown;
+    EXPECT_EQ(shown, plot(*model_, "overloaded").series[0].x.at(3)) << number;
+    model_->go_to(0);
+    model_->go_to_place(shown);
+    EXPECT_EQ(model_->frame_index(), 3u) << number;
+    ASSERT_TRUE(model_->plot_marks().theta_c.has_value()) << number;
+    const double failure = *model_->plot_marks().theta_c;
+    const std::vector<double> expected = {20.0, 0.0, 2.0};
+    EXPECT_NEAR(failure, expected[static_cast<std::size_t>(axis)], 1e-6);
+  }
+}
+
+TEST_F(ViewOfUnfailedRun, has_no_angle_left) {
+  EXPECT_FALSE(model_->has_plot_axis(PlotAxis::angle_left));
+  model_->set_plot_axis(PlotAxis::angle_left);
+  EXPECT_EQ(model_->plot_axis(), PlotAxis::tilt);
+}
+
 TEST_F(ViewOfRun, goes_to_its_landmarks) {
   EXPECT_TRUE(model_->has(Landmark::theta_c));
   model_.reset();  // its thread reads the file that is opened again
