@@ -24,22 +24,35 @@ PlotGrid lay_out_plots(const ImVec2& room, int count, float em) {
 }
 
 /// A click on a curve along the run goes to the frame nearest to it.
-void draw_and_answer(Gui& gui, const Plot& plot, const ImVec2& size, const PlotMarks& marks) {
+void draw_and_answer(Gui& gui, const Plot& plot, const ImVec2& size, const PlotMarks& marks,
+                     std::string& gone) {
+  const ImVec2 corner = ImGui::GetCursorScreenPos();
   const auto clicked = draw_plot(gui, plot, size, plot.along_run ? marks : PlotMarks{});
+  if (plot.added) {
+    const ImVec2 low{corner.x + size.x - 1.6f * gui.em, corner.y},
+        high{corner.x + size.x, corner.y + 1.4f * gui.em};
+    ImGui::GetWindowDrawList()->AddText({low.x + 0.3f * gui.em, low.y + 0.2f * gui.em},
+                                        IM_COL32(90, 90, 90, 255), "x");
+    note_place(gui, "remove " + plot.name, low, high);
+    if (clicked && ImGui::IsMouseHoveringRect(low, high)) {
+      gone = plot.name;
+      return;
+    }
+  }
   if (!clicked || !plot.along_run) return;
   gui.model.play(false);
   gui.model.go_to_place(*clicked);
 }
 
 /// One plot in all of the room, with what can be chosen of it.
-void draw_enlarged(Gui& gui, const Plot& plot, const PlotMarks& marks) {
+void draw_enlarged(Gui& gui, const Plot& plot, const PlotMarks& marks, std::string& gone) {
   ViewState& state = gui.model.state;
   if (named_button(gui, "all plots", "All plots", "a double click on the plot")) state.enlarged_plot.clear();
   ImGui::SameLine();
   PlotLook& look = state.plot_looks[plot.name];
   bool logarithmic = look.log_y.value_or(plot.log_y);
   if (named_checkbox(gui, "logarithmic", "logarithmic", logarithmic)) look.log_y = logarithmic;
-  draw_and_answer(gui, plot, ImGui::GetContentRegionAvail(), marks);
+  draw_and_answer(gui, plot, ImGui::GetContentRegionAvail(), marks, gone);
 }
 
 /// What all plots along the run are over.
@@ -62,11 +75,37 @@ void draw_axis(Gui& gui) {
   }
 }
 
+/// Adds a plot of any quantity, of those whose name or title has the text that is typed in.
+void draw_more(Gui& gui) {
+  ImGui::SetNextItemWidth(9.0f * gui.em);
+  const bool open = ImGui::BeginCombo("##add plot", "add a plot", ImGuiComboFlags_HeightLarge);
+  note_place(gui, "add plot");
+  if (!open) return;
+  std::string& filter = gui.model.state.quantity_filter;
+  named_text(gui, "quantity filter", "", filter, "part of a name, as stress");
+  for (const Quantity* quantity : gui.model.more_quantities()) {
+    if ((quantity->name + " " + quantity->display.title).find(filter) == std::string::npos) continue;
+    if (ImGui::Selectable(quantity->name.c_str())) gui.model.add_plot(*quantity);
+    note_place(gui, "add plot: " + quantity->name);
+    if (ImGui::IsItemHovered()) {
+      ImGui::BeginTooltip();
+      ImGui::PushTextWrapPos(25.0f * gui.em);
+      ImGui::TextUnformatted((quantity->definition + " [" + scaled_unit(*quantity) + "]").c_str());
+      ImGui::PopTextWrapPos();
+      ImGui::EndTooltip();
+    }
+  }
+  if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false)) ImGui::CloseCurrentPopup();
+  ImGui::EndCombo();
+}
+
 void draw_choices(Gui& gui) {
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted("over");
   ImGui::SameLine();
   draw_axis(gui);
+  ImGui::SameLine();
+  draw_more(gui);
 }
 
 }  // namespace
@@ -77,14 +116,23 @@ void draw_plots(Gui& gui) {
   const ImVec2 room = ImGui::GetContentRegionAvail();
   const PlotGrid grid = lay_out_plots(room, static_cast<int>(plots.size()), gui.em);
   const PlotMarks marks = gui.model.plot_marks();
+  std::string gone;  // removed once all are drawn
   const auto enlarged = std::ranges::find(plots, gui.model.state.enlarged_plot, &Plot::name);
-  if (enlarged != plots.end()) return draw_enlarged(gui, *enlarged, marks);
-  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0.0f, 0.0f});
-  for (std::size_t k = 0; k < plots.size(); ++k) {
-    if (k % static_cast<std::size_t>(grid.columns) != 0) ImGui::SameLine();
-    draw_and_answer(gui, plots[k], grid.cell, marks);
+  if (enlarged != plots.end()) {
+    draw_enlarged(gui, *enlarged, marks, gone);
+    if (!gone.empty()) gui.model.remove_plot(gone);
+    return;
   }
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0.0f, 0.0f});
+  std::size_t drawn = 0;
+  for (const bool added : {true, false})  // what was asked for is seen without scrolling
+    for (const Plot& plot : plots) {
+      if (plot.added != added) continue;
+      if (drawn++ % static_cast<std::size_t>(grid.columns) != 0) ImGui::SameLine();
+      draw_and_answer(gui, plot, grid.cell, marks, gone);
+    }
   ImGui::PopStyleVar();
+  if (!gone.empty()) gui.model.remove_plot(gone);
 }
 
 }  // namespace talus

@@ -71,6 +71,14 @@ Plot plot_along_run(const std::string& name, const std::string& title, std::vect
   return {name, title, title_of(PlotAxis::tilt), true, false, std::move(series)};
 }
 
+Plot plot_of_quantity(const Quantity& quantity) {
+  Quantity titled = quantity;
+  if (titled.display.title.empty()) titled.display = {.symbol = quantity.name, .title = quantity.name};
+  Plot plot = plot_along_run(quantity.name, shown_title(titled), {series_of(titled)});
+  plot.added = true;
+  return plot;
+}
+
 std::vector<Plot> empty_plots() {
   std::vector<Plot> plots(plot_count);
   const auto set = [&plots](PlotKind kind, Plot plot) { plot_of(plots, kind) = std::move(plot); };
@@ -133,6 +141,19 @@ void plot_frames(std::span<const FrameRecord> frames, std::span<const double> ti
   for (Plot& plot : plots)
     for (PlotSeries& series : plot.series) {
       if (!series.quantity || series.quantity->display.observable) continue;
+      clear(series);
+      for (std::size_t k = 0; k < frames.size(); ++k)
+        add(series, place_on(abscissa, frames[k].tilt, times[k]),
+            shown(*series.quantity, number_of(*series.quantity, frames[k]), mean_diameter));
+    }
+}
+
+void plot_stored(std::span<const FrameRecord> frames, std::span<const double> times, double mean_diameter,
+                 const PlotAbscissa& abscissa, std::vector<Plot>& plots) {
+  for (Plot& plot : plots)
+    for (PlotSeries& series : plot.series) {
+      if (!series.quantity || series.quantity->display.observable || needs_threshold(*series.quantity))
+        continue;
       clear(series);
       for (std::size_t k = 0; k < frames.size(); ++k)
         add(series, place_on(abscissa, frames[k].tilt, times[k]),

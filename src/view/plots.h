@@ -52,6 +52,7 @@ struct Plot {
   bool log_y = false;
   std::vector<PlotSeries> series;  ///< the first is what was measured, others laws or measures beside it
   std::string note{};              ///< rich text: what the curves depend on, "at 0.9 Γ_c"
+  bool added = false;              ///< by the user, who can remove it
 };
 
 /// "stress", "overloaded", "cluster", "lengths", "strain", "energy", "gamma", "residual", "iterations": the
@@ -74,6 +75,9 @@ inline constexpr std::size_t plot_count = static_cast<std::size_t>(PlotKind::cou
 PlotSeries series_of(const Quantity& quantity);
 Plot plot_along_run(const std::string& name, const std::string& title, std::vector<PlotSeries> series);
 
+/// An empty plot of one quantity along the run, named as it is, with its title, or its name, and its unit.
+Plot plot_of_quantity(const Quantity& quantity);
+
 /// All plots, empty, over the tilt.
 std::vector<Plot> empty_plots();
 /// Says on the plots along the run what they are over; their curves are to be filled anew.
@@ -86,6 +90,10 @@ void plot_observables(std::span<const ObservableRow> rows, const RunStatics& sta
 /// Fills the curves of all other quantities, from frames with one threshold; `times` (s) are theirs, and may
 /// be more. Values that are NaN make a gap.
 void plot_frames(std::span<const FrameRecord> frames, std::span<const double> times, double mean_diameter,
+                 const PlotAbscissa& abscissa, std::vector<Plot>& plots);
+/// Fills the curves of quantities that depend on no threshold and are in no row, from the frames of a stored
+/// analysis.
+void plot_stored(std::span<const FrameRecord> frames, std::span<const double> times, double mean_diameter,
                  const PlotAbscissa& abscissa, std::vector<Plot>& plots);
 /// Notes the threshold, in Gamma_c, of the plots whose quantities have one; `assumed` (rad): the theta_c that
 /// it follows from while the slope has not failed.

@@ -59,7 +59,10 @@ void ViewModel::Data::start_live(const std::string& next_output, bool overwrite)
   pictures.run.seed = scenario.seed;
   theta_c.reset();
   rows.clear();
-  plots = empty_plots();
+  std::vector<Plot> kept = empty_plots();
+  for (const Plot& plot : plots)
+    if (plot.added) kept.push_back(plot_of_quantity(*plot.series[0].quantity));
+  plots = std::move(kept);
   if (axis == PlotAxis::angle_left) axis = PlotAxis::tilt;
   name_axis(axis, plots);
   newest = live->frame();
@@ -79,6 +82,11 @@ void ViewModel::Data::plot_rows() { plot_observables(rows, statics(), abscissa()
 
 void ViewModel::Data::plot_values() {
   plot_frames(series->values(), frame_times(), statics().mean_diameter, abscissa(), plots);
+  if (analysis) plot_stored(analysis->frames, frame_times(), statics().mean_diameter, abscissa(), plots);
+}
+
+void ViewModel::Data::note_thresholds(const OverloadRule& rule) {
+  note_threshold(rule.threshold_factor, theta_c ? std::nullopt : std::optional(rule.theta_c), plots);
 }
 
 std::shared_ptr<const Frame> ViewModel::Data::read(std::size_t k) {
@@ -187,7 +195,7 @@ bool ViewModel::Data::follow_frames(const OverloadRule& rule) {
   }
   if (changed) {
     plot_values();
-    note_threshold(rule.threshold_factor, theta_c ? std::nullopt : std::optional(rule.theta_c), plots);
+    note_thresholds(rule);
     find_events();
   }
   return changed;

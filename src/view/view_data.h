@@ -125,6 +125,7 @@ struct ViewModel::Data {
   /// The curves along the run anew: of what it records, and of its frames.
   void plot_rows();
   void plot_values();
+  void note_thresholds(const OverloadRule& rule);
 
   // view_shown.cpp: what is made of it.
   const RunStatics& statics() const { return pictures.run.statics; }

@@ -1,5 +1,6 @@
 #include "view/view_model.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fmt/core.h>
@@ -201,6 +202,30 @@ std::optional<Index> ViewModel::grain_at(double x, double y) const {
 
 const Inspection* ViewModel::inspection() const { return data_->inspect_selected(state); }
 std::span<const Plot> ViewModel::plots() const { return data_->plots; }
+std::vector<const Quantity*> ViewModel::more_quantities() const {
+  std::vector<const Quantity*> more;
+  for (const Quantity& quantity : quantities()) {
+    const bool known = data_->analysis || quantity.display.observable || needs_threshold(quantity);
+    const bool shown = std::ranges::find(data_->plots, quantity.name, &Plot::name) != data_->plots.end();
+    if (known && !shown && is_number_of_frame(quantity)) more.push_back(&quantity);
+  }
+  return more;
+}
+
+void ViewModel::add_plot(const Quantity& quantity) {
+  data_->plots.push_back(plot_of_quantity(quantity));
+  name_axis(data_->axis, data_->plots);
+  data_->plot_rows();
+  data_->plot_values();
+  data_->note_thresholds(data_->map_settings(state));
+}
+
+void ViewModel::remove_plot(const std::string& name) {
+  std::erase_if(data_->plots, [&name](const Plot& plot) { return plot.added && plot.name == name; });
+  state.plot_looks.erase(name);
+  if (state.enlarged_plot == name) state.enlarged_plot.clear();
+}
+
 PlotAxis ViewModel::plot_axis() const { return data_->axis; }
 
 bool ViewModel::has_plot_axis(PlotAxis axis) const {

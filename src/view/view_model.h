@@ -116,6 +116,12 @@ class ViewModel {
   const Inspection* inspection() const;
   /// Plots in the order in which they are shown; values that are worked out in the background come in later.
   std::span<const Plot> plots() const;
+  /// Quantities of the table of which this run has a number in each frame, at a threshold or at none, and of
+  /// which there is no added plot: all if it has a stored analysis, else those of its rows and of overload.
+  std::vector<const Quantity*> more_quantities() const;
+  /// Adds a plot of one of these, the last of plots(); takes it away, by its name.
+  void add_plot(const Quantity& quantity);
+  void remove_plot(const std::string& name);
   /// What all plots along the run are over; the angle left only where theta_c is known. Another axis takes
   /// back what was zoomed and chosen on the one before; one that the run does not have is ignored.
   PlotAxis plot_axis() const;

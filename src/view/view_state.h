@@ -35,6 +35,7 @@ struct ViewState {
   bool show_help = false;
   bool show_controls = true, show_inspector = true, show_plots = true;
   std::map<std::string, PlotLook> plot_looks;  ///< by the names of plots
+  std::string quantity_filter;                 ///< part of the names of quantities offered for plots
   std::string enlarged_plot;                   ///< its name; empty: all are shown
   float picture_share = 0.0f;   ///< of the height, for the map; 0: as high as the bed, the plots get the rest
   bool bookmark_asked = false;  ///< a key has asked for the note of a bookmark

@@ -102,6 +102,20 @@ TEST_F(Replay, plots_answer_over_time_as_well) {
   EXPECT_EQ(model_.plot_axis(), PlotAxis::tilt);
 }
 
+TEST_F(Replay, a_plot_of_another_quantity_is_added_and_removed) {
+  gui_.click("add plot");
+  gui_.click("quantity filter");
+  gui_.type("coordination");
+  gui_.click("add plot: contacts/coordination_number");
+  ASSERT_EQ(model_.plots().back().name, "contacts/coordination_number");
+  EXPECT_FALSE(model_.plots().back().series[0].x.empty());
+  gui_.double_click("plot contacts/coordination_number");
+  EXPECT_FALSE(gui_.has("plot energy"));
+  gui_.click("remove contacts/coordination_number");
+  EXPECT_TRUE(gui_.has("plot energy"));
+  EXPECT_FALSE(model_.plots().back().added);
+}
+
 TEST_F(Replay, an_announcement_stays_until_it_is_clicked) {
   EXPECT_FALSE(gui_.has("announcement"));
   model_.state.announcement = "The slope failed at 1.00°.";

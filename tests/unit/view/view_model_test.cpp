@@ -85,6 +85,29 @@ TEST_F(ViewOfRun, has_places_on_each_axis_of_its_plots) {
   }
 }
 
+TEST_F(ViewOfRun, shows_any_quantity_that_it_has) {
+  ASSERT_TRUE(wait_for_all());
+  const auto offered = [this](const std::string& name) {
+    return std::ranges::count(model_->more_quantities(), name, &Quantity::name) == 1;
+  };
+  EXPECT_FALSE(offered("gamma/mean")) << "it has no analysis";
+  EXPECT_FALSE(offered("gamma/density")) << "no number";
+  model_->set_plot_axis(PlotAxis::time);
+  for (const char* name : {"overloaded/fraction_of_all", "contacts/coordination_number"}) {
+    ASSERT_TRUE(offered(name));
+    model_->add_plot(*std::ranges::find(quantities(), name, &Quantity::name));
+    EXPECT_FALSE(offered(name));
+    EXPECT_EQ(plot(*model_, name).x_title, "t in s");
+    EXPECT_FALSE(plot(*model_, name).series[0].x.empty()) << name;
+  }
+  EXPECT_EQ(plot(*model_, "overloaded/fraction_of_all").title, "overloaded/fraction_of_all");
+  EXPECT_EQ(plot(*model_, "overloaded/fraction_of_all").note, "at 1 Γ_c");
+  const std::size_t count = model_->plots().size();
+  model_->remove_plot("contacts/coordination_number");
+  model_->remove_plot("stress");
+  EXPECT_EQ(model_->plots().size(), count - 1) << "only what was added";
+}
+
 TEST_F(ViewOfUnfailedRun, has_no_angle_left) {
   EXPECT_FALSE(model_->has_plot_axis(PlotAxis::angle_left));
   model_->set_plot_axis(PlotAxis::angle_left);
