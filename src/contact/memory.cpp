@@ -20,14 +20,15 @@ Index persisting(const Contacts& contacts, Index c, const Contacts& previous, In
   return run;
 }
 
+template <bool moments>
 void copy_forces(const Contacts& previous, Index d, Index run, Contacts& contacts, Index c) {
   std::copy_n(previous.fn.begin() + d, run, contacts.fn.begin() + c);
   std::copy_n(previous.ft.begin() + d, run, contacts.ft.begin() + c);
+  if constexpr (moments) std::copy_n(previous.moment.begin() + d, run, contacts.moment.begin() + c);
 }
 
-}  // namespace
-
-void recall_forces(const Contacts& previous, Contacts& contacts) {
+template <bool moments>
+void recall(const Contacts& previous, Contacts& contacts) {
   const Index count = contacts.count();
   const Index old_count = previous.count();
   Index c = 0;
@@ -35,7 +36,7 @@ void recall_forces(const Contacts& previous, Contacts& contacts) {
   while (c < count) {
     // Nearly all contacts persist, so the merge proceeds in long runs.
     const Index run = persisting(contacts, c, previous, old);
-    copy_forces(previous, old, run, contacts, c);
+    copy_forces<moments>(previous, old, run, contacts, c);
     c += run;
     old += run;
     while (old < old_count && c < count && before(previous, old, contacts, c)) ++old;
@@ -44,6 +45,15 @@ void recall_forces(const Contacts& previous, Contacts& contacts) {
       ++c;
     }
   }
+}
+
+}  // namespace
+
+void recall_forces(const Contacts& previous, Contacts& contacts) {
+  if (contacts.moment.empty() || previous.moment.empty())
+    recall<false>(previous, contacts);
+  else
+    recall<true>(previous, contacts);
 }
 
 }  // namespace talus

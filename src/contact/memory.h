@@ -6,9 +6,10 @@
 namespace talus {
 
 /// Gives each contact the force that the contact of the same two bodies carried in `previous`; a new contact
-/// has none. Both lists are sorted by key, so this is a merge.
-/// The shift is ignored, since it changes when a grain wraps around the periodic edge. Where one pair has
-/// several contacts through different images, in a bed of a few grains' length, they are matched in order.
+/// has none. The same with moments, where `contacts` has room for them, which must be zero before. Both lists
+/// are sorted by key, so this is a merge. The shift is ignored, since it changes when a grain wraps around
+/// the periodic edge. Where one pair has several contacts through different images, in a bed of a few grains'
+/// length, they are matched in order.
 void recall_forces(const Contacts& previous, Contacts& contacts);
 
 }  // namespace talus

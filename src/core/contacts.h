@@ -26,6 +26,10 @@ struct Contacts {
   std::vector<double> gap;         ///< m; negative where bodies overlap
   std::vector<double> fn, ft;      ///< mean force over the step, P / h, in N (per metre of thickness)
 
+  /// Mean moment on b over the step, N m (per metre), counterclockwise; its opposite acts on a. Empty where
+  /// no contact resists rolling.
+  std::vector<double> moment;
+
   Index count() const { return static_cast<Index>(a.size()); }
   void resize(std::size_t size);
 };

@@ -35,6 +35,7 @@ void Contacts::resize(std::size_t size) {
   gap.resize(size);
   fn.resize(size);
   ft.resize(size);
+  if (!moment.empty()) moment.resize(size);
 }
 
 Vec2 gravity_vector(const World& world) {
@@ -61,6 +62,7 @@ std::uint64_t state_hash(const World& world) {
   hash.add_array(c.shift);
   hash.add_array(c.fn);
   hash.add_array(c.ft);
+  if (!c.moment.empty()) hash.add_array(c.moment);
   hash.add(world.gravity);
   hash.add(world.tilt);
   hash.add(world.time);

@@ -6,6 +6,7 @@ namespace talus {
 struct ContactLawParameters {
   double friction = 0.5;                ///< mu between grains, and with the floor
   double wall_friction = 0.5;           ///< mu with the side walls
+  double rolling_friction = 0.0;        ///< mu_r between grains, and with the floor; walls have none
   double restitution = 0.0;             ///< e_n: U_n+ = -e_n U_n- (Newton)
   double tangential_restitution = 0.0;  ///< e_t: U_t+ = -e_t U_t- of a contact that sticks
   double allowed_overlap = 0.0;         ///< m: overlaps up to this stay as they are

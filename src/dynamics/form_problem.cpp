@@ -94,6 +94,22 @@ void set_friction(const World& world, const Contacts& contacts, const ContactLaw
   }
 }
 
+/// Side walls do not resist rolling.
+void set_rolling_friction(const World& world, const Contacts& contacts, const ContactLawParameters& law,
+                          ContactProblem& problem) {
+  if (law.rolling_friction == 0.0) {
+    problem.rolling_friction.clear();
+    return;
+  }
+  const auto count = static_cast<std::size_t>(contacts.count());
+  fill(problem.rolling_friction, count, law.rolling_friction);
+  for (std::size_t c = 0; c < count; ++c) {
+    const Index plane = contacts.b[c] - world.grains.count();
+    if (plane >= 0 && world.boundary.planes[static_cast<std::size_t>(plane)].wall)
+      problem.rolling_friction[c] = 0.0;
+  }
+}
+
 }  // namespace
 
 void free_velocity(const World& world, double h, ContactProblem& problem) {
@@ -123,6 +139,7 @@ void form_problem(const World& world, const Contacts& contacts, const ContactLaw
   if (law.restitution != 0.0 || law.tangential_restitution != 0.0)
     set_restitution(world, contacts, law, h, problem);
   set_friction(world, contacts, law, problem);
+  set_rolling_friction(world, contacts, law, problem);
 }
 
 }  // namespace talus

@@ -88,23 +88,31 @@ double largest_overlap(const Contacts& contacts) {
 }
 
 /// The first guess of the solve: the forces that persist from the last step, times h (T18).
-void recall_impulses(const Contacts& last, double h, Contacts& contacts, ContactSolution& solution) {
-  recall_forces(last, contacts);
+void recall_impulses(const Contacts& last, double h, const ContactProblem& problem, Contacts& contacts,
+                     ContactSolution& solution) {
   const auto count = static_cast<std::size_t>(contacts.count());
+  contacts.moment.assign(problem.resists_rolling() ? count : 0, 0.0);
+  recall_forces(last, contacts);
   solution.pn.resize(count);
   solution.pt.resize(count);
   for (std::size_t c = 0; c < count; ++c) {
     solution.pn[c] = contacts.fn[c] * h;
     solution.pt[c] = contacts.ft[c] * h;
   }
+  solution.pr.resize(contacts.moment.size());
+  for (std::size_t c = 0; c < solution.pr.size(); ++c)
+    solution.pr[c] = contacts.moment[c] * h / rolling_length(problem, static_cast<Index>(c));
 }
 
 /// As mean forces over the step, so that a change of h keeps the memory (T18).
-void store_impulses(const ContactSolution& solution, double h, Contacts& contacts) {
+void store_impulses(const ContactProblem& problem, const ContactSolution& solution, double h,
+                    Contacts& contacts) {
   for (std::size_t c = 0; c < solution.pn.size(); ++c) {
     contacts.fn[c] = solution.pn[c] / h;
     contacts.ft[c] = solution.pt[c] / h;
   }
+  for (std::size_t c = 0; c < solution.pr.size(); ++c)
+    contacts.moment[c] = rolling_length(problem, static_cast<Index>(c)) * solution.pr[c] / h;  // (T41)
 }
 
 void set_velocities(const ContactSolution& solution, Grains& grains) {
@@ -145,7 +153,7 @@ StageSeconds begin_step(World& world, const StepSettings& settings, StepWorkspac
   free_velocity(world, h, workspace.problem);                         // (T4)
   form_problem(world, contacts, settings.law, h, workspace.problem);  // (T5), (T8), (T11), (T12)
   clock.end_of(Stage::assemble);
-  recall_impulses(world.contacts, h, contacts, workspace.solution);  // (T18)
+  recall_impulses(world.contacts, h, workspace.problem, contacts, workspace.solution);  // (T18)
   clock.end_of(Stage::recall);
   return seconds;
 }
@@ -162,7 +170,7 @@ StepReport step(World& world, const StepSettings& settings, StepWorkspace& works
     copy_positions(workspace.before, grains);
     throw Error(ExitCode::internal, fmt::format("step {}: a velocity is not finite", world.step + 1));
   }
-  store_impulses(workspace.solution, h, workspace.contacts);  // (T18)
+  store_impulses(workspace.problem, workspace.solution, h, workspace.contacts);  // (T18)
   std::swap(world.contacts, workspace.contacts);
   set_velocities(workspace.solution, grains);  // (T6)
   clock.end_of(Stage::store);

@@ -96,6 +96,7 @@ void remove_contacts(Contacts& contacts, const std::vector<bool>& lifted) {
     contacts.shift[kept] = contacts.shift[c];
     for (auto* field : {&contacts.nx, &contacts.ny, &contacts.gap, &contacts.fn, &contacts.ft})
       (*field)[kept] = (*field)[c];
+    if (!contacts.moment.empty()) contacts.moment[kept] = contacts.moment[c];
     ++kept;
   }
   contacts.resize(kept);

@@ -83,7 +83,7 @@ struct TeamMember {
   ExactResidual look() {
     sum_exact_velocities(problem, first_body, last_body, at);
     wait_for_all();
-    look_at_contacts(problem, kernels.look, first_block, last_block, at);
+    look_at_contacts(problem, kernels, first_block, last_block, at);
     wait_for_all();
     return exact_residual(at);
   }
@@ -142,6 +142,8 @@ struct TeamMember {
     const auto beta = static_cast<float>(momentum.beta);
     const SweepOrder& order = at.order;
     const ContactArrays arrays = contact_arrays(at);
+    const ContactKernel sweep_groups =
+        problem.resists_rolling() ? kernels.rolling_contacts : kernels.contacts;
     kernels.bodies(body_arrays(at), first_row, last_row, beta);
     wait_for_all();
     for (int phase = 0; phase < SweepOrder::phases; ++phase) {
@@ -149,7 +151,7 @@ struct TeamMember {
       if (order.part_begin[first] == order.part_begin[first + parts]) continue;
       for (Index k = first + part_begin(parts, member, size); k < first + part_begin(parts, member + 1, size);
            ++k)
-        kernels.contacts(arrays, order.part_begin[k], order.part_begin[k + 1], beta, w.sums[k]);
+        sweep_groups(arrays, order.part_begin[k], order.part_begin[k + 1], beta, w.sums[k]);
       wait_for_all();
     }
     return add_parts(w.sums);

@@ -1,5 +1,5 @@
 #pragma once
-/// Signorini's condition (T9) and Coulomb's law (T10), exact for one contact.
+/// Signorini's condition (T9), Coulomb's law (T10) and rolling resistance (T38), exact for one contact.
 
 #include <algorithm>
 #include <cmath>
@@ -24,6 +24,17 @@ inline Impulse admissible(double pn, double pt, double mu) {
 /// velocity; w_n and w_t are the inverse of the Delassus diagonal, kg.
 inline Impulse solve_contact(double pn, double pt, double un, double ut, double w_n, double w_t, double mu) {
   return admissible(pn - un * w_n, pt - ut * w_t, mu);
+}
+
+/// The nearest rolling impulse that a contact with the normal impulse `pn` >= 0 admits: |P_r| <= mu_r P_n.
+inline double admissible_rolling(double pr, double mu_r, double pn) {
+  const double bound = mu_r * pn;
+  return std::min(std::max(pr, -bound), bound);
+}
+
+/// The rolling impulse that solves its condition (T40), all other impulses held; w_r is 1 / W_rr, kg.
+inline double solve_rolling(double pr, double ur, double w_r, double mu_r, double pn) {
+  return admissible_rolling(pr - ur * w_r, mu_r, pn);
 }
 
 }  // namespace talus

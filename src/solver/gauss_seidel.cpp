@@ -12,6 +12,17 @@ void push(const ContactProblem& problem, ContactSolution& solution, Index body, 
   solution.omega[body] += problem.inverse_inertia[body] * torque;
 }
 
+/// The rolling impulse of a contact, for the velocities that its forces leave (T40).
+void solve_rolling_of(const ContactProblem& problem, Index c, ContactSolution& solution) {
+  const double pr =
+      solve_rolling(solution.pr[c], rolling_velocity(problem, solution, c),
+                    inverse_rolling_delassus(problem, c), problem.rolling_friction[c], solution.pn[c]);
+  const double moment = rolling_length(problem, c) * (pr - solution.pr[c]);
+  push(problem, solution, problem.a[c], 0.0, 0.0, -moment);
+  push(problem, solution, problem.b[c], 0.0, 0.0, moment);
+  solution.pr[c] = pr;
+}
+
 }  // namespace
 
 void gauss_seidel_sweep(const ContactProblem& problem, ContactSolution& solution) {
@@ -30,6 +41,7 @@ void gauss_seidel_sweep(const ContactProblem& problem, ContactSolution& solution
     push(problem, solution, b, fx, fy, -problem.lever[b] * dt);
     solution.pn[c] = p.normal;
     solution.pt[c] = p.tangential;
+    if (problem.resists_rolling()) solve_rolling_of(problem, c, solution);
   }
 }
 

@@ -34,7 +34,7 @@ Slot slot_of(const Linearisation& w, std::size_t c) {
 bool is_linked(const ContactProblem& problem, const ContactProblem& linked) {
   return problem.a == linked.a && problem.b == linked.b && problem.mu == linked.mu &&
          problem.inverse_mass == linked.inverse_mass && problem.inverse_inertia == linked.inverse_inertia &&
-         problem.lever == linked.lever;
+         problem.lever == linked.lever && problem.rolling_friction == linked.rolling_friction;
 }
 
 /// The contacts of each body: as a they are consecutive, as b they are listed.
@@ -63,7 +63,7 @@ void link(const ContactProblem& problem, Linearisation& w) {
   for (std::size_t i = bodies; i > 0; --i) w.first_b[i] = w.first_b[i - 1];
   w.first_b[0] = 0;
   for (auto field : {&ContactProblem::inverse_mass, &ContactProblem::inverse_inertia, &ContactProblem::lever,
-                     &ContactProblem::mu})
+                     &ContactProblem::mu, &ContactProblem::rolling_friction})
     w.linked.*field = problem.*field;
   w.linked.b = problem.b;
   w.linked.a = problem.a;
@@ -117,6 +117,12 @@ void set_impulse(const ContactProblem& problem, std::size_t c, double pn, double
   w.exact_force[c] = in_bed_axes(problem, c, impulse);
 }
 
+/// The rolling impulse of a contact; its normal impulse is set before.
+void set_rolling(const ContactProblem& problem, std::size_t c, double pr, Linearisation& w) {
+  w.rolling.pr[c] = admissible_rolling(pr, problem.rolling_friction[c], w.pn[c]);
+  w.exact_force[c].turn = w.rolling.length[c] * w.rolling.pr[c];
+}
+
 void load_contact(const ContactProblem& problem, const ContactSolution& guess, std::size_t c,
                   Linearisation& w) {
   if (w.are_new) {
@@ -136,6 +142,10 @@ struct InverseUnits {
 };
 InverseUnits inverse_units(const Linearisation& w) {
   return {1.0 / w.impulse_unit, 1.0 / w.velocity_unit, 1.0 / w.mobility_unit};
+}
+
+RollingUnits rolling_units(const Linearisation& w) {
+  return {w.rolling.unit_length, 1.0 / w.impulse_unit, 1.0 / w.velocity_unit, w.mobility_unit};
 }
 
 void load_group(const ContactProblem& problem, std::size_t c, const InverseUnits& units, Linearisation& w) {
@@ -195,6 +205,11 @@ void clear_groups(Index bodies, Linearisation& w) {
   clear(w.contacts);
   clear(w.increment);
   clear(w.last_move);
+  if (w.rolling.are_there()) {
+    clear(w.rolling.groups);
+    clear(w.rolling.increment);
+    clear(w.rolling.last_move);
+  }
   for (Index part = 0; part < w.order.part_count(); ++part)
     for (Index g = w.order.part_begin[part]; g < w.order.part_begin[part + 1]; ++g)
       for (int k = 0; k < lane_count; ++k) {
@@ -214,6 +229,7 @@ void prepare(const ContactProblem& problem, const ContactSolution& guess, Linear
   for (auto* field : {&w.pn, &w.pt, &w.un, &w.ut, &w.wn, &w.wt}) field->resize(contacts);
   w.swept.resize(contacts);
   w.sums.resize((contacts + contacts_per_block - 1) / contacts_per_block);
+  size_rolling(problem, w.rolling);
   link(problem, w);
   choose_units(problem, guess, w);
 }
@@ -222,14 +238,21 @@ void load_contacts(const ContactProblem& problem, const ContactSolution& guess, 
                    Index last_block, Linearisation& w) {
   const std::size_t last = block_begin(problem, last_block);
   for (std::size_t c = block_begin(problem, first_block); c < last; ++c) load_contact(problem, guess, c, w);
+  if (!problem.resists_rolling()) return;
+  for (std::size_t c = block_begin(problem, first_block); c < last; ++c) {
+    if (w.are_new) load_rolling(problem, c, w.rolling);
+    set_rolling(problem, c, guess.pr[c], w);
+  }
 }
 
-void look_at_contacts(const ContactProblem& problem, LookKernel kernel, Index first_block, Index last_block,
-                      Linearisation& w) {
-  const LookArrays arrays{problem.a.data(),  problem.b.data(),  problem.nx.data(), problem.ny.data(),
-                          problem.cn.data(), problem.ct.data(), problem.mu.data(), w.pn.data(),
-                          w.pt.data(),       w.wn.data(),       w.wt.data(),       w.exact_velocity.data(),
-                          w.un.data(),       w.ut.data()};
+void look_at_contacts(const ContactProblem& problem, const SweepKernels& kernels, Index first_block,
+                      Index last_block, Linearisation& w) {
+  LookArrays arrays{problem.a.data(),  problem.b.data(),  problem.nx.data(), problem.ny.data(),
+                    problem.cn.data(), problem.ct.data(), problem.mu.data(), w.pn.data(),
+                    w.pt.data(),       w.wn.data(),       w.wt.data(),       w.exact_velocity.data(),
+                    w.un.data(),       w.ut.data()};
+  if (problem.resists_rolling()) take_rolling(problem, w.rolling, arrays);
+  const LookKernel kernel = problem.resists_rolling() ? kernels.rolling_look : kernels.look;
   for (Index block = first_block; block < last_block; ++block) {
     const std::size_t first = block_begin(problem, block), last = block_begin(problem, block + 1);
     LookSums sums;
@@ -276,6 +299,13 @@ void load_groups(const ContactProblem& problem, Index first_block, Index last_bl
     load_group(problem, c, units, w);
     linearise(problem, c, units, w);
   });
+  if (!problem.resists_rolling()) return;
+  const RollingUnits scale = rolling_units(w);
+  for_each_swept(problem, first_block, last_block, w, [&](std::size_t c) {
+    if (w.have_new_order) load_rolling_group(problem, c, w.order.slot[c], scale, w.rolling);
+    start_rolling(w.order.slot[c], w.rolling);
+    linearise_rolling(problem, c, w.order.slot[c], w.pn[c], scale, w.rolling);
+  });
 }
 
 void clear_rows(Index first, Index last, Linearisation& w) {
@@ -290,6 +320,8 @@ void absorb_increments(const ContactProblem& problem, Index first_block, Index l
     set_impulse(problem, c, w.pn[c] + w.impulse_unit * static_cast<double>(increment.n[k]),
                 w.pt[c] + w.impulse_unit * static_cast<double>(increment.t[k]), w);
     increment.n[k] = increment.t[k] = 0.0F;
+    if (problem.resists_rolling())
+      set_rolling(problem, c, take_rolling_increment(c, w.order.slot[c], w.impulse_unit, w.rolling), w);
   });
 }
 
@@ -297,7 +329,8 @@ void absorb_velocities(Index first, Index last, Linearisation& w) {
   for (Index i = first; i < last; ++i) {
     Row& velocity = w.velocity[i];
     Row& before = w.before[i];
-    before = {before.x - velocity.x, before.spin - velocity.spin, before.y - velocity.y, 0.0F};
+    before = {before.x - velocity.x, before.spin - velocity.spin, before.y - velocity.y,
+              before.turn - velocity.turn};
     velocity = {};
   }
 }
@@ -306,9 +339,17 @@ void linearise_groups(const ContactProblem& problem, Index first_block, Index la
   const InverseUnits units = inverse_units(w);
   for_each_swept(problem, first_block, last_block, w,
                  [&](std::size_t c) { linearise(problem, c, units, w); });
+  if (!problem.resists_rolling()) return;
+  const RollingUnits scale = rolling_units(w);
+  for_each_swept(problem, first_block, last_block, w, [&](std::size_t c) {
+    linearise_rolling(problem, c, w.order.slot[c], w.pn[c], scale, w.rolling);
+  });
 }
 
-void sum_exact_velocities(const ContactProblem& problem, Index first, Index last, Linearisation& w) {
+namespace {
+
+template <bool rolling>
+void sum_velocities(const ContactProblem& problem, Index first, Index last, Linearisation& w) {
   for (Index i = first; i < last; ++i) {
     ExactRow sum;
     for (Index k = w.first_b[i]; k < w.first_b[i + 1]; ++k) {
@@ -316,18 +357,35 @@ void sum_exact_velocities(const ContactProblem& problem, Index first, Index last
       sum.x += force.x;
       sum.y += force.y;
       sum.spin += force.spin;
+      if constexpr (rolling) sum.turn += force.turn;
     }
     for (Index c = w.first_a[i]; c < w.first_a[i + 1]; ++c) {
       const ExactRow& force = w.exact_force[c];
       sum.x -= force.x;
       sum.y -= force.y;
       sum.spin += force.spin;
+      if constexpr (rolling) sum.turn -= force.turn;
     }
     const double lever = problem.lever[i];
     const double mobility = problem.inverse_mass[i];
-    w.exact_velocity[i] = {problem.vx[i] + mobility * sum.x, problem.vy[i] + mobility * sum.y,
-                           lever * (problem.omega[i] - problem.inverse_inertia[i] * lever * sum.spin), 0.0};
+    if constexpr (rolling) {
+      const double omega = problem.omega[i] - problem.inverse_inertia[i] * (lever * sum.spin - sum.turn);
+      w.exact_velocity[i] = {problem.vx[i] + mobility * sum.x, problem.vy[i] + mobility * sum.y,
+                             lever * omega, omega};
+    } else {
+      w.exact_velocity[i] = {problem.vx[i] + mobility * sum.x, problem.vy[i] + mobility * sum.y,
+                             lever * (problem.omega[i] - problem.inverse_inertia[i] * lever * sum.spin), 0.0};
+    }
   }
+}
+
+}  // namespace
+
+void sum_exact_velocities(const ContactProblem& problem, Index first, Index last, Linearisation& w) {
+  if (problem.resists_rolling())
+    sum_velocities<true>(problem, first, last, w);
+  else
+    sum_velocities<false>(problem, first, last, w);
 }
 
 ExactResidual exact_residual(const Linearisation& w) {
@@ -353,6 +411,8 @@ void unload_impulses(const ContactProblem& problem, Index first_block, Index las
   const auto last = static_cast<std::ptrdiff_t>(block_begin(problem, last_block));
   std::copy(w.pn.begin() + first, w.pn.begin() + last, solution.pn.begin() + first);
   std::copy(w.pt.begin() + first, w.pt.begin() + last, solution.pt.begin() + first);
+  if (problem.resists_rolling())
+    std::copy(w.rolling.pr.begin() + first, w.rolling.pr.begin() + last, solution.pr.begin() + first);
 }
 
 void unload_velocities(const ContactProblem& problem, Index first, Index last, const Linearisation& w,
@@ -366,7 +426,13 @@ void unload_velocities(const ContactProblem& problem, Index first, Index last, c
 }
 
 ContactArrays contact_arrays(Linearisation& w) {
-  return {w.contacts.data(), w.increment.data(), w.last_move.data(), w.velocity.data()};
+  ContactArrays arrays{w.contacts.data(), w.increment.data(), w.last_move.data(), w.velocity.data()};
+  if (w.rolling.are_there()) {
+    arrays.rolling = w.rolling.groups.data();
+    arrays.rolling_increment = w.rolling.increment.data();
+    arrays.rolling_move = w.rolling.last_move.data();
+  }
+  return arrays;
 }
 
 BodyArrays body_arrays(Linearisation& w) { return {w.velocity.data(), w.before.data()}; }

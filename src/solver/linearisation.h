@@ -9,6 +9,7 @@
 
 #include "solver/problem.h"
 #include "solver/residual.h"
+#include "solver/rolling_contacts.h"
 #include "solver/sweep_kernels.h"
 #include "solver/sweep_order.h"
 
@@ -40,6 +41,8 @@ struct Linearisation {
   std::vector<ImpulseGroup> increment, last_move;
   std::vector<Row> velocity, before;
 
+  RollingContacts rolling;  ///< empty where no contact resists rolling
+
   // What was computed for the contacts and bodies of the last problem is good for this one where they are the
   // same, as in most steps of a quiet bed.
   ContactProblem linked;                    ///< without velocities, normals and c
@@ -62,8 +65,8 @@ void load_contacts(const ContactProblem& problem, const ContactSolution& guess, 
                    Index last_block, Linearisation& w);
 void sum_exact_velocities(const ContactProblem& problem, Index first, Index last, Linearisation& w);
 /// Relative velocities at P0 and sums of blocks.
-void look_at_contacts(const ContactProblem& problem, LookKernel kernel, Index first_block, Index last_block,
-                      Linearisation& w);
+void look_at_contacts(const ContactProblem& problem, const SweepKernels& kernels, Index first_block,
+                      Index last_block, Linearisation& w);
 
 /// The natural-map residual at P0, as natural_map_residual has it.
 struct ExactResidual {

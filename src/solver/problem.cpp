@@ -34,6 +34,21 @@ RelativeVelocity free_relative_velocity(const ContactProblem& problem, Index c) 
   return relative_velocity(problem, problem.vx, problem.vy, problem.omega, c);
 }
 
+double rolling_length(const ContactProblem& problem, Index c) {
+  return problem.lever[problem.a[c]] + problem.lever[problem.b[c]];
+}
+
+double inverse_rolling_delassus(const ContactProblem& problem, Index c) {
+  const double length = rolling_length(problem, c);
+  const double w =
+      length * length * (problem.inverse_inertia[problem.a[c]] + problem.inverse_inertia[problem.b[c]]);
+  return w > 0.0 ? 1.0 / w : 0.0;
+}
+
+double rolling_velocity(const ContactProblem& problem, const ContactSolution& at, Index c) {
+  return rolling_length(problem, c) * (at.omega[problem.b[c]] - at.omega[problem.a[c]]);
+}
+
 void velocities_from_impulses(const ContactProblem& problem, ContactSolution& solution) {
   solution.vx = problem.vx;
   solution.vy = problem.vy;
@@ -48,6 +63,12 @@ void velocities_from_impulses(const ContactProblem& problem, ContactSolution& so
       solution.vy[body] += sign * problem.inverse_mass[body] * fy;
       solution.omega[body] -= problem.inverse_inertia[body] * problem.lever[body] * solution.pt[c];
     }
+  }
+  if (!problem.resists_rolling()) return;
+  for (Index c = 0; c < problem.contact_count(); ++c) {  // (T39)
+    const double moment = rolling_length(problem, c) * solution.pr[c];
+    solution.omega[problem.a[c]] -= problem.inverse_inertia[problem.a[c]] * moment;
+    solution.omega[problem.b[c]] += problem.inverse_inertia[problem.b[c]] * moment;
   }
 }
 

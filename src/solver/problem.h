@@ -14,6 +14,10 @@ namespace talus {
 ///   U_t = (v_b - v_a) . t - (r_b omega_b + r_a omega_a) + c_t
 /// must satisfy Signorini's condition (T9), 0 <= U_n complementary to P_n >= 0, and Coulomb's law (T10),
 /// |P_t| <= mu P_n with sliding opposing P_t. c holds gaps and restitution. All per metre of thickness.
+///
+/// Where contacts resist rolling there is a third unknown, the rolling impulse P_r: the impulse of the moment
+/// that the contact exerts on b (and its opposite on a) over the length l = r_a + r_b. Its relative velocity
+/// U_r = l (omega_b - omega_a) must satisfy (T38), |P_r| <= mu_r P_n with rolling opposing P_r.
 struct ContactProblem {
   // Bodies.
   std::vector<double> vx, vy, omega;    ///< free velocity, m/s and rad/s
@@ -26,14 +30,17 @@ struct ContactProblem {
   std::vector<double> nx, ny;
   std::vector<double> cn, ct;  ///< m/s
   std::vector<double> mu;
+  std::vector<double> rolling_friction;  ///< mu_r; empty where no contact resists rolling
 
   Index body_count() const { return static_cast<Index>(vx.size()); }
   Index contact_count() const { return static_cast<Index>(a.size()); }
+  bool resists_rolling() const { return !rolling_friction.empty(); }
 };
 
 /// Impulses, N s, and the velocities that they give the bodies.
 struct ContactSolution {
   std::vector<double> pn, pt;         ///< in: first guess; out: solution
+  std::vector<double> pr;             ///< the same, N s; empty where no contact resists rolling
   std::vector<double> vx, vy, omega;  ///< out: v = v_free + M^-1 H P
 };
 
@@ -51,6 +58,15 @@ struct RelativeVelocity {
   double tangential = 0.0;
 };
 RelativeVelocity relative_velocity(const ContactProblem& problem, const ContactSolution& at, Index c);
+
+/// The length l = r_a + r_b of contact c, m: r_a where b is a plane (T38).
+double rolling_length(const ContactProblem& problem, Index c);
+
+/// 1 / W_rr with W_rr = l^2 (1/I_a + 1/I_b), kg (T39); 0 between bodies that do not rotate.
+double inverse_rolling_delassus(const ContactProblem& problem, Index c);
+
+/// U_r = l (omega_b - omega_a), m/s (T38).
+double rolling_velocity(const ContactProblem& problem, const ContactSolution& at, Index c);
 
 /// q_c = (H^T v_free + c)_c (T7): what U is at contact c without impulses, U = W P + q.
 RelativeVelocity free_relative_velocity(const ContactProblem& problem, Index c);

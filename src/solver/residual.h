@@ -20,14 +20,17 @@ struct ResidualSums {
   double largest = 0.0;
 
   /// A contact that its exact solution would take from one impulse to another.
-  void add(Impulse from, Impulse to) {
+  void add(Impulse from, Impulse to) { add(from, to, 0.0, 0.0); }
+  /// The same with its rolling impulse.
+  void add(Impulse from, Impulse to, double rolling_from, double rolling_to) {
     const double dn = to.normal - from.normal;
     const double dt = to.tangential - from.tangential;
-    const double square = dn * dn + dt * dt;
+    const double dr = rolling_to - rolling_from;
+    const double square = dn * dn + dt * dt + dr * dr;
     change += square;
     largest = std::max(largest, square);
-    impulse += from.normal * from.normal + from.tangential * from.tangential;
-    impulse_after += to.normal * to.normal + to.tangential * to.tangential;
+    impulse += from.normal * from.normal + from.tangential * from.tangential + rolling_from * rolling_from;
+    impulse_after += to.normal * to.normal + to.tangential * to.tangential + rolling_to * rolling_to;
   }
 
   /// || P ||^2, or || P' ||^2 where P vanishes.
@@ -36,8 +39,9 @@ struct ResidualSums {
 };
 
 /// Natural-map residual (T14): P' is what one exact local solution of every contact would make of P, all
-/// others held (a Jacobi step). Zero exactly at a solution. Where P vanishes and P' does not, the norm of P'
-/// takes its place. `solution` must hold impulses and the velocities that belong to them.
+/// others held (a Jacobi step); where contacts resist rolling, of each of its impulses, the others held
+/// (T40). Zero exactly at a solution. Where P vanishes and P' does not, the norm of P' takes its place.
+/// `solution` must hold impulses and the velocities that belong to them.
 Residual natural_map_residual(const ContactProblem& problem, const ContactSolution& solution);
 
 }  // namespace talus

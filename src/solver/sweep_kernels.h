@@ -12,9 +12,10 @@
 namespace talus {
 
 /// Four floats, as wide as a vector register of the baseline: velocity of a body. Its spin is r omega, which
-/// makes disks of any size alike.
+/// makes disks of any size alike; where contacts resist rolling, its turn is omega times a length that is
+/// the same for all, else 0.
 struct alignas(16) Row {
-  float x, spin, y, unused;
+  float x, spin, y, turn;
 };
 
 /// Contacts are worked on eight at a time.
@@ -38,6 +39,18 @@ struct alignas(64) ContactGroup {
   std::uint32_t a[lane_count], b[lane_count];  ///< where the rows of the two bodies begin, bytes
 };
 
+/// What eight contacts that resist rolling have beside the fields above, in the units of the solve; lengths
+/// over that of the turn.
+struct alignas(64) RollingGroup {
+  Lane ur;            ///< relative velocity l (omega_b - omega_a) at P0
+  Lane below, above;  ///< -mu_r P0_n - P0_r and mu_r P0_n - P0_r
+  Lane mu;            ///< mu_r
+  Lane w;             ///< inverse of W_rr, times the relaxation
+  Lane coupling;      ///< W_rt: what a unit P_t adds to u_r
+  Lane length, lever_a, lever_b;
+  Lane inertia_a, inertia_b;  ///< mobilities: what a unit moment impulse adds to the turn of a body
+};
+
 /// So many groups are swept side by side: none of their contacts share a body that moves. A processor cannot
 /// tell soon enough that what it reads for a group is not what it is about to write for the one before, so
 /// that groups one by one would wait for each other.
@@ -46,6 +59,11 @@ inline constexpr int groups_abreast = 2;
 /// Impulses of eight contacts.
 struct alignas(64) ImpulseGroup {
   Lane n, t;
+};
+
+/// Their rolling impulses.
+struct alignas(32) RollingImpulses {
+  Lane r;
 };
 
 /// Sums over contacts at the extrapolated point y.
@@ -59,12 +77,16 @@ struct ContactArrays {
   ImpulseGroup* increment;  ///< in: p of the last sweep; out: the new p
   ImpulseGroup* last_move;  ///< in: what the last sweep added to p; out: what this one has added
   Row* velocity;            ///< of the bodies; in: due to y = p + momentum * last_move; out: due to the new p
+  // Where contacts resist rolling; else null.
+  const RollingGroup* rolling = nullptr;
+  RollingImpulses* rolling_increment = nullptr;
+  RollingImpulses* rolling_move = nullptr;
 };
 
 /// Velocity of a body, or impulse of a contact in the axes of the bed, in double precision; the spin is r
-/// omega.
+/// omega. Where contacts resist rolling, the turn is omega of a body, and l P_r of a contact; else 0.
 struct alignas(32) ExactRow {
-  double x = 0.0, y = 0.0, spin = 0.0, unused = 0.0;
+  double x = 0.0, y = 0.0, spin = 0.0, turn = 0.0;
 };
 
 /// Fields of contacts in the order of the problem.
@@ -75,6 +97,10 @@ struct LookArrays {
   const double *wn, *wt;  ///< inverse of the Delassus diagonal
   const ExactRow* velocity;
   double *un, *ut;  ///< out: relative velocities
+  // Where contacts resist rolling; else null.
+  const double *length = nullptr, *mu_r = nullptr;
+  const double *pr = nullptr, *wr = nullptr;  ///< P0, and 1 / W_rr
+  double* ur = nullptr;                       ///< out
 };
 
 /// The sums of ResidualSums (residual.h).
@@ -102,6 +128,8 @@ struct SweepKernels {
   ContactKernel contacts;
   BodyKernel bodies;
   LookKernel look;
+  ContactKernel rolling_contacts;  ///< of contacts that resist rolling
+  LookKernel rolling_look;
 };
 
 /// The fastest kernels that this processor has.

@@ -71,6 +71,25 @@ TEST_P(Impact, conserves_momentum_and_angular_momentum) {
     }
 }
 
+// Both moments of a contact act: on one grain and its opposite on the other.
+TEST_P(Impact, conserves_angular_momentum_where_grains_resist_rolling) {
+  for (double mu_r : {0.1, 5.0}) {
+    World world = test::two_disks(0.4, {1.3, 0.2}, {-0.4, 0.5});
+    world.grains.omega = {30.0, -70.0};
+    const test::Momentum before = test::momentum(world.grains);
+    StepSettings settings = settings_with(0.3, 0.0, 0.5);
+    settings.law.rolling_friction = mu_r;
+    hit(world, settings);
+    const test::Momentum after = test::momentum(world.grains);
+    EXPECT_NEAR(after.x, before.x, 1e-14);
+    EXPECT_NEAR(after.y, before.y, 1e-14);
+    EXPECT_NEAR(after.angular, before.angular, 1e-14);
+    EXPECT_GT(std::fabs(world.contacts.moment[0]), 1e-6);
+    if (mu_r < 1.0) continue;
+    EXPECT_NEAR(world.grains.omega[0], world.grains.omega[1], 1e-9);
+  }
+}
+
 // Without friction the loss is that of Newton: (1 - e^2) / 2 m U_n^2, m = m_a m_b / (m_a + m_b).
 TEST_P(Impact, loses_the_energy_that_restitution_says) {
   for (double e : {0.0, 0.5, 1.0}) {

@@ -20,10 +20,11 @@ constexpr int steps = 100;
 
 class Incline : public testing::TestWithParam<SolverKind> {
  protected:
-  World after_steps(double tilt, bool rotates) {
+  World after_steps(double tilt, bool rotates, double rolling_friction = 0.0) {
     World world = test::disk_on_plane(tilt);
     if (!rotates) world.grains.inverse_inertia[0] = 0.0;
-    const StepSettings settings = test::exact_step(GetParam(), friction);
+    StepSettings settings = test::exact_step(GetParam(), friction);
+    settings.law.rolling_friction = rolling_friction;
     StepWorkspace workspace;
     for (int k = 0; k < steps; ++k) step(world, settings, workspace);
     return world;
@@ -97,6 +98,43 @@ TEST_P(Incline, a_free_disk_slides_and_turns_beyond_it) {
     expect_motion(world, world.gravity * (sine(tilt) - friction * cosine(tilt)),
                   -2.0 * friction * world.gravity * cosine(tilt) / radius);
   }
+}
+
+// On a plane l = r. Without sliding the disk stays where r F = m g r sin is within mu_r r f_n; the moment on
+// the plane is clockwise, that on the disk against its rolling.
+TEST_P(Incline, a_disk_that_resists_rolling_stays_up_to_the_angle_of_rolling_friction) {
+  constexpr double rolling_friction = 0.3;
+  for (double share : {0.0, 0.5, 0.999}) {
+    const double tilt = std::atan(share * rolling_friction);
+    const World world = after_steps(tilt, true, rolling_friction);
+    expect_motion(world, 0.0, 0.0);
+    expect_forces(world, test::weight(world) * cosine(tilt), test::weight(world) * sine(tilt));
+    ASSERT_EQ(world.contacts.moment.size(), 1u);
+    EXPECT_NEAR(world.contacts.moment[0], -radius * test::weight(world) * sine(tilt),
+                1e-11 * radius * test::weight(world));
+  }
+}
+
+// Rolling: m a = m g sin - F, I alpha = F r - mu_r r m g cos, a = alpha r give a = 2/3 g (sin - mu_r cos) and
+// F = m g (sin + 2 mu_r cos) / 3.
+TEST_P(Incline, a_disk_that_resists_rolling_rolls_beyond_it) {
+  constexpr double rolling_friction = 0.2;
+  for (double share : {1.001, 2.0, 4.0}) {
+    const double tilt = std::atan(share * rolling_friction);
+    const World world = after_steps(tilt, true, rolling_friction);
+    const double acceleration = 2.0 / 3.0 * world.gravity * (sine(tilt) - rolling_friction * cosine(tilt));
+    expect_motion(world, acceleration, -acceleration / radius);
+    const double fn = test::weight(world) * cosine(tilt);
+    expect_forces(world, fn, test::weight(world) * sine(tilt) / 3.0 + 2.0 / 3.0 * rolling_friction * fn);
+    EXPECT_NEAR(world.contacts.moment[0], -rolling_friction * radius * fn, 1e-11 * radius * fn);
+  }
+}
+
+// Where mu_r >= mu the disk slides before it rolls, and does not turn while the moment can hold it.
+TEST_P(Incline, a_disk_that_resists_rolling_more_than_sliding_slides_without_turning) {
+  const double tilt = std::atan(1.5 * friction);
+  const World world = after_steps(tilt, true, 2.0 * friction);
+  expect_motion(world, world.gravity * (sine(tilt) - friction * cosine(tilt)), 0.0);
 }
 
 // Without a floor below, v and x follow free fall by the same trapezoid.

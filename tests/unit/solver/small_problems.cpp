@@ -59,6 +59,7 @@ ContactSolution no_guess(const ContactProblem& problem) {
   ContactSolution solution;
   solution.pn.assign(static_cast<std::size_t>(problem.contact_count()), 0.0);
   solution.pt = solution.pn;
+  if (problem.resists_rolling()) solution.pr = solution.pn;
   return solution;
 }
 

@@ -141,6 +141,101 @@ TEST(SweepKernels, give_the_same_bits_whatever_the_processor) {
   EXPECT_EQ(baseline.sums.ascent, fastest.sums.ascent);
 }
 
+/// The same contacts, which resist rolling.
+struct RollingScene {
+  Scene scene = random_scene(20, 64);
+  std::vector<RollingGroup> groups;
+  std::vector<RollingImpulses> increment, last_move;
+  SweepSums sums;
+
+  RollingScene() {
+    Random random(9);
+    const auto uniform = [&] { return static_cast<float>(2.0 * random.uniform() - 1.0); };
+    groups.resize(scene.contacts.size());
+    increment.resize(groups.size());
+    last_move.resize(groups.size());
+    for (Row& row : scene.velocity) row.turn = uniform();
+    for (std::size_t g = 0; g < groups.size(); ++g)
+      for (int k = 0; k < lane_count; ++k) {
+        RollingGroup& group = groups[g];
+        group.ur[k] = uniform();
+        group.above[k] = 0.1F + 0.1F * uniform();
+        group.below[k] = -0.1F + 0.1F * uniform();
+        group.mu[k] = 0.2F;
+        group.w[k] = 0.2F;
+        group.coupling[k] = 0.3F * uniform();
+        group.lever_a[k] = 0.7F;
+        group.lever_b[k] = 0.9F;
+        group.length[k] = 1.6F;
+        group.inertia_a[k] = 1.3F;
+        group.inertia_b[k] = 1.1F;
+        increment[g].r[k] = 0.1F * uniform();
+        last_move[g].r[k] = 0.1F * uniform();
+      }
+  }
+
+  void sweep(const SweepKernels& kernels) {
+    ContactArrays arrays = scene.contact_arrays();
+    arrays.rolling = groups.data();
+    arrays.rolling_increment = increment.data();
+    arrays.rolling_move = last_move.data();
+    kernels.rolling_contacts(arrays, 0, scene.groups(), beta, sums);
+  }
+};
+
+TEST(SweepKernels, rolling_contacts_give_the_same_bits_whatever_the_processor) {
+  RollingScene baseline, fastest;
+  for (int k = 0; k < 5; ++k) {
+    baseline.sweep(sweep_kernels_baseline());
+    fastest.sweep(sweep_kernels());
+  }
+  EXPECT_TRUE(same_bits(baseline.increment, fastest.increment));
+  EXPECT_TRUE(same_bits(baseline.last_move, fastest.last_move));
+  EXPECT_TRUE(same_bits(baseline.scene.increment, fastest.scene.increment));
+  EXPECT_TRUE(same_bits(baseline.scene.velocity, fastest.scene.velocity));
+  EXPECT_EQ(baseline.sums.change, fastest.sums.change);
+  EXPECT_EQ(baseline.sums.ascent, fastest.sums.ascent);
+}
+
+TEST(SweepKernels, rolling_contacts_do_what_the_plain_arithmetic_does_one_by_one) {
+  RollingScene rolling, before;
+  Scene plain = rolling.scene;
+  rolling.sweep(sweep_kernels());
+  int held = 0;
+  for (Index g = 0; g < plain.groups(); ++g)
+    for (int k = 0; k < lane_count; ++k) {
+      const ContactGroup& contact = plain.contacts[g];
+      const RollingGroup& group = before.groups[g];
+      Row& va = plain.velocity[contact.a[k] / sizeof(Row)];
+      Row& vb = plain.velocity[contact.b[k] / sizeof(Row)];
+      const float turn_a = va.turn, turn_b = vb.turn, spin_a = va.spin, spin_b = vb.spin;
+      const float old_t = plain.increment[g].t[k], last_t = plain.last_move[g].t[k];
+      SweepSums sums;
+      plain_contact(plain, g, k, sums);
+      const float et = plain.increment[g].t[k] - (old_t + beta * last_t);
+      const float ur = group.length[k] * (turn_b - turn_a) + group.ur[k] + group.coupling[k] * et;
+      const float old = before.increment[g].r[k], y = old + beta * before.last_move[g].r[k];
+      const float more = group.mu[k] * plain.increment[g].n[k];
+      const float p = std::clamp(y - ur * group.w[k], group.below[k] - more, group.above[k] + more);
+      const float moment = group.length[k] * (p - y);
+      const float da = -group.inertia_a[k] * (group.lever_a[k] * et + moment);
+      const float db = group.inertia_b[k] * (moment - group.lever_b[k] * et);
+      va.turn = turn_a + da;
+      vb.turn = turn_b + db;
+      va.spin = spin_a + group.lever_a[k] * da;
+      vb.spin = spin_b + group.lever_b[k] * db;
+      EXPECT_NEAR(rolling.increment[g].r[k], p, 1e-6F);
+      EXPECT_NEAR(rolling.last_move[g].r[k], p - old, 1e-6F);
+      held += p > group.below[k] - more && p < group.above[k] + more ? 1 : 0;
+    }
+  EXPECT_GT(held, 5);
+  for (Index i = 0; i < plain.rows(); ++i) {
+    EXPECT_NEAR(rolling.scene.velocity[i].turn, plain.velocity[i].turn, 1e-5F);
+    EXPECT_NEAR(rolling.scene.velocity[i].spin, plain.velocity[i].spin, 1e-5F);
+    EXPECT_NEAR(rolling.scene.velocity[i].x, plain.velocity[i].x, 1e-5F);
+  }
+}
+
 TEST(SweepKernels, contacts_do_what_the_plain_arithmetic_does_one_by_one) {
   Scene scene = random_scene(20, 64);
   Scene plain = scene;
