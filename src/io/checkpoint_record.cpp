@@ -42,6 +42,7 @@ void for_each_field(World& world, Fields fields) {
   fields.pairs(here + "contact_normal", contacts.nx, contacts.ny, Range{-2.0, 2.0});
   fields.array(here + "contact_gap", contacts.gap);
   fields.pairs(here + "contact_force", contacts.fn, contacts.ft);
+  fields.array_if_any(here + "contact_moment", contacts.moment);
 }
 
 void check_grains(const hdf5::Reader& reader, const Grains& grains) {
@@ -55,6 +56,9 @@ void check_grains(const hdf5::Reader& reader, const Grains& grains) {
 void check_contacts(const hdf5::Reader& reader, const World& world) {
   const auto bodies = static_cast<std::size_t>(world.grains.count()) + world.boundary.planes.size();
   const Contacts& c = world.contacts;
+  if (!c.moment.empty() && c.moment.size() != c.a.size())
+    reader.refuse(here + "contact_moment",
+                  fmt::format("holds {} moments of {} contacts", c.moment.size(), c.a.size()));
   for (std::size_t k = 0; k < c.a.size(); ++k)
     if (c.a[k] < 0 || c.a[k] >= world.grains.count() || c.b[k] <= c.a[k] ||
         static_cast<std::size_t>(c.b[k]) >= bodies)

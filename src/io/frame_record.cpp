@@ -13,6 +13,7 @@ namespace {
 
 const std::string grains = "/particles/grains/";
 const std::string contacts = "/contacts/";
+const std::string moments = contacts + "moment";  // only where contacts resist rolling
 
 template <typename SomeFrame, typename Fields>
 void for_each_field_of_positions(SomeFrame& frame, Fields fields) {
@@ -39,6 +40,7 @@ void for_each_field(SomeFrame& frame, Fields fields) {
   fields.pairs(contacts + "point", c.px, c.py);
   fields.pairs(contacts + "force", c.fn, c.ft);
   fields.array(contacts + "status", c.status);
+  fields.array_if_any(moments, c.moment);
 }
 
 bool is_of_contacts(const std::string& path) { return path.starts_with(contacts); }
@@ -61,6 +63,9 @@ struct RowEncoder {
     array(path, std::vector<float>(values.begin(), values.end()));
   }
   void array_or_nan(const std::string& path, const std::vector<double>& values) { array(path, values); }
+  void array_if_any(const std::string& path, const std::vector<double>& values) {
+    if (!values.empty()) array(path, values);
+  }
   template <typename T>
   void pairs(const std::string& path, const std::vector<T>& x, const std::vector<T>& y) {
     array(path, interleaved(x, y));
@@ -113,6 +118,9 @@ struct RowDecoder {
   void array_or_nan(const std::string& path, std::vector<double>& values) {
     values = reader.read_rows<double>(path, frame.first, frame.count);
   }
+  void array_if_any(const std::string& path, std::vector<double>& values) {
+    if (reader.has(path)) array(path, values);
+  }
   template <typename T>
   void pairs(const std::string& path, std::vector<T>& x, std::vector<T>& y) {
     const std::vector<T> both = rows<T>(path);
@@ -145,7 +153,7 @@ bool is_element(const std::string& path) { return path.starts_with(grains) && pa
 
 void create_data_sets(hdf5::Writer& writer) {
   for (const DataSetField& field : run_schema())
-    if (is_by_frame(field)) writer.create(field.path);
+    if (is_by_frame(field) && field.path != moments) writer.create(field.path);
   for (const DataSetField& field : run_schema())
     if (is_element(field.path)) {
       const std::string element = field.path.substr(0, field.path.rfind('/'));
@@ -167,9 +175,13 @@ std::uint64_t frame_hash(const Frame& frame) {
 void write_frames(hdf5::Writer& writer, const std::function<Frame(std::size_t)>& frame_at) {
   create_data_sets(writer);
   std::int64_t contact_count = 0;
+  bool have_moments = false;
   writer.write_rows(contacts + "offset", 0, std::vector{contact_count});
   for (std::size_t k = 0; k < writer.sizes().at('T'); ++k) {
     const Frame frame = frame_at(k);
+    // All frames with contacts have them, or none has.
+    if (!have_moments && !frame.contacts.moment.empty()) writer.create(moments);
+    have_moments = have_moments || !frame.contacts.moment.empty();
     const auto first_contact = static_cast<std::uint64_t>(contact_count);
     Hasher hasher;
     for_each_field(frame, RowEncoder{[&](const std::string& path, std::span<const std::byte> bytes) {
@@ -185,7 +197,7 @@ void write_frames(hdf5::Writer& writer, const std::function<Frame(std::size_t)>&
 Frame as_stored(Frame frame) {
   FrameContacts& c = frame.contacts;
   for (std::vector<double>* values : {&frame.x, &frame.y, &frame.angle, &frame.vx, &frame.vy, &frame.omega,
-                                      &frame.gamma, &c.nx, &c.ny, &c.px, &c.py, &c.fn, &c.ft})
+                                      &frame.gamma, &c.nx, &c.ny, &c.px, &c.py, &c.fn, &c.ft, &c.moment})
     for (double& value : *values) value = static_cast<float>(value);
   for (Tensor2& m : frame.internal_moment)
     m = {static_cast<float>(m.xx), static_cast<float>(m.xy), static_cast<float>(m.yx),
@@ -218,6 +230,8 @@ void check_frame(const hdf5::Reader& reader, const BedFrame& bed, std::size_t pl
     check_places(*along, contacts + "point");
   const auto bodies = static_cast<Index>(bed.frame.x.size() + planes);
   const FrameContacts& c = bed.frame.contacts;
+  if (!c.moment.empty() && c.moment.size() != c.a.size())
+    reader.refuse(moments, "holds another number of rows than " + contacts + "pair");
   for (std::size_t k = 0; k < c.a.size(); ++k) {
     if (c.a[k] < 0 || c.a[k] >= bed.frame.grain_count() || c.b[k] <= c.a[k] || c.b[k] >= bodies)
       reader.refuse(contacts + "pair",

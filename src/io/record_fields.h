@@ -55,6 +55,10 @@ class FieldWriter {
   void array(const std::string& path, const std::vector<T>& values, Range = {}) {
     writer_.write(path, values);
   }
+  /// An array that is there only where it holds something.
+  void array_if_any(const std::string& path, const std::vector<double>& values) {
+    if (!values.empty()) writer_.write(path, values);
+  }
   /// Two arrays as one of pairs.
   template <typename T>
   void pairs(const std::string& path, const std::vector<T>& x, const std::vector<T>& y, Range = {}) {
@@ -94,6 +98,9 @@ class FieldReader {
   template <typename T>
   void array(const std::string& path, std::vector<T>& to, Range range = {}) {
     to = values<T>(path, range);
+  }
+  void array_if_any(const std::string& path, std::vector<double>& to) {
+    if (reader_.has(path)) to = values<double>(path, {});
   }
   template <typename T>
   void pairs(const std::string& path, std::vector<T>& x, std::vector<T>& y, Range range = {}) {

@@ -71,6 +71,9 @@ std::vector<DataSetField> frame_fields() {
       {"/contacts/force", float32, "M 2", "N/m",
        "force (f_n, f_t) on b along n and t = (-n_y, n_x), per metre of thickness; f_n > 0 is compression"},
       {"/contacts/status", int8, "M", "1", "0 open, 1 sticking, 2 sliding (friction fully mobilised)"},
+      {"/contacts/moment", float32, "M", "N",
+       "moment on b, counter-clockwise positive, per metre of thickness; its opposite acts on a; only there "
+       "where contacts resist rolling (contact.rolling_friction > 0)"},
   };
 }
 
@@ -138,6 +141,9 @@ std::vector<DataSetField> checkpoint_fields() {
       {"/checkpoint/contact_gap", float64, "C", "m", "gap; negative where bodies overlap"},
       {"/checkpoint/contact_force", float64, "C 2", "N/m",
        "force (f_n, f_t) on b, per metre of thickness: the contact memory"},
+      {"/checkpoint/contact_moment", float64, "C", "N",
+       "moment on b, per metre of thickness: the memory of contacts that resist rolling, only there where "
+       "they do"},
       {"/checkpoint/integers/*", int64, "", "1", "a value of the schedule of the run"},
       {"/checkpoint/reals/*", float64, "", "SI",
        "a value of the schedule of the run, in the SI unit of its kind"},

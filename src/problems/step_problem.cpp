@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/core.h>
 #include <optional>
 #include <utility>
 
@@ -24,6 +25,7 @@ Contacts memory_of(const FrameContacts& from) {
   contacts.gap.assign(from.a.size(), 0.0);
   contacts.fn = from.fn;
   contacts.ft = from.ft;
+  contacts.moment = from.moment;
   return contacts;
 }
 
@@ -76,6 +78,13 @@ double next_tilt(const RunFile& run, const World& world, const Scenario& scenari
 /// contacts with what is remembered.
 StepProblem form_step(World& world, const StepSettings& settings, double closed_below, double mean_diameter,
                       Contacts& contacts) {
+  if (settings.law.rolling_friction > 0.0)
+    throw Error(
+        ExitCode::bad_data,
+        fmt::format("the contacts of the run resist rolling (contact.rolling_friction = {:g}), and problems "
+                    "of a step and its admissible forces have no moments; choose a run with "
+                    "contact.rolling_friction = 0",
+                    settings.law.rolling_friction));
   StepWorkspace workspace;
   begin_step(world, settings, workspace);
   if (closed_below > 0.0) {

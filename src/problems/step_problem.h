@@ -39,7 +39,7 @@ World world_at_frame(const RunFile& run, std::size_t k);
 /// The problem of the step that the run took, or would take, after frame k. Positions of a frame are rounded:
 /// a contact that carried force and is closed to within this rounding is taken as closed, since gaps of that
 /// size would pull the remembered forces apart. Throws Error(bad_data) where the stored scenario or the frame
-/// cannot be accepted.
+/// cannot be accepted, and where contacts resist rolling: problems have no moments.
 StepProblem problem_after_frame(const RunFile& run, std::size_t k);
 
 /// A bed with its grains held where they are: which forces can carry it there?

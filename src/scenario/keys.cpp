@@ -50,6 +50,10 @@ Keys contact_keys() {
            &P::friction},
           {{"wall_friction", "", from_to(0.0, 10.0), "coefficient of friction of grains on the side walls"},
            &P::wall_friction},
+          {{"rolling_friction", "", from_to(0.0, 10.0),
+            "coefficient of rolling friction mu_r between grains, and of grains on the floor; 0: grains roll "
+            "freely"},
+           &P::rolling_friction},
           {{"restitution", "", from_to(0.0, 1.0),
             "normal coefficient of restitution: velocity after an impact over that before it"},
            &P::restitution},

@@ -31,6 +31,7 @@ struct Scenario {
   struct ContactLaw {
     double friction = 0.5;                ///< between grains, and between grains and floor
     double wall_friction = 0.5;           ///< between grains and side walls
+    double rolling_friction = 0.0;        ///< mu_r, between grains, and between grains and floor
     double restitution = 0.0;             ///< e_n in [0, 1]
     double tangential_restitution = 0.0;  ///< e_t in [-1, 1]
 

@@ -46,6 +46,7 @@ void append_contact(const World& world, const ContactLawParameters& law, Index c
   out.fn.push_back(contacts.fn[c]);
   out.ft.push_back(contacts.ft[c]);
   out.status.push_back(status_of(world, law, c));
+  if (!contacts.moment.empty()) out.moment.push_back(contacts.moment[c]);
 }
 
 }  // namespace

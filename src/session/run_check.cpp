@@ -128,7 +128,8 @@ bool check_values(const BedFrame& bed, const std::string& name, Findings& found)
       {"velocity", &bed.frame.vy},
       {"angular_velocity", &bed.frame.omega},
       {"contacts/force", &bed.frame.contacts.fn},
-      {"contacts/force", &bed.frame.contacts.ft}};
+      {"contacts/force", &bed.frame.contacts.ft},
+      {"contacts/moment", &bed.frame.contacts.moment}};
   bool finite = true;
   for (const auto& [set, of] : values) {
     if (all_finite(*of)) continue;
@@ -183,6 +184,27 @@ void check_contacts(const BedFrame& bed, const Frictions& mu, double overlap_all
   if (mobilised > mobilisation_limit)
     found.add(name,
               fmt::format("a tangential force is {} mu f_n, Coulomb's law allows 1", short_text(mobilised)));
+}
+
+/// Moments within rolling friction (T38).
+void check_rolling(const BedFrame& bed, double mu_r, const std::string& name, Findings& found) {
+  const FrameContacts& contacts = bed.frame.contacts;
+  if (contacts.moment.size() != (mu_r > 0.0 ? contacts.a.size() : 0)) {
+    found.add(name, fmt::format("{} moments of {} contacts, with contact.rolling_friction = {}",
+                                contacts.moment.size(), contacts.a.size(), short_text(mu_r)));
+    return;
+  }
+  const double unit = bed.statics.mass.empty() ? 1.0 : bed.statics.mass.front() * bed.statics.gravity;
+  double mobilised = 0.0;
+  for (std::size_t c = 0; c < contacts.moment.size(); ++c) {
+    const auto a = static_cast<std::size_t>(contacts.a[c]), b = static_cast<std::size_t>(contacts.b[c]);
+    const double length = bed.statics.radius[a] + (b < bed.frame.x.size() ? bed.statics.radius[b] : 0.0);
+    mobilised = std::max(
+        mobilised, std::abs(contacts.moment[c]) / (length * (mu_r * contacts.fn[c] + smallest_force * unit)));
+  }
+  if (mobilised > mobilisation_limit)
+    found.add(name, fmt::format("a moment is {} mu_r (r_a + r_b) f_n, rolling friction allows 1",
+                                short_text(mobilised)));
 }
 
 /// What contacts give each grain: the sum of forces, and the internal moment (paper, Eq. 4).
@@ -339,6 +361,7 @@ RunCheck check_run(const RunFile& run, const std::function<void(std::size_t)>& p
       const BedFrame bed{frame, statics};
       if (check_values(bed, name, found)) {
         check_contacts(bed, frictions_of(run, scenario, k, frame), overlap_allowed(scenario), name, found);
+        check_rolling(bed, scenario.contact.rolling_friction, name, found);
         const Loads loads = loads_of(bed);
         check_moments(frame, loads, name, found);
         if (at_rest(rows, frame.step)) check_balance(bed, loads, imbalance_allowed(scenario), name, found);

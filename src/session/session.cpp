@@ -29,6 +29,7 @@ ContactLawParameters contact_law(const Scenario& scenario) {
   ContactLawParameters law;
   law.friction = scenario.contact.friction;
   law.wall_friction = scenario.contact.wall_friction;
+  law.rolling_friction = scenario.contact.rolling_friction;
   law.restitution = scenario.contact.restitution;
   law.tangential_restitution = scenario.contact.tangential_restitution;
   law.allowed_overlap = scenario.solver.allowed_overlap * scenario.grains.mean_diameter;

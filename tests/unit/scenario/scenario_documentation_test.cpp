@@ -35,8 +35,11 @@ Scenario asset(const std::string& name) { return read_scenario(root + "/assets/s
 Scenario paper_bed(BedBoundary boundary, double length) {
   Scenario scenario;
   scenario.grains.size_ratio = 1.5;
-  scenario.contact = {
-      .friction = 0.5, .wall_friction = 0.5, .restitution = 0.0, .tangential_restitution = 0.0};
+  scenario.contact = {.friction = 0.5,
+                      .wall_friction = 0.5,
+                      .rolling_friction = 0.0,
+                      .restitution = 0.0,
+                      .tangential_restitution = 0.0};
   scenario.bed = {.boundary = boundary, .length = length, .depth = 40.0, .floor = BedFloor::rough};
   scenario.tilt = {.rate = 1.0, .step = 0.001, .end_angle = std::nullopt, .program = {}};
   return scenario;

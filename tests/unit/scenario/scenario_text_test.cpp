@@ -57,9 +57,10 @@ Scenario all_fields_changed() {
   mean_diameter = 0.1 + 0.2;
   size_ratio = std::nextafter(1.0, 2.0);
   density = 1e6;
-  auto& [friction, wall_friction, restitution, tangential_restitution] = contact;
+  auto& [friction, wall_friction, rolling_friction, restitution, tangential_restitution] = contact;
   friction = DBL_TRUE_MIN;
   wall_friction = 1e-300;
+  rolling_friction = 0.1 / 3.0;
   restitution = 1.0 / 3.0;
   tangential_restitution = -2.0 / 3.0;
   auto& [boundary, length, depth, floor] = bed;
