@@ -170,7 +170,7 @@ std::vector<TimelineEvent> timeline_events(const TimelineSource& source) {
   for (std::size_t k = 0; k < source.bookmarks.size(); ++k) {
     const auto& [time, tilt, note] = source.bookmarks[k];
     list.add_at(fmt::format("bookmark {}", k), "", note.empty() ? "bookmark" : note, tilt,
-                place_among(source.all_times, time), TimelineEvent::Kind::bookmark);
+                place_among(source.all_times, time), time, TimelineEvent::Kind::bookmark);
   }
   std::ranges::stable_sort(list.events, {}, &TimelineEvent::place);
   return std::move(list.events);
