@@ -114,6 +114,10 @@ TEST(FormProblem, walls_have_the_friction_of_walls) {
   scene.form_now();
   ASSERT_EQ(scene.problem.contact_count(), 3);
   EXPECT_EQ(scene.problem.mu, (std::vector<double>{0.4, 0.4, 0.1}));
+  EXPECT_FALSE(scene.problem.resists_rolling());
+  scene.law.rolling_friction = 0.2;  // of grains and floor; walls do not resist rolling
+  scene.form_now();
+  EXPECT_EQ(scene.problem.rolling_friction, (std::vector<double>{0.2, 0.2, 0.0}));
 }
 
 }  // namespace
