@@ -24,7 +24,7 @@ struct FrameContacts {
   std::vector<double> px, py;  ///< contact point, m
   std::vector<double> fn, ft;  ///< force on b, N (per metre of thickness)
   std::vector<ContactStatus> status;
-  std::vector<double> moment;  ///< on b, N m (per metre of thickness); empty where none resists rolling
+  std::vector<double> moment{};  ///< on b, N m (per metre of thickness); empty where none resists rolling
 
   Index count() const { return static_cast<Index>(a.size()); }
 };
