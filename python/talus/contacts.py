@@ -23,6 +23,9 @@ class Contacts:
     end: np.ndarray  #: (K, 2) centre of b in the image that touches a, outside of [0, L) where that is; of a plane: point
     between_grains: np.ndarray  #: (K,) whether b is a grain (of the floor or free), not a plane
     period: float  #: L of a periodic bed; 0 between walls
+    #: (K,) moment on b, N (per metre of thickness), counter-clockwise positive; its opposite acts on a. None where
+    #: contacts do not resist rolling (contact.rolling_friction = 0)
+    moment: np.ndarray | None = None
 
     def __len__(self) -> int:
         return len(self.pair)
@@ -52,10 +55,12 @@ class Contacts:
         return np.concatenate([lines, again]), np.concatenate([np.arange(len(self)), across])
 
     def to_pandas(self) -> Any:
-        """A DataFrame with one row for each contact: a, b, shift, x, y (the point), n_x, n_y, f_n, f_t, status and
-        branch_x, branch_y. Throws ImportError without pandas."""
+        """A DataFrame with one row for each contact: a, b, shift, x, y (the point), n_x, n_y, f_n, f_t, status,
+        branch_x, branch_y, and moment where contacts resist rolling. Throws ImportError without pandas."""
         pairs = {"": self.point, "n_": self.normal, "branch_": self.branch}
         columns = {"a": self.pair[:, 0], "b": self.pair[:, 1], "shift": self.shift}
         columns |= {prefix + axis: values[:, i] for prefix, values in pairs.items() for i, axis in enumerate("xy")}
         columns |= {"f_n": self.force[:, 0], "f_t": self.force[:, 1], "status": self.status}
+        if self.moment is not None:
+            columns["moment"] = self.moment
         return need("pandas", "to_pandas()").DataFrame(columns)

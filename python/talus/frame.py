@@ -87,6 +87,8 @@ class Frame:
         """The contacts that carry force."""
         read = {name: self.run.read_frame(f"contacts/{name}", self.index)
                 for name in ("pair", "shift", "normal", "point", "force", "status")}
+        if "moment" in self.run.storage.names("contacts") and len(read["pair"]):
+            read["moment"] = self.run.read_frame("contacts/moment", self.index)
         a, b = read["pair"].T
         between_grains = b < len(self.position)
         end = read["point"].copy()

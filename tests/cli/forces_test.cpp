@@ -66,5 +66,22 @@ TEST(Forces, of_a_run_without_frames_are_refused) {
   EXPECT_NE(outcome.err.find("begun.h5 has no frames yet"), std::string::npos) << outcome.err;
 }
 
+// One set of forces of the cone does not say which moments go with it, and problem files have no place for
+// them.
+TEST(Forces, of_contacts_that_resist_rolling_are_refused_and_so_are_their_problems) {
+  const TemporaryFolder folder;
+  write_file(folder, "bed.toml", std::string(bed) + "[contact]\nrolling_friction = 0.1\n");
+  ASSERT_EQ(run_talus({"run", "bed.toml", "-o", "bed.h5"}, folder.path()).exit_code, 0);
+  for (const std::vector<std::string>& asked :
+       {std::vector<std::string>{"forces", "bed.h5", "--at", "0", "--set", "gamma_c=0.3"},
+        {"dump", "bed.h5", "--frame", "1", "-o", "p.h5"}}) {
+    const Outcome outcome = run_talus(asked, folder.path());
+    EXPECT_EQ(outcome.exit_code, 65) << asked[0];
+    EXPECT_NE(outcome.err.find("resist rolling (contact.rolling_friction = 0.1)"), std::string::npos)
+        << outcome.err;
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder.path("p.h5")));
+}
+
 }  // namespace
 }  // namespace talus::test

@@ -76,6 +76,15 @@ def walls(folder):
 
 
 @pytest.fixture(scope="session")
+def rolling(folder):
+    """The path of a run whose contacts resist rolling."""
+    path = folder / "rolling.h5"
+    run_talus("run", folder / "bed.toml", "--set", "contact.rolling_friction=0.1", "--set", "tilt.end_angle=4",
+              "-o", path)
+    return path
+
+
+@pytest.fixture(scope="session")
 def stopped(folder):
     """The path of a run that was stopped halfway: its folder has several segments."""
     path = folder / "stopped.h5"

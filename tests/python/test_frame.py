@@ -83,6 +83,28 @@ def test_forces_balance_on_free_grains(run):
     assert np.median(left_over) < 1e-2 * np.abs(weight).max(), "grains are held by their contacts"
 
 
+def test_moments_of_contacts_balance_on_free_grains(rolling, run):
+    assert run.frames[4].contacts.moment is None
+    with talus.open(rolling) as rolling_run:
+        frame = rolling_run.frames[4]
+        contacts = frame.contacts
+        assert rolling_run.unit("contacts/moment") == "N" and contacts.moment.shape == (len(contacts),)
+        torque = np.zeros(len(frame.position))
+        cross = lambda lever, force: lever[:, 0] * force[:, 1] - lever[:, 1] * force[:, 0]  # noqa: E731
+        grains = contacts.between_grains
+        b = contacts.pair[grains, 1]
+        np.add.at(torque, contacts.pair[:, 0], -cross(contacts.point - contacts.start, contacts.force_on_b))
+        np.add.at(torque, b, cross(contacts.point - contacts.end, contacts.force_on_b)[grains])
+        of_forces = torque.copy()
+        np.add.at(torque, contacts.pair[:, 0], -contacts.moment)
+        np.add.at(torque, b, contacts.moment[grains])
+        free = frame.free
+        assert np.median(np.abs(torque[free])) < 0.02 * np.median(np.abs(of_forces[free])), "moments hold the grains"
+        pytest.importorskip("pandas", reason="pandas is not installed: python3-pandas")
+        np.testing.assert_array_equal(contacts.to_pandas()["moment"], contacts.moment)
+        assert "moment" not in run.frames[4].contacts.to_pandas()
+
+
 def test_unwrapped_positions_do_not_jump_at_the_edge(run):
     moved = run.frames[-1].unwrapped - run.frames[0].unwrapped
     jumped = np.abs(run.frames[-1].position - run.frames[0].position)[:, 0] > 0.5 * run.length
