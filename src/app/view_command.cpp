@@ -1,5 +1,6 @@
 /// `talus view`: a run in a window, as it is computed or from its file.
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -12,7 +13,11 @@
 #include "app/choices.h"
 #include "app/command_line.h"
 #include "app/commands.h"
+#include "app/figure_files.h"
+#include "app/ghost_runs.h"
+#include "app/gnuplot.h"
 #include "app/output_files.h"
+#include "app/plot_figure.h"
 #include "app/seed_option.h"
 #include "app/stop_signals.h"
 #include "core/errors.h"
@@ -32,9 +37,10 @@ struct ViewArguments {
   std::string output;
   std::vector<std::string> settings;  ///< "key=value", the seed among them
   bool overwrite = false;
-  std::string at;            ///< angle, or "repose"; empty: the first frame
-  std::string map;           ///< empty: that of the window
-  std::optional<int> grain;  ///< selected
+  std::string at;                   ///< angle, or "repose"; empty: the first frame
+  std::string map;                  ///< empty: that of the window
+  std::optional<int> grain;         ///< selected
+  std::vector<std::string> behind;  ///< runs or an ensemble, behind the curves
   std::string screenshot;
   std::string size = "1400x900";
   double scale = 1.0;
@@ -63,6 +69,9 @@ void show_first(ViewModel& model, const ViewArguments& arguments) {
     throw Error(ExitCode::usage, fmt::format("--grain {}: the grains are 0 to {}", *arguments.grain,
                                              model.statics().free_count - 1));
   model.state.selected = arguments.grain;
+  if (arguments.behind.empty()) return;
+  model.hold();
+  model.set_ghost(read_ghost(arguments.behind, MissingAnalysis::made));
 }
 
 /// Draws once what works in the background has come in: nothing new for half a second.
@@ -133,10 +142,38 @@ void open(const std::string& path, ViewModel& model) {
   std::fflush(stdout);
 }
 
+/// All plots as they are shown, or the one that is enlarged, as figures with their data.
+void save_plots(const std::string& folder, ViewModel& model) {
+  const Ghost* ghost = model.ghost();
+  std::vector<Figure> figures;
+  for (const Plot& plot : model.plots()) {
+    const bool shown = model.state.enlarged_plot.empty() || model.state.enlarged_plot == plot.name;
+    const bool empty = std::ranges::all_of(plot.series, [](const PlotSeries& of) { return of.x.empty(); });
+    if (shown && !empty)
+      figures.push_back(plot_figure(plot, model.state.plot_looks[plot.name], model.plot_marks(),
+                                    model.is_live() ? model.recording().output : model.path(),
+                                    ghost ? text_of(*ghost) : std::string()));
+  }
+  for (const Figure& figure : figures)
+    for (const std::string& name : figure_files(figure))
+      output_target((std::filesystem::path(folder) / name).string(), {.overwrite = false});
+  require_gnuplot();
+  for (const Figure& figure : figures) write_figure(figure, {}, folder, {.command_line = command_line()});
+  model.state.message =
+      fmt::format("written: {} plot{} in {}", figures.size(), figures.size() == 1 ? "" : "s", folder);
+}
+
+void put_behind(const std::string& path, ViewModel& model) {
+  model.hold();
+  model.set_ghost(read_ghost({path}, MissingAnalysis::refused));
+}
+
 /// What widgets ask for beyond the model. What cannot be done is said in the window.
 void serve(const GuiRequests& requests, GuiWindow& window, ViewModel& model) {
   try {
     if (!requests.save_png_path.empty()) save_picture(requests.save_png_path, window, model);
+    if (!requests.plots_folder.empty()) save_plots(requests.plots_folder, model);
+    if (!requests.behind_path.empty()) put_behind(requests.behind_path, model);
     if (!requests.open_path.empty()) open(requests.open_path, model);
   } catch (const Error& error) {
     model.state.message = error.what();
@@ -215,6 +252,11 @@ void add_view_command(CLI::App& app) {
   command->add_option("--map", arguments->map, "Begin with this map, or two overlaid as in gamma+forces");
   command->add_option("--grain", arguments->grain, "Select this grain, by its number")
       ->check(in_range(0, 1000000000));
+  command
+      ->add_option(
+          "--behind", arguments->behind,
+          "Draw another run, or an ensemble's mean and deviation, behind the curves; may be given again")
+      ->allow_extra_args(false);
   command->add_option("--size", arguments->size, "Width and height of the window, px")->capture_default_str();
   CLI::Option* screenshot =
       command

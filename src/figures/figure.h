@@ -50,6 +50,7 @@ struct Figure {
   /// What the script has to know beside the tables: gnuplot names and values ("gamma_c", "0.23"; texts in
   /// double quotes).
   std::vector<std::pair<std::string, std::string>> variables;
+  std::string script = {};  ///< of assets/figures; empty: that of its name
 };
 
 /// The files of a table and of a map, beside FIGURE.gp.

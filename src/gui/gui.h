@@ -26,6 +26,8 @@ struct GuiRequests {
   bool quit = false;
   std::string open_path;      ///< a run or scenario to open instead
   std::string save_png_path;  ///< write what is shown
+  std::string behind_path;    ///< a run or an ensemble to draw behind the curves
+  std::string plots_folder;   ///< write the plots shown there, as figures with their data
 };
 
 /// One picture of the whole window, between ImGui::NewFrame and ImGui::Render. Fills `places` with the places

@@ -99,6 +99,52 @@ void draw_more(Gui& gui) {
   ImGui::EndCombo();
 }
 
+/// A field for a path in a popup, and a button that takes it. True where it was taken.
+bool ask_path(Gui& gui, const char* field, std::string& path, const char* tip, const char* button,
+              const char* label) {
+  ImGui::SetNextItemWidth(22.0f * gui.em);
+  named_text(gui, field, "", path, tip);
+  bool taken = ImGui::IsItemFocused() && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false);
+  ImGui::SameLine();
+  taken = named_button(gui, button, label) || taken;
+  if (taken || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false)) ImGui::CloseCurrentPopup();
+  return taken && !path.empty();
+}
+
+/// Another run, or an ensemble, behind the curves.
+void draw_behind_choice(Gui& gui) {
+  ViewState& state = gui.model.state;
+  if (named_button(gui, "behind", "behind ...",
+                   "draw another run, or the band of an ensemble, behind the curves"))
+    ImGui::OpenPopup("behind");
+  if (ImGui::BeginPopup("behind")) {
+    if (ask_path(gui, "behind path", state.behind_path,
+                 "run that was analysed, folder of an ensemble, or ensemble.h5", "put behind", "Put behind"))
+      gui.requests.behind_path = state.behind_path;
+    ImGui::EndPopup();
+  }
+  const Ghost* ghost = gui.model.ghost();
+  if (!ghost) return;
+  ImGui::SameLine();
+  ImGui::TextUnformatted(text_of(*ghost).c_str());
+  ImGui::SameLine();
+  if (named_button(gui, "nothing behind", "x", "nothing behind the curves"))
+    gui.model.set_ghost(std::nullopt);
+}
+
+/// The plots shown as figures.
+void draw_export(Gui& gui) {
+  ViewState& state = gui.model.state;
+  if (named_button(gui, "export plots", "export ...",
+                   "write what the plots show as PDF, SVG and PNG with its data"))
+    ImGui::OpenPopup("export plots");
+  if (!ImGui::BeginPopup("export plots")) return;
+  if (ask_path(gui, "plots folder", state.plots_folder, "folder to write the plots to", "write plots",
+               state.enlarged_plot.empty() ? "Write all plots" : "Write this plot"))
+    gui.requests.plots_folder = state.plots_folder;
+  ImGui::EndPopup();
+}
+
 void draw_choices(Gui& gui) {
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted("over");
@@ -106,6 +152,10 @@ void draw_choices(Gui& gui) {
   draw_axis(gui);
   ImGui::SameLine();
   draw_more(gui);
+  ImGui::SameLine();
+  draw_export(gui);
+  ImGui::SameLine();
+  draw_behind_choice(gui);
 }
 
 }  // namespace

@@ -46,11 +46,12 @@ struct AxisRange {
 struct Axes {
   AxisRange x, y;
   ImVec2 low, high;  ///< upper left and lower right corner of the frame
-  bool log_y = false;
+  bool log_y = false, falling_x = false;
 
   double shown_y(double value) const { return log_y ? std::log10(value) : value; }
   float px(double value) const {
-    return low.x + static_cast<float>((value - x.low) / (x.high - x.low)) * (high.x - low.x);
+    const double share = falling_x ? x.high - value : value - x.low;
+    return low.x + static_cast<float>(share / (x.high - x.low)) * (high.x - low.x);
   }
   float py(double value) const {
     return high.y - static_cast<float>((shown_y(value) - y.low) / (y.high - y.low)) * (high.y - low.y);
@@ -58,13 +59,20 @@ struct Axes {
 };
 
 void find_ranges(const Plot& plot, const PlotLook& look, Axes& axes) {
-  for (const PlotSeries& series : plot.series)
-    for (std::size_t k = 0; k < series.x.size(); ++k) {
-      if (!std::isfinite(series.y[k]) || (axes.log_y && !(series.y[k] > 0.0))) continue;
-      if (look.zoomed && (series.x[k] < (*look.zoomed)[0] || series.x[k] > (*look.zoomed)[1])) continue;
-      axes.x.take(series.x[k]);
-      axes.y.take(axes.shown_y(series.y[k]));
+  const auto take = [&](double x, double y) {
+    if (!std::isfinite(y) || (axes.log_y && !(y > 0.0))) return;
+    if (look.zoomed && (x < (*look.zoomed)[0] || x > (*look.zoomed)[1])) return;
+    axes.x.take(x);
+    axes.y.take(axes.shown_y(y));
+  };
+  for (const PlotSeries& series : plot.series) {
+    for (std::size_t k = 0; k < series.x.size(); ++k) take(series.x[k], series.y[k]);
+    for (std::size_t k = 0; k < series.behind.x.size(); ++k) {
+      const double spread = std::isnan(series.behind.deviation[k]) ? 0.0 : series.behind.deviation[k];
+      take(series.behind.x[k], series.behind.mean[k] - spread);
+      take(series.behind.x[k], series.behind.mean[k] + spread);
     }
+  }
 }
 
 void draw_ticks(ImDrawList& list, const Axes& axes, float em) {
@@ -132,9 +140,39 @@ void draw_curve(ImDrawList& list, const Axes& axes, const PlotSeries& series, Im
   end_column();
 }
 
+/// A colour with another opacity.
+ImU32 with_alpha(ImU32 colour, int alpha) {
+  return (colour & ~IM_COL32_A_MASK) | (static_cast<ImU32>(alpha) << IM_COL32_A_SHIFT);
+}
+
+/// What stands behind a curve: the mean as a pale line, and a band of one deviation to either side.
+void draw_behind(ImDrawList& list, const Axes& axes, const GhostCurve& behind, ImU32 colour, float width) {
+  const ImDrawListFlags flags = list.Flags;
+  list.Flags &= ~ImDrawListFlags_AntiAliasedFill;  // or the seams between the parts of a band would show
+  const auto end_of = [&](std::size_t k, double side) {
+    const double y = behind.mean[k] + side * behind.deviation[k];
+    return ImVec2{axes.px(behind.x[k]), axes.log_y && !(y > 0.0) ? axes.high.y : axes.py(y)};
+  };
+  for (std::size_t k = 1; k < behind.x.size(); ++k)
+    if (std::isfinite(behind.deviation[k - 1]) && std::isfinite(behind.deviation[k]))
+      list.AddQuadFilled(end_of(k - 1, -1.0), end_of(k, -1.0), end_of(k, 1.0), end_of(k - 1, 1.0),
+                         with_alpha(colour, 38));
+  list.Flags = flags;
+  draw_curve(list, axes, {{}, behind.x, behind.mean}, with_alpha(colour, 110), width);
+}
+
 double x_at(const Axes& axes, float px) {
-  const float share = std::clamp((px - axes.low.x) / (axes.high.x - axes.low.x), 0.0f, 1.0f);
+  float share = std::clamp((px - axes.low.x) / (axes.high.x - axes.low.x), 0.0f, 1.0f);
+  if (axes.falling_x) share = 1.0f - share;
   return axes.x.low + static_cast<double>(share) * (axes.x.high - axes.x.low);
+}
+
+/// "0.12 ± 0.02"
+std::string text_behind(const GhostCurve& behind, double x) {
+  const double mean = value_near({{}, behind.x, behind.mean}, x);
+  const double deviation = value_near({{}, behind.x, behind.deviation}, x);
+  return fmt::format("{:.4g}", mean) +
+         (std::isnan(deviation) ? std::string() : fmt::format(" ± {:.2g}", deviation));
 }
 
 void show_values(const Plot& plot, const Axes& axes) {
@@ -143,8 +181,11 @@ void show_values(const Plot& plot, const Axes& axes) {
   const double x = x_at(axes, px);
   ImGui::BeginTooltip();
   rich_text(fmt::format("{}: {:.4g}", plot.x_title, x));
-  for (const PlotSeries& series : plot.series)
-    rich_text(fmt::format("{}: {:.4g}", series.name, value_near(series, x)));
+  for (const PlotSeries& series : plot.series) {
+    std::string text = fmt::format("{}: {:.4g}", series.name, value_near(series, x));
+    if (!series.behind.x.empty()) text += ", behind " + text_behind(series.behind, x);
+    rich_text(text);
+  }
   ImGui::EndTooltip();
 }
 
@@ -158,7 +199,8 @@ void draw_chosen(ImDrawList& list, const Plot& plot, const PlotLook& look, const
   }
   if (!look.chosen) return;
   const auto [low, high] = *look.chosen;
-  list.AddRectFilled({axes.px(low), axes.low.y}, {axes.px(high), axes.high.y}, IM_COL32(0, 90, 180, 40));
+  const auto [left_end, right_end] = std::minmax(axes.px(low), axes.px(high));
+  list.AddRectFilled({left_end, axes.low.y}, {right_end, axes.high.y}, IM_COL32(0, 90, 180, 40));
   for (std::size_t k = 0; k < plot.series.size(); ++k) {
     if (plot.series[k].law) continue;
     const RangeStatistics of = statistics_of(plot.series[k], low, high);
@@ -252,6 +294,7 @@ std::optional<double> draw_plot(Gui& gui, const Plot& plot, const ImVec2& size, 
   const float em = gui.em;
   Axes axes;
   axes.log_y = look.log_y.value_or(plot.log_y);
+  axes.falling_x = plot.falling_x;
   axes.low = {corner.x + 3.4f * em, corner.y + 1.5f * em};
   axes.high = {corner.x + size.x - 0.8f * em, corner.y + size.y - 2.5f * em};
   list.PushClipRect(corner, {corner.x + size.x, corner.y + size.y}, true);
@@ -279,6 +322,8 @@ std::optional<double> draw_plot(Gui& gui, const Plot& plot, const ImVec2& size, 
   draw_ticks(list, axes, em);
   list.PushClipRect(axes.low, axes.high, true);
   draw_marks(list, axes, marks, em);
+  for (std::size_t k = 0; k < plot.series.size(); ++k)
+    draw_behind(list, axes, plot.series[k].behind, curve_colour(k), 0.06f * em);
   for (std::size_t k = plot.series.size(); k-- > 0;)
     draw_curve(list, axes, plot.series[k], curve_colour(k), (plot.series[k].law ? 0.06f : 0.1f) * em);
   draw_chosen(list, plot, look, axes, em);

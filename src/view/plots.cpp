@@ -105,7 +105,10 @@ std::vector<Plot> empty_plots() {
 
 void name_axis(PlotAxis axis, std::vector<Plot>& plots) {
   for (Plot& plot : plots)
-    if (plot.along_run) plot.x_title = title_of(axis);
+    if (plot.along_run) {
+      plot.x_title = title_of(axis);
+      plot.falling_x = axis == PlotAxis::angle_left;
+    }
 }
 
 void plot_observables(std::span<const ObservableRow> rows, const RunStatics& statics,

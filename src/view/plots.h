@@ -35,12 +35,19 @@ struct PlotMarks {
   std::vector<double> ticks{};    ///< short ones, up from the axis: rearrangements
 };
 
+/// What stands behind a curve: the same of another run, or the mean of an ensemble.
+struct GhostCurve {
+  std::vector<double> x, mean;
+  std::vector<double> deviation;  ///< standard deviation over the runs; NaN where there is one
+};
+
 /// One curve along the run, and what is known of it.
 struct PlotSeries {
   std::string name;                                 ///< "p_o": short, for the legend
   std::vector<double> x, y;                         ///< places on the axis; NaN where there is none
   bool law = false;                                 ///< what theory says, beside what was measured
   std::optional<Quantity> quantity = std::nullopt;  ///< what it shows, where the table has it
+  GhostCurve behind{};                              ///< empty where nothing is
 };
 
 /// A plot beside the map: curves along the run, or over what else `x_title` says.
@@ -53,6 +60,7 @@ struct Plot {
   std::vector<PlotSeries> series;  ///< the first is what was measured, others laws or measures beside it
   std::string note{};              ///< rich text: what the curves depend on, "at 0.9 Γ_c"
   bool added = false;              ///< by the user, who can remove it
+  bool falling_x = false;          ///< the largest x is at the left, so that failure is at the right
 };
 
 /// "stress", "overloaded", "cluster", "lengths", "strain", "energy", "gamma", "residual", "iterations": the

@@ -83,6 +83,7 @@ void ViewModel::Data::plot_rows() { plot_observables(rows, statics(), abscissa()
 void ViewModel::Data::plot_values() {
   plot_frames(series->values(), frame_times(), statics().mean_diameter, abscissa(), plots);
   if (analysis) plot_stored(analysis->frames, frame_times(), statics().mean_diameter, abscissa(), plots);
+  plot_ghost(ghost ? &*ghost : nullptr, axis, series->rule().threshold_factor, plots);
 }
 
 void ViewModel::Data::note_thresholds(const OverloadRule& rule) {

@@ -4,6 +4,7 @@
 #include <mutex>
 
 #include "view/frame_series.h"
+#include "view/ghost.h"
 #include "view/replay.h"
 #include "view/scene.h"
 #include "view/timeline.h"
@@ -43,6 +44,7 @@ struct ViewModel::Data {
   std::vector<ObservableRow> rows;
   std::vector<Plot> plots = empty_plots();
   PlotAxis axis = PlotAxis::tilt;  ///< of the plots along the run
+  std::optional<Ghost> ghost;      ///< behind them
   std::string error;               ///< what has gone wrong since the last update
 
   // Of a run that is replayed.

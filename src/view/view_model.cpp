@@ -245,6 +245,13 @@ void ViewModel::set_plot_axis(PlotAxis axis) {
   }
 }
 
+void ViewModel::set_ghost(std::optional<Ghost> ghost) {
+  data_->ghost = std::move(ghost);
+  data_->plot_values();
+}
+
+const Ghost* ViewModel::ghost() const { return data_->ghost ? &*data_->ghost : nullptr; }
+
 PlotMarks ViewModel::plot_marks() const {
   const PlotAbscissa abscissa = data_->abscissa();
   PlotMarks marks;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "render/frame_view.h"
+#include "view/ghost.h"
 #include "view/inspection.h"
 #include "view/landmarks.h"
 #include "view/live_run.h"
@@ -127,6 +128,9 @@ class ViewModel {
   PlotAxis plot_axis() const;
   bool has_plot_axis(PlotAxis axis) const;
   void set_plot_axis(PlotAxis axis);
+  /// Another run, or an ensemble, behind the curves along the run; none takes it away.
+  void set_ghost(std::optional<Ghost> ghost);
+  const Ghost* ghost() const;  ///< null where there is none
   /// On that axis: the frame shown, theta_c, rearrangements.
   PlotMarks plot_marks() const;
   /// The frame nearest to a place on that axis (deg or s).

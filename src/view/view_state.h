@@ -37,6 +37,8 @@ struct ViewState {
   std::map<std::string, PlotLook> plot_looks;  ///< by the names of plots
   std::string quantity_filter;                 ///< part of the names of quantities offered for plots
   std::string enlarged_plot;                   ///< its name; empty: all are shown
+  std::string behind_path;                     ///< of a run or an ensemble to put behind the curves
+  std::string plots_folder = "talus-plots";    ///< where plots are written
   float picture_share = 0.0f;   ///< of the height, for the map; 0: as high as the bed, the plots get the rest
   bool bookmark_asked = false;  ///< a key has asked for the note of a bookmark
   std::string bookmark_note;    ///< what is being written

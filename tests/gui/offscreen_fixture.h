@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <functional>
 #include <stdexcept>
@@ -40,6 +41,10 @@ class Replay : public testing::Test {
     const auto k = static_cast<std::size_t>(grain);
     return {static_cast<float>((model_.frame().x[k] - x_min) / (x_max - x_min)),
             static_cast<float>((y_max - model_.frame().y[k]) / (y_max - y_min))};
+  }
+
+  const Plot& plot_called(const std::string& name) const {
+    return *std::ranges::find(model_.plots(), name, &Plot::name);
   }
 
   TemporaryFolder folder_;

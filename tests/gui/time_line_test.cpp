@@ -116,6 +116,47 @@ TEST_F(Replay, a_plot_of_another_quantity_is_added_and_removed) {
   EXPECT_FALSE(model_.plots().back().added);
 }
 
+TEST_F(Replay, another_run_is_asked_for_behind_the_curves_and_taken_away) {
+  gui_.click("behind");
+  gui_.click("behind path");
+  gui_.type("ensemble.h5");
+  gui_.click("put behind");
+  EXPECT_EQ(gui_.requests().behind_path, "ensemble.h5");
+  EXPECT_FALSE(gui_.has("behind path")) << "the question is gone";
+  EXPECT_FALSE(gui_.has("nothing behind"));
+  const Image alone = gui_.frame();
+  GhostRun run;
+  for (const double tilt : {0.0, 0.01}) run.frames.push_back({.tilt = tilt, .volume_strain = -0.001});
+  run.mean_diameter = 1.0;
+  model_.set_ghost(Ghost{"other.h5", {run}});
+  gui_.settle();
+  EXPECT_NE(gui_.frame().pixels, alone.pixels);
+  gui_.click("over time");
+  gui_.click("over tilt");
+  EXPECT_EQ(plot_called("strain").series[0].behind.x.size(), 2u) << "also after the axis was another";
+  gui_.click("nothing behind");
+  EXPECT_EQ(model_.ghost(), nullptr);
+  EXPECT_TRUE(plot_called("strain").series[0].behind.x.empty());
+}
+
+TEST_F(Replay, plots_are_asked_for_as_figures) {
+  gui_.click("export plots");
+  gui_.click("plots folder");
+  gui_.key('a', true);
+  gui_.type("my-plots");
+  gui_.click("write plots");
+  EXPECT_EQ(gui_.requests().plots_folder, "my-plots");
+}
+
+TEST_F(Replay, failure_is_at_the_right_of_what_is_left_to_it) {
+  Plot plot = empty_plots()[0];
+  std::vector<Plot> plots = {plot};
+  name_axis(PlotAxis::angle_left, plots);
+  EXPECT_TRUE(plots[0].falling_x);
+  name_axis(PlotAxis::time, plots);
+  EXPECT_FALSE(plots[0].falling_x);
+}
+
 TEST_F(Replay, an_announcement_stays_until_it_is_clicked) {
   EXPECT_FALSE(gui_.has("announcement"));
   model_.state.announcement = "The slope failed at 1.00°.";

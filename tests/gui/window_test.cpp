@@ -46,6 +46,9 @@ TEST(View, refuses_a_beginning_that_is_none) {
       {{"--at", "repose"}, "no frames"},
       {{"--map", "gamm"}, "expected one of"},
       {{"--grain", "100000"}, "0 to"}};
+  EXPECT_EQ(run_talus({"view", "bed.toml", "--screenshot", "view.png", "--behind", "none.h5"}, folder.path())
+                .exit_code,
+            66);
   for (const auto& [words, part] : cases) {
     std::vector<std::string> command = {"view", "bed.toml", "--screenshot", "view.png"};
     command.insert(command.end(), words.begin(), words.end());
@@ -93,6 +96,30 @@ TEST_F(Window, replays_a_run) {
   EXPECT_TRUE(desktop_->wait_for_title("0.00°")) << desktop_->title();
   click("play");
   EXPECT_TRUE(desktop_->wait_for_title("1.00°")) << desktop_->title();
+  desktop_->key("q");
+  EXPECT_EQ(end(), 0);
+}
+
+TEST_F(Window, puts_another_run_behind_its_curves_and_writes_them_as_figures) {
+  ASSERT_EQ(run_talus({"run", "bed.toml", "-q"}, folder_.path()).exit_code, 0);
+  ASSERT_EQ(run_talus({"run", "bed.toml", "-q", "--seed", "4", "-o", "other.h5"}, folder_.path()).exit_code,
+            0);
+  start({"bed.h5", "--behind", "other.h5"});
+  click("export plots");
+  click("write plots");
+  const std::string strain = folder_.path("talus-plots/plot-strain.json"),
+                    last = folder_.path("talus-plots/plot-iterations.json");
+  for (int wait = 0; wait < 600 && !std::filesystem::exists(last); ++wait)
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  ASSERT_TRUE(std::filesystem::exists(strain));
+  std::ifstream file(strain);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  EXPECT_NE(text.find("behind: other.h5"), std::string::npos) << text;
+  for (const char* ending : {".pdf", ".csv", "-behind.csv", ".gp"})
+    EXPECT_TRUE(std::filesystem::exists(folder_.path("talus-plots/plot-strain") + ending)) << ending;
+  click("nothing behind");
+  move_to("map");
+  EXPECT_TRUE(wait_until_gone("nothing behind"));
   desktop_->key("q");
   EXPECT_EQ(end(), 0);
 }

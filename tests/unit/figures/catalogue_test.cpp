@@ -15,9 +15,9 @@
 namespace talus {
 namespace {
 
-/// Scripts that no figure of the catalogue has: what all begin with, and the figures of `talus perturb`
-/// and `talus reproduce`.
-const std::set<std::string_view> others = {"style", "perturb", "agreement"};
+/// Scripts that no figure of the catalogue has: what all begin with, the figures of `talus perturb`
+/// and `talus reproduce`, and plots of the window.
+const std::set<std::string_view> others = {"style", "perturb", "agreement", "plot"};
 
 TEST(Catalogue, EachFigureHasItsScript) {
   for (const FigureRecipe& recipe : figure_catalogue()) {

@@ -44,7 +44,7 @@ const std::map<std::string, std::vector<std::string>> rooms = {
       "core/visible_text.h"}},
     {"app",
      {"analysis/", "core/", "ensemble/", "export/", "figures/", "gui/", "io/", "pictures/", "problems/",
-      "render/", "scenario/", "session/"}},
+      "render/", "scenario/", "session/", "view/"}},
 };
 
 /// Headers of other projects, and the only places that include them.

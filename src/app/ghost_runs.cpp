@@ -1,0 +1,63 @@
+#include "app/ghost_runs.h"
+
+#include <filesystem>
+#include <fmt/core.h>
+
+#include "app/figure_runs.h"
+#include "core/errors.h"
+#include "ensemble/averages_reader.h"
+#include "io/run_file.h"
+#include "view/frame_values.h"
+
+namespace talus {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Only a run can be without an analysis: an ensemble has the values of one.
+void refuse_unanalysed(const std::string& path) {
+  if (run_presence(path) == RunPresence::none || holds_averages(path)) return;
+  if (read_usable_analysis(path, RunFile::open(path))) return;
+  throw Error(ExitCode::bad_data, fmt::format("{} has no stored analysis, which curves behind others are "
+                                              "taken from; make one first: talus analyze {}",
+                                              path, path));
+}
+
+GhostRun ghost_of(const FigureRun& run) {
+  GhostRun ghost;
+  const FramesOfRise rise = last_rise_of(run);
+  for (const FrameRecord* frame : rise.frames) ghost.frames.push_back(*frame);
+  for (std::size_t k = 0; run.file && k < rise.frames.size(); ++k)
+    ghost.times.push_back(run.file->all_frame_times()[rise.first + k]);
+  for (const RunThreshold& threshold : run.analysis.thresholds) ghost.factors.push_back(threshold.factor);
+  ghost.theta_c = run.analysis.theta_c;
+  ghost.mean_diameter = run.mean_diameter;
+  // What is known of single grains is much, and no curve shows it.
+  for (FrameRecord& frame : ghost.frames)
+    for (FrameThreshold& at : frame.thresholds) {
+      at.lc = {};
+      at.cluster = {};
+    }
+  return ghost;
+}
+
+std::string name_of(const std::string& path) {
+  const fs::path given = fs::path(path).lexically_normal();
+  const std::string last = given.filename().string();
+  if (last == "ensemble.h5" && given.has_parent_path()) return given.parent_path().filename().string();
+  return last.empty() ? given.parent_path().filename().string() : last;
+}
+
+}  // namespace
+
+Ghost read_ghost(const std::vector<std::string>& paths, MissingAnalysis missing) {
+  if (missing == MissingAnalysis::refused)
+    for (const std::string& path : paths) refuse_unanalysed(path);
+  Ghost ghost;
+  for (const FigureRun& run : read_figure_input(paths, {}, {}).runs) ghost.runs.push_back(ghost_of(run));
+  ghost.name = name_of(paths.front());
+  if (paths.size() > 1) ghost.name += fmt::format(" and {} more", paths.size() - 1);
+  return ghost;
+}
+
+}  // namespace talus
