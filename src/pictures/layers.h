@@ -32,6 +32,13 @@ std::string caption_of(const Frame& frame, const MapSettings& settings);
 /// Grains in the colours of their values.
 MapLayer scaled_layer(const std::string& title, const Scale& scale, std::vector<double> values,
                       const Bar& bar);
+/// The same where those without a value (NaN) only show where they are.
+MapLayer scaled_layer_with_outlines(const std::string& title, const Scale& scale, std::vector<double> values,
+                                    const Bar& bar);
+
+/// The map that layers make of a frame, with its furniture: what make_map does of those of its settings.
+FrameView compose_map(const MapFrame& frame, const MapSettings& settings, const MapExtent& extent,
+                      std::vector<MapLayer> layers);
 
 // stress_layers.cpp
 MapLayer gamma_layer(const MapFrame& of, const MapSettings& settings, const ScaleChoice& choice);

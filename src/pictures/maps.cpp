@@ -154,6 +154,11 @@ MapLayer scaled_layer(const std::string& title, const Scale& scale, std::vector<
   return {title, looks_of(scale, values), {}, {{bar}, {}}, std::move(values), scale};
 }
 
+MapLayer scaled_layer_with_outlines(const std::string& title, const Scale& scale, std::vector<double> values,
+                                    const Bar& bar) {
+  return {title, looks_or_outlines(scale, values), {}, {{bar}, {}}, std::move(values), scale};
+}
+
 MapExtent bed_extent(const RunStatics& statics) { return {0.0, statics.length, 0.0, 0.0}; }
 
 void extend(MapExtent& extent, const BedFrame& bed) {
@@ -183,6 +188,11 @@ FrameView make_map(const MapFrame& frame, const MapSettings& settings, const Map
   std::vector<MapLayer> layers;
   for (std::size_t k = 0; k < settings.layers.size(); ++k)
     layers.push_back(make_layer(frame, settings, extent, k));
+  return compose_map(frame, settings, extent, std::move(layers));
+}
+
+FrameView compose_map(const MapFrame& frame, const MapSettings& settings, const MapExtent& extent,
+                      std::vector<MapLayer> layers) {
   std::vector<std::vector<GrainLook>> looks;
   for (MapLayer& layer : layers)
     if (!layer.looks.empty()) looks.push_back(std::move(layer.looks));

@@ -1,0 +1,158 @@
+#include "pictures/change_map.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <fmt/core.h>
+#include <utility>
+
+#include "analysis/contact_changes.h"
+#include "core/trigonometry.h"
+#include "pictures/motion.h"
+
+namespace talus {
+namespace {
+
+/// Told from the orange and blue of the scale, from white, and from each other in a gray print.
+constexpr Colour gained_colour{0, 105, 60}, lost_colour{215, 30, 150};
+constexpr double gained_half_width = 0.10, lost_half_width = 0.10;  // D
+
+bool gives_numbers(MapKind kind) {
+  switch (kind) {
+    case MapKind::overloaded:
+    case MapKind::clusters:
+    case MapKind::forces:
+    case MapKind::critical:
+    case MapKind::rigid:
+    case MapKind::size:  // does not change
+    case MapKind::dyed:
+      return false;
+    default:
+      return true;
+  }
+}
+
+/// " 12.00° minus 5.00°" in a title.
+std::string between(const MapFrame& of, const Frame& before) {
+  return fmt::format("{:.2f}° minus {:.2f}°", degrees(of.frame.tilt), degrees(before.tilt));
+}
+
+std::string begun_small(std::string text) {
+  if (!text.empty()) text[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(text[0])));
+  return text;
+}
+
+MapLayer difference_layer(const MapFrame& of, const Frame& before, MapSettings settings,
+                          const MapExtent& extent) {
+  settings.range_low.reset();
+  settings.range_high.reset();
+  settings.colours.reset();
+  const MapLayer after = make_layer(of, settings, extent, 0);
+  const MapFrame reference{{before, of.statics}};
+  const MapLayer earlier = make_layer(reference, settings, extent, 0);
+  const Scale& scale = after.scale.value();
+  std::vector<double> changes(after.values.size());
+  for (std::size_t i = 0; i < changes.size(); ++i)
+    changes[i] = scale.logarithmic ? std::log10(after.values[i] / earlier.values[i])
+                                   : after.values[i] - earlier.values[i];
+  for (double& change : changes)
+    if (!std::isfinite(change)) change = not_known;
+  const double half = 0.5 * (scale.logarithmic ? std::log10(scale.high / scale.low) : scale.high - scale.low);
+  const Scale about_zero{ColourMap::diverging, -half, half};
+  const std::string& unit = after.legend.bars.at(0).title;
+  return scaled_layer_with_outlines(
+      fmt::format("Change of {}, {}", begun_small(after.title), between(of, before)), about_zero,
+      std::move(changes), bar_of(about_zero, scale.logarithmic ? "in powers of ten" : "change of " + unit));
+}
+
+Line line_between(double x0, double y0, double x1, double y1, double half_width, const Colour& colour) {
+  return {static_cast<float>(x0), static_cast<float>(y0),         static_cast<float>(x1),
+          static_cast<float>(y1), static_cast<float>(half_width), colour};
+}
+
+/// Where body b of contact c of `at` is now, seen from its grain a: a vector, m. Of a plane, along the
+/// normal.
+Vec2 towards(const MapFrame& of, const Frame& at, Index c) {
+  const FrameContacts& contacts = at.contacts;
+  const Index a = contacts.a[c], b = contacts.b[c];
+  if (b >= at.grain_count())
+    return {of.statics.radius[a] * contacts.nx[c], of.statics.radius[a] * contacts.ny[c]};
+  // The images that touched then, wherever the edge of the period is between them now.
+  const Index image = contacts.shift[c] + at.image[a] - at.image[b];
+  const Index shift = image - of.frame.image[a] + of.frame.image[b];
+  const double period = of.statics.periodic ? shift * of.statics.length : 0.0;
+  return {of.frame.x[b] + period - of.frame.x[a], of.frame.y[b] - of.frame.y[a]};
+}
+
+void add_gained(std::vector<Line>& lines, const MapFrame& of, Index c) {
+  const Index a = of.frame.contacts.a[c];
+  const double x = of.frame.x[a], y = of.frame.y[a];
+  const Vec2 way = towards(of, of.frame, c);
+  lines.push_back(
+      line_between(x, y, x + way.x, y + way.y, gained_half_width * of.statics.mean_diameter, gained_colour));
+}
+
+/// From the centre of each grain to its edge, so that what lies between them stays free, however far they
+/// are apart by now.
+void add_lost(std::vector<Line>& lines, const MapFrame& of, const Frame& before, Index c) {
+  const Index a = before.contacts.a[c], b = before.contacts.b[c];
+  const Vec2 way = towards(of, before, c);
+  const double distance = std::hypot(way.x, way.y);
+  if (!(distance > 0.0)) return;
+  const Vec2 along{way.x / distance, way.y / distance};
+  const double half_width = lost_half_width * of.statics.mean_diameter;
+  const auto stub = [&](double x, double y, double length) {
+    lines.push_back(line_between(x, y, x + length * along.x, y + length * along.y, half_width, lost_colour));
+  };
+  stub(of.frame.x[a], of.frame.y[a], of.statics.radius[a]);
+  if (b < before.grain_count()) stub(of.frame.x[b], of.frame.y[b], -of.statics.radius[b]);
+}
+
+MapLayer contacts_layer(const MapFrame& of, const Frame& before) {
+  const ContactChanges changes = contact_changes(before, of.frame);
+  MapLayer layer;
+  layer.title = "Contacts gained and lost";
+  for (const Index c : changes.lost) add_lost(layer.lines, of, before, c);
+  for (const Index c : changes.gained) add_gained(layer.lines, of, c);
+  const auto swatch = [](const Colour& colour, const std::string& label) {
+    return Swatch{Swatch::Kind::line, colour, colour, 0.25, label};
+  };
+  layer.legend.swatches = {swatch(gained_colour, fmt::format("contacts gained: {}", changes.gained.size())),
+                           swatch(lost_colour, fmt::format("lost: {}", changes.lost.size()))};
+  return layer;
+}
+
+}  // namespace
+
+MapKind changing_kind(const MapLayers& layers) {
+  for (const MapKind kind : layers)
+    if (gives_numbers(kind)) return kind;
+  return any_layer(layers, shows_gamma) ? MapKind::gamma : MapKind::displacement;
+}
+
+std::vector<MapLayer> change_layers(const MapFrame& frame, const MapSettings& settings,
+                                    const MapExtent& extent) {
+  const Frame& before = frame.reference != nullptr ? *frame.reference : frame.frame;
+  const MapKind kind = changing_kind(settings.layers);
+  MapSettings of_kind = settings;
+  of_kind.layers = {kind};
+  std::vector<MapLayer> layers;
+  if (needs_reference(kind)) {
+    MapFrame moved = frame;
+    moved.reference = &before;
+    moved.per_degree = false;
+    layers.push_back(motion_layer(kind, moved, settings.motion, {}));
+  } else {
+    layers.push_back(difference_layer(frame, before, of_kind, extent));
+  }
+  layers.push_back(contacts_layer(frame, before));
+  return layers;
+}
+
+FrameView make_change_map(const MapFrame& frame, const MapSettings& settings, const MapExtent& extent) {
+  FrameView view = compose_map(frame, settings, extent, change_layers(frame, settings, extent));
+  view.coloured = true;
+  return view;
+}
+
+}  // namespace talus
