@@ -26,6 +26,7 @@
 #include "gui/window.h"
 #include "io/run_file.h"
 #include "pictures/map_kind.h"
+#include "render/arrange.h"
 #include "render/png.h"
 #include "scenario/scenario.h"
 
@@ -41,6 +42,10 @@ struct ViewArguments {
   std::string map;                  ///< empty: that of the window
   std::optional<int> grain;         ///< selected
   std::vector<std::string> behind;  ///< runs or an ensemble, behind the curves
+  std::string beside;               ///< a run in the second view
+  std::string beside_map;           ///< of the second view
+  std::string beside_minus;         ///< angle of the frame that the second view is shown minus
+  std::string link;                 ///< empty: as the runs suggest
   std::string screenshot;
   std::string size = "1400x900";
   double scale = 1.0;
@@ -61,6 +66,27 @@ std::pair<int, int> parse_size(const std::string& text) {
   return {width, height};
 }
 
+/// The names of clocks that link two runs.
+const std::vector<std::pair<std::string, PlotAxis>> clocks = {
+    {"tilt", PlotAxis::tilt}, {"angle-left", PlotAxis::angle_left}, {"time", PlotAxis::time}};
+
+/// The second view, where it is asked for.
+void show_beside(ViewModel& model, const ViewArguments& arguments) {
+  BesideState& beside = model.state.beside;
+  if (!arguments.beside_map.empty()) beside.layers = map_layers(arguments.beside_map);
+  if (!arguments.beside_minus.empty()) beside.minus = model.tilt_of(arguments.beside_minus);
+  beside.shown = beside.minus || !beside.layers.empty();
+  if (arguments.beside.empty()) return;
+  model.open_beside(arguments.beside);
+  if (arguments.link.empty()) return;
+  beside.clock = std::ranges::find(clocks, arguments.link, &std::pair<std::string, PlotAxis>::first)->second;
+  if (!model.has_clock(beside.clock))
+    throw Error(ExitCode::usage,
+                fmt::format("--link {}: both runs need an angle of repose, and the slope of {} "
+                            "has not failed; link them by the tilt",
+                            arguments.link, model.theta_c_known() ? arguments.beside : arguments.file));
+}
+
 /// What is shown first.
 void show_first(ViewModel& model, const ViewArguments& arguments) {
   if (!arguments.map.empty()) model.state.map.layers = map_layers(arguments.map);
@@ -69,9 +95,11 @@ void show_first(ViewModel& model, const ViewArguments& arguments) {
     throw Error(ExitCode::usage, fmt::format("--grain {}: the grains are 0 to {}", *arguments.grain,
                                              model.statics().free_count - 1));
   model.state.selected = arguments.grain;
-  if (arguments.behind.empty()) return;
-  model.hold();
-  model.set_ghost(read_ghost(arguments.behind, MissingAnalysis::made));
+  if (!arguments.behind.empty()) {
+    model.hold();
+    model.set_ghost(read_ghost(arguments.behind, MissingAnalysis::made));
+  }
+  show_beside(model, arguments);
 }
 
 /// Draws once what works in the background has come in: nothing new for half a second.
@@ -128,7 +156,10 @@ std::string close(ViewModel model) {
 
 void save_picture(const std::string& path, GuiWindow& window, ViewModel& model) {
   output_target(path, {.overwrite = false});
-  write_png(path, window.draw_image(model.furnished_map(), picture_width));
+  Image picture = window.draw_image(model.furnished_map(), picture_width);
+  if (model.state.beside.shown)
+    picture = beside({picture, window.draw_image(model.furnished_map_beside(), picture_width)});
+  write_png(path, picture);
   model.state.message = "written: " + path;
 }
 
@@ -257,6 +288,20 @@ void add_view_command(CLI::App& app) {
           "--behind", arguments->behind,
           "Draw another run, or an ensemble's mean and deviation, behind the curves; may be given again")
       ->allow_extra_args(false);
+  CLI::Option* beside = command->add_option("--beside", arguments->beside,
+                                            "Show this run (RUN.h5) beside a replay, each at the same angle");
+  command->add_option("--beside-map", arguments->beside_map,
+                      "Show this map in a second view [that of the first]");
+  command->add_option("--beside-minus", arguments->beside_minus,
+                      "Show in a second view what has changed since the frame at this angle, or at repose: "
+                      "grains, and contacts gained and lost");
+  command
+      ->add_option(
+          "--link", arguments->link,
+          "Frames of two runs belong together by tilt, angle-left (theta_c - theta) or time [tilt, or "
+          "time where the tilt of both follows a programme]")
+      ->check(CLI::IsMember({"tilt", "angle-left", "time"}))
+      ->needs(beside);
   command->add_option("--size", arguments->size, "Width and height of the window, px")->capture_default_str();
   CLI::Option* screenshot =
       command

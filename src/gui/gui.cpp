@@ -24,7 +24,8 @@ float height_of_plots(const ViewModel& model, float width, float height, float e
   if (!model.state.show_plots || height < 2.2f * least) return 0.0f;
   const float wanted = model.state.picture_share > 0.0f
                            ? model.state.picture_share * height
-                           : map_area_height(width / static_cast<float>(model.bed_aspect()), em);
+                           : map_area_height(width / static_cast<float>(model.bed_aspect()), em) *
+                                 (model.state.beside.shown ? 2.1f : 1.0f);
   return height - std::clamp(wanted, least, height - least);
 }
 

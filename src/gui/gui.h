@@ -17,9 +17,9 @@ struct WidgetPlace {
   float x0 = 0.0f, y0 = 0.0f, x1 = 0.0f, y1 = 0.0f;
 };
 
-/// How the map widget gets its picture: draws the view into a texture of that size and returns its id for
-/// ImGui.
-using DrawMap = std::function<void*(const FrameView& view, int width, int height)>;
+/// How the map widget gets its picture: draws the view into a texture of that width and returns its id for
+/// ImGui. Each of the pictures that are shown at once has its own texture: 0, and 1 for the second view.
+using DrawMap = std::function<void*(const FrameView& view, int width, std::size_t texture)>;
 
 /// Requests of the widgets to the program around them.
 struct GuiRequests {

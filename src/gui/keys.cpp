@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "core/trigonometry.h"
+#include "gui/beside_actions.h"
 #include "gui/panels.h"
 #include "gui/run_actions.h"
 
@@ -33,6 +34,7 @@ constexpr KeyLine key_lines[] = {
     {"n", "select the next grain; escape: none"},
     {"i, y", "outline its cluster; draw its neighbourhoods"},
     {"B", "bookmark of the frame shown, with a note"},
+    {"P, D", "a second view; in it, what changes from the frame shown on"},
     {"g, b", "run to the angle; deposit the bed"},
     {"r", "reset, with the seed given"},
     {"s", "save the state of a run that is computed"},
@@ -196,6 +198,12 @@ void act(Gui& gui, ImWchar key) {
       break;
     case 'B':
       model.state.bookmark_asked = true;
+      break;
+    case 'P':
+      toggle_beside(gui);
+      break;
+    case 'D':
+      show_change_since_here(gui);
       break;
     case 'R':
     case 'M':

@@ -18,11 +18,20 @@ void make_room(float width) {
     ImGui::NewLine();
 }
 
+float text_width(const std::string& text) {
+  return rich_width(*ImGui::GetFont(), ImGui::GetFontSize(), text);
+}
+
+constexpr float bar_length = 12.0f;  // em
+
+float width_of(const Bar& bar, float em) { return text_width(bar.title) + (0.6f + bar_length + 4.0f) * em; }
+
+float width_of(const Swatch& swatch, float em) { return 2.4f * em + text_width(swatch.label); }
+
 void draw_bar(const Bar& bar, float em) {
   const ImFont& font = *ImGui::GetFont();
-  const float size = ImGui::GetFontSize(), title = rich_width(font, size, bar.title);
-  float length = 12.0f * em;
-  const float width = title + 0.6f * em + length + 4.0f * em;
+  const float size = ImGui::GetFontSize(), title = text_width(bar.title), length = bar_length * em;
+  const float width = width_of(bar, em);
   make_room(width);
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -49,8 +58,8 @@ void draw_bar(const Bar& bar, float em) {
 }
 
 void draw_swatch(const Swatch& swatch, float em) {
-  const float label = rich_width(*ImGui::GetFont(), ImGui::GetFontSize(), swatch.label);
-  make_room(2.4f * em + label);
+  const float width = width_of(swatch, em);
+  make_room(width);
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const float middle = corner.y + 0.55f * em;
@@ -62,11 +71,29 @@ void draw_swatch(const Swatch& swatch, float em) {
     list.AddCircleFilled({corner.x + 1.0f * em, middle}, 0.36f * em, colour_of(swatch.fill));
   }
   add_rich_text(list, {corner.x + 1.9f * em, corner.y}, legend_ink, swatch.label);
-  ImGui::Dummy({2.4f * em + label, 2.4f * em});
+  ImGui::Dummy({width, 2.4f * em});
   ImGui::SameLine();
 }
 
 }  // namespace
+
+int legend_rows(const FrameView& view, float width) {
+  const float em = ImGui::GetFontSize(), between = ImGui::GetStyle().ItemSpacing.x;
+  int rows = 1;
+  float taken = 0.0f;
+  const auto place = [&](float next) {
+    if (taken > 0.0f && taken + next > width) {
+      ++rows;
+      taken = 0.0f;
+    }
+    taken += next + between;
+  };
+  for (const Legend& legend : view.legends) {
+    for (const Bar& bar : legend.bars) place(width_of(bar, em));
+    for (const Swatch& swatch : legend.swatches) place(width_of(swatch, em));
+  }
+  return rows;
+}
 
 void draw_legends(const FrameView& view) {
   const float em = ImGui::GetFontSize();

@@ -52,27 +52,47 @@ void draw_gravity(const ImVec2& middle, float em, double fall) {
   list.AddText({middle.x - 1.5f * em, middle.y - 0.5f * em}, ink, "g");
 }
 
-void use_mouse(Gui& gui, const ShownMap& shown) {
+/// What is under the mouse in the first view, or in the second.
+void tell_grain(const Gui& gui, const MapPane& pane, const Point& place, Index grain) {
+  const ViewModel& model = gui.model;
+  const ViewModel& of = pane.beside && model.run_beside() ? *model.run_beside() : model;
+  const double diameter = of.mean_diameter();
+  ImGui::BeginTooltip();
+  ImGui::Text("%.1f, %.1f D: %s", place.x / diameter, place.y / diameter, grain_text(of, grain).c_str());
+  const GrainValues& shown = pane.beside ? model.values_beside() : model.values();
+  const auto k = static_cast<std::size_t>(grain);
+  const bool told = !pane.beside && shows(model.state.map.layers, MapKind::gamma);
+  if (!told && k < shown.values.size() && !std::isnan(shown.values[k]))
+    rich_text(fmt::format("{}: {:.4g}", shown.title, shown.values[k]));
+  ImGui::EndTooltip();
+}
+
+void use_mouse(Gui& gui, const MapPane& pane, const ShownMap& shown) {
   const ImGuiIO& io = ImGui::GetIO();
-  ViewState& state = gui.model.state;
+  ViewModel& model = gui.model;
+  ViewState& state = model.state;
+  const auto in_first = [&](const Point& of) {
+    return pane.beside ? model.place_in_first(of.x, of.y) : Vec2{of.x, of.y};
+  };
   const Point place = shown.bed_place(io.MousePos);
+  const Vec2 linked = in_first(place);
   if (ImGui::IsItemHovered()) {
     if (io.MouseWheel != 0.0f)
-      zoom_about(gui, std::pow(1.25, static_cast<double>(io.MouseWheel)), place.x, place.y);
-    const double diameter = gui.model.mean_diameter();
-    const std::optional<Index> grain = gui.model.grain_at(place.x, place.y);
-    if (grain && !ImGui::IsMouseDown(0))
-      ImGui::SetTooltip("%.1f, %.1f D: %s", place.x / diameter, place.y / diameter,
-                        grain_text(gui.model, *grain).c_str());
+      zoom_about(gui, std::pow(1.25, static_cast<double>(io.MouseWheel)), linked.x, linked.y);
+    const std::optional<Index> grain =
+        pane.beside ? model.grain_beside_at(place.x, place.y) : model.grain_at(place.x, place.y);
+    if (grain && !ImGui::IsMouseDown(0)) tell_grain(gui, pane, place, *grain);
     const bool dragged = io.MouseDragMaxDistanceSqr[0] > 16.0f;
-    if (ImGui::IsMouseReleased(0) && !dragged) state.selected = grain;
+    const bool own = !pane.beside || model.run_beside() == nullptr;  // the inspector tells of the first run
+    if (ImGui::IsMouseReleased(0) && !dragged && own) state.selected = grain;
   }
   const bool panning =
       ImGui::IsItemActive() || (ImGui::IsItemHovered() && (io.MouseDown[1] || io.MouseDown[2]));
   if (panning && (io.MouseDelta.x != 0.0f || io.MouseDelta.y != 0.0f)) {
-    const Point before = shown.bed_place({io.MousePos.x - io.MouseDelta.x, io.MousePos.y - io.MouseDelta.y});
-    state.camera.centre_x -= place.x - before.x;
-    state.camera.centre_y -= place.y - before.y;
+    const Vec2 before =
+        in_first(shown.bed_place({io.MousePos.x - io.MouseDelta.x, io.MousePos.y - io.MouseDelta.y}));
+    state.camera.centre_x -= linked.x - before.x;
+    state.camera.centre_y -= linked.y - before.y;
   }
 }
 
@@ -92,27 +112,34 @@ float map_area_height(float picture, float em) {
   return picture + (1.0f + legend_lines) * em + 2.0f * (style.WindowPadding.y + style.ItemSpacing.y);
 }
 
+void draw_map_pane(Gui& gui, const MapPane& pane, const ImVec2& room) {
+  const int pixels = std::max(static_cast<int>(room.x), smallest_width);
+  const double aspect = static_cast<double>(room.x) / static_cast<double>(room.y);
+  const FrameView view = pane.beside ? gui.model.map_beside(aspect) : gui.model.map(aspect);
+  const Layout layout = lay_out(view, pixels, embedded_font());
+  const float shown_height = room.x * static_cast<float>(layout.height) / static_cast<float>(layout.width);
+  ShownMap shown{ImGui::GetCursorScreenPos(), layout.bed.camera};
+  const ImVec2 end{shown.corner.x + room.x, shown.corner.y + std::min(shown_height, room.y)};
+  const char* name = pane.beside ? "map beside" : "map";
+  ImGui::InvisibleButton(name, {room.x, std::max(1.0f, end.y - shown.corner.y)},
+                         ImGuiButtonFlags_MouseButtonLeft);
+  note_place(gui, name);
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.AddImage(gui.draw_map(view, pixels, pane.beside ? 1 : 0), shown.corner, end, {0.0f, 0.0f},
+                {1.0f, (end.y - shown.corner.y) / shown_height});
+  const ImVec2 under{shown.corner.x + room.x - 1.4f * gui.em, ImGui::GetCursorScreenPos().y + 1.2f * gui.em};
+  if (room.x > 26.0f * gui.em && pane.gravity) draw_gravity(under, gui.em, view.tilt - view.turn);
+  use_mouse(gui, pane, shown);
+}
+
 void draw_map_area(Gui& gui) {
+  if (gui.model.state.beside.shown && draw_pair(gui)) return;
   const float width = ImGui::GetContentRegionAvail().x;
   const FrameView& annotated = gui.model.annotated_map();
   draw_caption(annotated, width);
   const ImVec2 room{std::max(width, 1.0f),
                     std::max(ImGui::GetContentRegionAvail().y - legend_lines * gui.em, 4.0f * gui.em)};
-  const int pixels = std::max(static_cast<int>(room.x), smallest_width);
-  const FrameView view = gui.model.map(static_cast<double>(room.x) / static_cast<double>(room.y));
-  const Layout layout = lay_out(view, pixels, embedded_font());
-  const float shown_height = room.x * static_cast<float>(layout.height) / static_cast<float>(layout.width);
-  ShownMap shown{ImGui::GetCursorScreenPos(), layout.bed.camera};
-  const ImVec2 end{shown.corner.x + room.x, shown.corner.y + std::min(shown_height, room.y)};
-  ImGui::InvisibleButton("map", {room.x, std::max(1.0f, end.y - shown.corner.y)},
-                         ImGuiButtonFlags_MouseButtonLeft);
-  note_place(gui, "map");
-  ImDrawList& list = *ImGui::GetWindowDrawList();
-  list.AddImage(gui.draw_map(view, pixels, static_cast<int>(room.y)), shown.corner, end, {0.0f, 0.0f},
-                {1.0f, (end.y - shown.corner.y) / shown_height});
-  const ImVec2 under{shown.corner.x + room.x - 1.4f * gui.em, ImGui::GetCursorScreenPos().y + 1.2f * gui.em};
-  if (room.x > 26.0f * gui.em) draw_gravity(under, gui.em, view.tilt - view.turn);
-  use_mouse(gui, shown);
+  draw_map_pane(gui, {}, room);
   draw_legends(gui.model.annotated_map());
 }
 

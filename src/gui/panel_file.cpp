@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "gui/beside_actions.h"
 #include "gui/panels.h"
 #include "gui/run_actions.h"
 
@@ -35,14 +36,20 @@ std::vector<Entry> entries_of(const fs::path& folder) {
 
 void draw_browser(Gui& gui) {
   ViewState& state = gui.model.state;
-  ImGui::TextWrapped("Open a run or a scenario: choose it, or drop it on the window.");
+  ImGui::TextWrapped(
+      "Open a run or a scenario: choose it, or drop it on the window. With shift a run is shown beside "
+      "this one.");
   ImGui::BeginChild("files", {0.0f, 12.0f * gui.em}, true);
   for (const Entry& entry : entries_of(state.folder.empty() ? fs::current_path() : fs::path(state.folder))) {
     if (ImGui::Selectable(entry.label.c_str())) {
-      if (entry.folder)
+      if (entry.folder) {
         state.folder = entry.path;
-      else
+      } else if (ImGui::GetIO().KeyShift) {
+        state.beside.path = entry.path;
+        show_run_beside(gui);
+      } else {
         gui.requests.open_path = entry.path;
+      }
     }
     note_place(gui, "file " + entry.label);
   }

@@ -98,6 +98,8 @@ void draw_map_panel(Gui& gui) {
                "what coarse, density, stress, shear_rate and temperature average over, a diameter: , and .");
   choose_reference(gui);
   ImGui::Separator();
+  choose_beside(gui);
+  ImGui::Separator();
   named_checkbox(gui, "turned", "turned to the slope", state.map.turned, "t");
   named_checkbox(
       gui, "neighbours", "clusters of neighbours", state.map.joined_by_neighbours,

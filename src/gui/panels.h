@@ -21,6 +21,17 @@ void draw_plots(Gui& gui);
 void draw_time_line(Gui& gui);
 /// The map with its title and legend, the mouse on it.
 void draw_map_area(Gui& gui);
+/// A picture of the bed with the mouse on it: the map, or the second view.
+struct MapPane {
+  bool beside = false;
+  bool gravity = true;  ///< its arrow is drawn on the right below
+};
+void draw_map_pane(Gui& gui, const MapPane& pane, const ImVec2& room);
+/// The map and the second view, beside each other or one above the other, whichever shows more. False where
+/// there is no room for two, which the message says; nothing is drawn then.
+bool draw_pair(Gui& gui);
+/// What is shown beside the map, in the panel of maps.
+void choose_beside(Gui& gui);
 /// What the map tells of a grain under the mouse: its gamma on maps that show it.
 std::string grain_text(const ViewModel& model, Index grain);
 /// The height of the map with its title and legend around a picture of `picture` px.
@@ -30,6 +41,8 @@ void draw_help(Gui& gui);
 
 /// The legends of a view in a row, in the available width.
 void draw_legends(const FrameView& view);
+/// How many rows they have in a width, px.
+int legend_rows(const FrameView& view, float width);
 
 /// Carries out what the pressed keys mean.
 void handle_keys(Gui& gui);

@@ -12,6 +12,16 @@ namespace {
 /// As ImGui names textures.
 void* texture_id(GLuint texture) { return reinterpret_cast<void*>(static_cast<std::uintptr_t>(texture)); }
 
+/// A context that somebody else owns, and that is current.
+class SameContext final : public Context {
+ public:
+  explicit SameContext(const Context& context) : context_(context) {}
+  Function function(const char* name) const override { return context_.function(name); }
+
+ private:
+  const Context& context_;
+};
+
 GLuint upload_font(const Gl& gl, ImFontAtlas& atlas) {
   unsigned char* coverage = nullptr;
   int width = 0, height = 0;
@@ -27,7 +37,8 @@ GLuint upload_font(const Gl& gl, ImFontAtlas& atlas) {
 
 void GuiScreen::ContextDeleter::operator()(ImGuiContext* context) const { ImGui::DestroyContext(context); }
 
-GuiScreen::GuiScreen(std::unique_ptr<Context> context, float scale) : gl_(load_gl(*context)) {
+GuiScreen::GuiScreen(std::unique_ptr<Context> context, float scale)
+    : context_(context.get()), gl_(load_gl(*context)) {
   map_ = std::make_unique<MapTexture>(std::move(context), gl_);
   painter_ = std::make_unique<DrawDataPainter>(gl_);
   imgui_.reset(ImGui::CreateContext());
@@ -57,8 +68,11 @@ GuiRequests GuiScreen::draw(ViewModel& model, const Surface& surface, int width,
   own.DeltaTime = std::max(static_cast<float>(seconds), 1e-4f);  // ImGui accepts none that is zero
   input_.hand_over(own);
   ImGui::NewFrame();
-  const DrawMap draw_map = [&](const FrameView& view, int map_width, int /*map_height: that of the view*/) {
-    return texture_id(map_->draw(view, static_cast<int>(static_cast<float>(map_width) * pixels)));
+  const DrawMap draw_map = [&](const FrameView& view, int map_width, std::size_t texture) {
+    if (texture > 0 && !map_beside_)
+      map_beside_ = std::make_unique<MapTexture>(std::make_unique<SameContext>(*context_), gl_);
+    MapTexture& map = texture > 0 ? *map_beside_ : *map_;
+    return texture_id(map.draw(view, static_cast<int>(static_cast<float>(map_width) * pixels)));
   };
   places_.clear();
   GuiRequests requests = draw_gui(model, draw_map, places_);

@@ -42,8 +42,10 @@ class GuiScreen {
     void operator()(ImGuiContext* context) const;
   };
 
+  const Context* context_;  ///< of map_
   Gl gl_;
-  std::unique_ptr<MapTexture> map_;  ///< owns the OpenGL context: destroyed last
+  std::unique_ptr<MapTexture> map_;         ///< owns the OpenGL context: destroyed last
+  std::unique_ptr<MapTexture> map_beside_;  ///< of the second view; null before it is first shown
   std::unique_ptr<DrawDataPainter> painter_;
   std::unique_ptr<ImGuiContext, ContextDeleter> imgui_;
   GLuint font_texture_ = 0;

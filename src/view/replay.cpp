@@ -14,15 +14,22 @@ constexpr double slowest = 1e-3;       // deg/s
 
 }  // namespace
 
-RunFrames::RunFrames(const std::string& path) : file_(RunFile::open(path)) {
-  if (file_.all_frame_tilts().empty())
+RunFrames::RunFrames(const std::string& path, std::shared_ptr<ReadingTurn> turn) : turn_(std::move(turn)) {
+  const std::scoped_lock lock(*turn_);
+  file_.emplace(RunFile::open(path));
+  if (file_->all_frame_tilts().empty())
     throw Error(ExitCode::bad_data,
                 path + " has no frames yet: there is nothing to show before the tilt begins");
 }
 
+RunFrames::~RunFrames() {
+  const std::scoped_lock lock(*turn_);  // closing the file is for one thread at a time, too
+  file_.reset();
+}
+
 std::shared_ptr<const Frame> RunFrames::read(std::size_t k) {
-  const std::scoped_lock lock(reading_);
-  return std::make_shared<const Frame>(file_.frame(k));
+  const std::scoped_lock lock(*turn_);
+  return std::make_shared<const Frame>(file_->frame(k));
 }
 
 Replay::Replay(std::shared_ptr<RunFrames> frames) : frames_(std::move(frames)) {}

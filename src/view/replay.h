@@ -5,6 +5,7 @@
 #include <deque>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -12,20 +13,29 @@
 
 namespace talus {
 
+/// Whose turn it is to read: HDF5 is for one thread at a time, also where the files are different ones. A
+/// thread may take it again while it has it.
+using ReadingTurn = std::recursive_mutex;
+
 /// The frames of a run file for two threads: one shows them while another goes through all of them.
 class RunFrames {
  public:
-  /// Throws as RunFile::open does, and Error(bad_data) where the run has no frames.
-  explicit RunFrames(const std::string& path);
+  /// Runs that are open at the same time share a turn. Throws as RunFile::open does, and Error(bad_data)
+  /// where the run has no frames.
+  explicit RunFrames(const std::string& path,
+                     std::shared_ptr<ReadingTurn> turn = std::make_shared<ReadingTurn>());
+  ~RunFrames();
+  RunFrames(const RunFrames&) = delete;
+  RunFrames& operator=(const RunFrames&) = delete;
 
   /// Header, tilts and results; before there is a second thread, also series.
-  const RunFile& file() const { return file_; }
+  const RunFile& file() const { return *file_; }
   /// Throws as RunFile::frame does.
   std::shared_ptr<const Frame> read(std::size_t k);
 
  private:
-  RunFile file_;
-  std::mutex reading_;
+  std::shared_ptr<ReadingTurn> turn_;
+  std::optional<RunFile> file_;
 };
 
 /// Which frame is shown, and how playing moves it on.

@@ -9,6 +9,7 @@
 #include "core/errors.h"
 #include "core/trigonometry.h"
 #include "pictures/bed_view.h"
+#include "pictures/change_map.h"
 #include "pictures/texts.h"
 
 namespace talus {
@@ -100,6 +101,34 @@ void add_boundary(FrameView& view, const BedFrame& bed) {
     add(std::max(0.0, view.x_min), 0.0, std::min(statics.length, view.x_max), 0.0);
 }
 
+/// What `draw` makes; where it cannot, the grains alone, with the reason as title.
+template <typename Draw>
+FrameView drawn_or_outlined(const PictureSeries& series, const Frame& frame, const Draw& draw) {
+  try {
+    return draw();
+  } catch (const Error& error) {
+    FrameView view = outlined_bed({frame, series.run.statics}, series.extent);
+    view.furniture = true;
+    view.tilt = frame.tilt;
+    view.title = error.what();
+    return view;
+  }
+}
+
+/// Layers of a map; none where it cannot be drawn.
+std::vector<MapLayer> layers_of(const MapSource& source, const RunStatics& statics) {
+  const MapFrame of{{*source.frame, statics}, source.reference.get(), !source.since};
+  try {
+    if (source.change) return change_layers(of, source.settings, source.extent);
+    std::vector<MapLayer> layers;
+    for (std::size_t k = 0; k < source.settings.layers.size(); ++k)
+      layers.push_back(make_layer(of, source.settings, source.extent, k));
+    return layers;
+  } catch (const Error&) {
+    return {};
+  }
+}
+
 }  // namespace
 
 bool depends_on_extent(const MapLayers& layers) {
@@ -116,15 +145,28 @@ MapSource source_of(const PictureSeries& series, std::size_t k, std::shared_ptr<
 }
 
 FrameView draw_map(const PictureSeries& series, std::size_t k, const Frame& frame, const Frame* reference) {
-  try {
-    return picture(series, k, frame, reference, 0);
-  } catch (const Error& error) {
-    FrameView view = outlined_bed({frame, series.run.statics}, series.extent);
-    view.furniture = true;
-    view.tilt = frame.tilt;
-    view.title = error.what();
-    return view;
-  }
+  return drawn_or_outlined(series, frame, [&] { return picture(series, k, frame, reference, 0); });
+}
+
+FrameView draw_change(const PictureSeries& series, const Frame& frame, const Frame* reference) {
+  const MapFrame of{{frame, series.run.statics}, reference, false};
+  return drawn_or_outlined(series, frame,
+                           [&] { return make_change_map(of, series.plan.maps[0], series.extent); });
+}
+
+GrainValues grain_values(const MapSource& source, const RunStatics& statics) {
+  for (const MapLayer& layer : layers_of(source, statics))
+    if (!layer.values.empty()) return {layer.values, layer.legend.bars.at(0).title};
+  return {};
+}
+
+std::optional<ScaleRange> own_range(const MapSource& source, const RunStatics& statics) {
+  MapSource own = source;
+  own.settings.range_low.reset();
+  own.settings.range_high.reset();
+  for (const MapLayer& layer : layers_of(own, statics))
+    if (layer.scale) return ScaleRange{layer.scale->low, layer.scale->high};
+  return std::nullopt;
 }
 
 std::vector<double> growing_diameters(double largest) {

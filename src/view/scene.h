@@ -18,6 +18,7 @@ struct MapSource {
   MapExtent extent;
   std::optional<std::size_t> since;
   std::size_t met = 0;  ///< how many frames its colours follow from
+  bool change = false;  ///< the frame minus the reference (change_map.h), instead of the frame
   bool operator==(const MapSource&) const = default;
 };
 
@@ -25,12 +26,28 @@ struct MapSource {
 MapSource source_of(const PictureSeries& series, std::size_t k, std::shared_ptr<const Frame> frame,
                     std::shared_ptr<const Frame> reference);
 
+/// A number that a map gives each free grain, NaN where it has none.
+struct GrainValues {
+  std::vector<double> values;  ///< empty where it gives none
+  std::string title;           ///< rich text, of its bar: "γ = q/p"
+};
+
+/// Those of the first layer of the map that has any.
+GrainValues grain_values(const MapSource& source, const RunStatics& statics);
+
+/// The ends of the bar of the first layer that has one whose grains have numbers, where none are chosen.
+std::optional<ScaleRange> own_range(const MapSource& source, const RunStatics& statics);
+
 /// Whether the map depends on how much of the bed it shows: arrows are spread over it.
 bool depends_on_extent(const MapLayers& layers);
 
 /// The first map of the series at frame k, as `picture` makes it. One that cannot be drawn, as its scale has
 /// no range, shows the grains alone, with the reason as its title.
 FrameView draw_map(const PictureSeries& series, std::size_t k, const Frame& frame, const Frame* reference);
+
+/// The frame minus the reference, which may be null, as make_change_map has it, by the settings of the first
+/// map of the series; drawn as draw_map where it cannot be. Both are frames of mapped_frame.
+FrameView draw_change(const PictureSeries& series, const Frame& frame, const Frame* reference);
 
 /// What is drawn over the map of a frame.
 struct Overlay {

@@ -13,7 +13,7 @@
 namespace talus {
 
 void ViewModel::Data::open_replay() {
-  frames = std::make_shared<RunFrames>(pictures.path);
+  frames = std::make_shared<RunFrames>(pictures.path, turn);
   replay.emplace(frames);
   const RunFile& file = frames->file();
   pictures.run = file.header();

@@ -6,6 +6,7 @@
 #include "view/frame_series.h"
 #include "view/ghost.h"
 #include "view/replay.h"
+#include "view/run_clock.h"
 #include "view/scene.h"
 #include "view/timeline.h"
 #include "view/view_model.h"
@@ -31,6 +32,13 @@ class RecordedFrames {
   std::vector<std::shared_ptr<const Frame>> frames_;
 };
 
+/// A map, and what it was made from.
+struct MapCache {
+  MapSource source;
+  FrameView view;
+  std::optional<GrainValues> values;  ///< of its grains, once asked for
+};
+
 struct ViewModel::Data {
   /// Of the run, with the map that is shown, and as much of the bed. Its statics are those of the frame
   /// shown: while a bed is poured, of the grains that have arrived.
@@ -46,6 +54,15 @@ struct ViewModel::Data {
   PlotAxis axis = PlotAxis::tilt;  ///< of the plots along the run
   std::optional<Ghost> ghost;      ///< behind them
   std::string error;               ///< what has gone wrong since the last update
+
+  // What is beside it.
+  std::shared_ptr<ReadingTurn> turn = std::make_shared<ReadingTurn>();  ///< of all runs that are open
+  std::unique_ptr<ViewModel> other;                                     ///< another run; null: none
+  struct {
+    MapLayers layers;
+    double theta_c = 0.0, other_theta_c = 0.0;  ///< rad
+    std::optional<ScaleRange> range;
+  } linked;  ///< the range of a map that both runs show
 
   // Of a run that is replayed.
   std::shared_ptr<RunFrames> frames;
@@ -83,10 +100,11 @@ struct ViewModel::Data {
     double neighbourhood = 0.0;
     Inspection of;
   } inspection;
+  MapCache map, map_beside;
   struct {
-    MapSource source;
-    FrameView view;
-  } map;
+    std::shared_ptr<const Frame> stored, mapped;
+    double l_min = 0.0;
+  } reference;          ///< what a frame is shown minus
   double aspect = 0.0;  ///< of the picture asked for last; 0: none was
 
   // view_data.cpp: what is shown, and how it goes on.
@@ -150,8 +168,27 @@ struct ViewModel::Data {
   double bed_aspect(const ViewState& asked) const;
   /// The angle since which motions are shown, where the frame shown comes after it.
   std::optional<double> since_of(const ViewState& asked) const;
-  const FrameView& whole_map(const ViewState& asked, const MapExtent& part);
-  FrameView picture(const ViewState& asked, const MapExtent& part);
+  /// Made again in its cache only where it has changed.
+  const FrameView& whole_map(const ViewState& asked, const MapExtent& part, MapCache& cache);
+  FrameView picture(const ViewState& asked, const MapExtent& part, MapCache& cache);
+  /// With its furniture.
+  FrameView furnished(const ViewState& asked, MapCache& cache);
+  /// Which frame of a replay is at an angle, as ViewModel::go_to_angle has it, with what it throws.
+  std::size_t frame_at_angle(const std::string& angle) const;
+  /// Frame k of those that can be gone to; null where it cannot be read.
+  std::shared_ptr<const Frame> frame_at(std::size_t k);
+  /// The frame at a tilt (rad), as maps see it; null where there is none.
+  std::shared_ptr<const Frame> reference_at(double tilt);
+
+  // view_beside.cpp: the second view.
+  RunInstants instants() const;
+  /// What it shows: of this run, or of the other.
+  ViewState beside_state(const ViewState& asked) const;
+  /// Whether both show the same map, of two runs.
+  bool same_map(const ViewState& asked) const;
+  /// Brings the other run to the frame and the place shown; true where what it shows has changed.
+  bool follow_beside(const ViewState& asked, double seconds);
+  void link_ranges(const ViewState& asked);
   std::string render_command(const ViewState& asked) const;
 };
 

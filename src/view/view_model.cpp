@@ -8,7 +8,6 @@
 #include "core/errors.h"
 #include "core/trigonometry.h"
 #include "io/run_file.h"
-#include "pictures/bed_view.h"
 #include "pictures/frame_choice.h"
 #include "view/camera.h"
 #include "view/view_data.h"
@@ -90,6 +89,7 @@ void ViewModel::hold() {
     data_->live->halt();
   else
     data_->begin_series();
+  if (data_->other) data_->other->hold();
 }
 
 Recording ViewModel::recording() const {
@@ -116,11 +116,10 @@ void ViewModel::go_to(std::size_t frame) {
   data_->show_replayed();
 }
 
-void ViewModel::go_to_angle(const std::string& angle) {
-  if (!data_->replay)
-    throw Error(ExitCode::usage, path() + ": this run is being computed, so it has no frames to go to");
-  const double theta_c = data_->theta_c.value_or(not_known);
-  go_to(frames_at(data_->frames->file().frame_tilts(), {angle}, theta_c).front());
+void ViewModel::go_to_angle(const std::string& angle) { go_to(data_->frame_at_angle(angle)); }
+
+double ViewModel::tilt_of(const std::string& angle) const {
+  return frame_tilts().at(data_->frame_at_angle(angle));
 }
 
 void ViewModel::go_to(Landmark landmark) {
@@ -154,6 +153,7 @@ bool ViewModel::update(double seconds) {
   changed = data.read_with(std::clamp(state.map.l_min, 0.0, 100.0)) || changed;
   changed = data.follow_frames(data.map_settings(state)) || changed;
   state.camera = centred(clamped(state.camera, data.bed, mean_diameter()), data.part(state, data.aspect));
+  changed = data.follow_beside(state, seconds) || changed;
   if (const std::string end = data.take_end(); !end.empty()) state.announcement = end;
   if (!data.error.empty()) state.message = std::exchange(data.error, {});
   return changed;
@@ -169,24 +169,13 @@ double ViewModel::mean_diameter() const { return data_->statics().mean_diameter;
 
 FrameView ViewModel::map(double aspect) const {
   data_->aspect = aspect;
-  return data_->picture(state, data_->part(state, aspect));
+  return data_->picture(state, data_->part(state, aspect), data_->map);
 }
 
-FrameView ViewModel::furnished_map() const {
-  const MapExtent part = common_part(data_->part(state, data_->aspect), data_->bed);
-  const FrameView& whole = data_->whole_map(state, part);
-  FrameView view = data_->picture(state, part);
-  add_surroundings(view, {*data_->frame, data_->statics()});
-  view.furniture = true;
-  view.transparent = whole.transparent;
-  view.title = whole.title;
-  view.caption = whole.caption;
-  view.legends = whole.legends;
-  return view;
-}
+FrameView ViewModel::furnished_map() const { return data_->furnished(state, data_->map); }
 
 const FrameView& ViewModel::annotated_map() const {
-  return data_->whole_map(state, common_part(data_->part(state, data_->aspect), data_->bed));
+  return data_->whole_map(state, common_part(data_->part(state, data_->aspect), data_->bed), data_->map);
 }
 
 double ViewModel::bed_aspect() const { return data_->bed_aspect(state); }

@@ -15,6 +15,7 @@
 #include "view/landmarks.h"
 #include "view/live_run.h"
 #include "view/plots.h"
+#include "view/scene.h"
 #include "view/timeline.h"
 #include "view/view_state.h"
 
@@ -78,6 +79,8 @@ class ViewModel {
   /// The frame nearest to an angle in degrees, or "repose": as frames_at, which says what is thrown. Throws
   /// Error(usage) for a live run.
   void go_to_angle(const std::string& angle);
+  /// The tilt of that frame, rad. Throws as go_to_angle.
+  double tilt_of(const std::string& angle) const;
   void go_to(Landmark landmark);  ///< does nothing where the run has no such place
   bool has(Landmark landmark) const;
   bool playing() const;
@@ -111,6 +114,28 @@ class ViewModel {
   std::array<double, 4> shown_region(double aspect) const;
   /// The grain whose disc holds the place (m, frame of the bed), or is nearest to it within a D.
   std::optional<Index> grain_at(double x, double y) const;
+
+  // The second view, state.beside: of the same frame, or of that of another run which belongs to it.
+  /// Another run, a replay beside a replay. Throws as open, and Error(usage) where one of them is computed.
+  /// Shows the second view, by the time where both have a programme.
+  void open_beside(const std::string& path);
+  /// The second view is of this run again.
+  void close_beside();
+  /// The other run; null: the second view is of this run.
+  const ViewModel* run_beside() const;
+  /// Whether frames of the other run are found by it: theta_c - theta needs that both have failed.
+  bool has_clock(PlotAxis clock) const;
+  /// As map, annotated_map, furnished_map and grain_at, of the second view.
+  FrameView map_beside(double aspect) const;
+  const FrameView& annotated_map_beside() const;
+  FrameView furnished_map_beside() const;
+  std::optional<Index> grain_beside_at(double x, double y) const;
+  /// A place of the bed of the second view (m), as one of the first: the same share of its length, as many D
+  /// above the floor.
+  Vec2 place_in_first(double x, double y) const;
+  /// The numbers that the map of a view gives its free grains; made when they are first asked for of a frame.
+  const GrainValues& values() const;
+  const GrainValues& values_beside() const;
 
   /// Of state.selected in the frame shown; none where nothing is selected. Made once for a frame and a
   /// selection.

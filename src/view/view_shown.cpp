@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/errors.h"
 #include "core/trigonometry.h"
+#include "pictures/bed_view.h"
 #include "pictures/frame_choice.h"
 #include "view/camera.h"
 #include "view/render_command.h"
@@ -47,6 +49,10 @@ MapSettings ViewModel::Data::map_settings(const ViewState& asked) const {
   settings.l_min = l_min;
   settings.length = std::clamp(settings.length, 1.0, statics().length / statics().mean_diameter);
   settings.furniture = true;
+  if (linked.range && asked.map.layers == linked.layers && !settings.range_low && !settings.range_high) {
+    settings.range_low = linked.range->low;
+    settings.range_high = linked.range->high;
+  }
   settings.tilt_max = 0.0;
   if (settings.turned)  // all frames in one size
     settings.tilt_max =
@@ -96,7 +102,27 @@ std::optional<double> ViewModel::Data::since_of(const ViewState& asked) const {
   return asked.since && *asked.since < frame->tilt ? asked.since : std::nullopt;
 }
 
-const FrameView& ViewModel::Data::whole_map(const ViewState& asked, const MapExtent& shown) {
+std::size_t ViewModel::Data::frame_at_angle(const std::string& angle) const {
+  if (!replay)
+    throw Error(ExitCode::usage,
+                pictures.path + ": this run is being computed, so it has no frames to go to");
+  return frames_at(frames->file().frame_tilts(), {angle}, theta_c.value_or(not_known)).front();
+}
+
+std::shared_ptr<const Frame> ViewModel::Data::frame_at(std::size_t k) {
+  return replay ? read(k) : recorded->all()[k];
+}
+
+std::shared_ptr<const Frame> ViewModel::Data::reference_at(double tilt) {
+  const auto k = nearest_frame(frame_tilts(), tilt);
+  auto of = k ? frame_at(*k) : nullptr;
+  if (!of || of->grain_count() != frame->grain_count()) return nullptr;  // while a bed is poured
+  if (reference.stored != of || reference.l_min != l_min)
+    reference = {of, std::make_shared<const Frame>(mapped_frame(*of, statics(), l_min)), l_min};
+  return reference.mapped;
+}
+
+const FrameView& ViewModel::Data::whole_map(const ViewState& asked, const MapExtent& shown, MapCache& cache) {
   pictures.plan.maps = {map_settings(asked)};
   pictures.extent = depends_on_extent(asked.map.layers) ? common_part(shown, bed) : bed;
   pictures.since.reset();
@@ -106,18 +132,23 @@ const FrameView& ViewModel::Data::whole_map(const ViewState& asked, const MapExt
     pictures.since = first ? first : nearest_frame(tilts, *since).value_or(0);
   }
   const std::size_t k = shown_index();
-  const std::optional<std::size_t> from = reference_of(pictures, k);
-  std::shared_ptr<const Frame> reference;
-  if (from) reference = replay ? read(*from) : recorded->all()[*from];
-  MapSource source = source_of(pictures, k, frame, reference);
-  if (!(map.source == source)) {
-    map.view = draw_map(pictures, k, *frame, reference.get());
-    map.source = std::move(source);
+  if (asked.minus) {
+    MapSource source = source_of(pictures, k, frame, reference_at(*asked.minus));
+    source.change = true;
+    if (!(cache.source == source)) {
+      cache = {source, draw_change(pictures, *frame, source.reference.get()), std::nullopt};
+    }
+    return cache.view;
   }
-  return map.view;
+  const std::optional<std::size_t> from = reference_of(pictures, k);
+  const std::shared_ptr<const Frame> moved_from = from ? frame_at(*from) : nullptr;
+  MapSource source = source_of(pictures, k, frame, moved_from);
+  if (!(cache.source == source))
+    cache = {source, draw_map(pictures, k, *frame, moved_from.get()), std::nullopt};
+  return cache.view;
 }
 
-FrameView ViewModel::Data::picture(const ViewState& asked, const MapExtent& shown) {
+FrameView ViewModel::Data::picture(const ViewState& asked, const MapExtent& shown, MapCache& cache) {
   Overlay overlay;
   if (const Inspection* of = inspect_selected(asked)) {
     overlay.selected = of->grain;
@@ -128,8 +159,21 @@ FrameView ViewModel::Data::picture(const ViewState& asked, const MapExtent& show
       overlay.critical_length = of->coarse_graining_length;
     }
   }
-  return shown_map(whole_map(asked, shown), shown, {*frame, statics()}, overlay,
+  return shown_map(whole_map(asked, shown, cache), shown, {*frame, statics()}, overlay,
                    shown_clusters(map_settings(asked)));
+}
+
+FrameView ViewModel::Data::furnished(const ViewState& asked, MapCache& cache) {
+  const MapExtent seen = common_part(part(asked, aspect), bed);
+  const FrameView& whole = whole_map(asked, seen, cache);
+  FrameView view = picture(asked, seen, cache);
+  add_surroundings(view, {*frame, statics()});
+  view.furniture = true;
+  view.transparent = whole.transparent;
+  view.title = whole.title;
+  view.caption = whole.caption;
+  view.legends = whole.legends;
+  return view;
 }
 
 std::string ViewModel::Data::render_command(const ViewState& asked) const {

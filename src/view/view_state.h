@@ -8,6 +8,7 @@
 
 #include "core/types.h"
 #include "pictures/maps.h"
+#include "view/plots.h"
 
 namespace talus {
 
@@ -15,6 +16,15 @@ namespace talus {
 struct ViewCamera {
   double centre_x = 0.0, centre_y = 0.0;  ///< m, frame of the bed
   double zoom = 1.0;                      ///< 1: all of the bed is seen
+};
+
+/// What is shown beside the first view.
+struct BesideState {
+  bool shown = false;
+  MapLayers layers{};               ///< empty: those of the first view
+  std::optional<double> minus{};    ///< rad: the frame minus that at this tilt, instead of the frame
+  std::string path{};               ///< of the run that is asked for next
+  PlotAxis clock = PlotAxis::tilt;  ///< by which the frame of another run belongs to that of the first
 };
 
 /// How a plot is looked at.
@@ -27,6 +37,8 @@ struct PlotLook {
 struct ViewState {
   MapSettings map;  ///< layers, colours, threshold, length, turned, ...
   ViewCamera camera;
+  BesideState beside;
+  std::optional<double> minus;    ///< rad, of a view that shows a frame minus that at this tilt
   std::optional<double> since;    ///< rad: motion and strain since that tilt; without: per degree
   std::optional<Index> selected;  ///< grain
   double neighbourhood = 10.0;    ///< D: diameter of the neighbourhood drawn about the selected grain

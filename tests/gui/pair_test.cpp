@@ -1,0 +1,128 @@
+/// The second view in the window without a display.
+
+#include <gtest/gtest.h>
+
+#include "core/trigonometry.h"
+#include "gui/offscreen_fixture.h"
+
+namespace talus {
+namespace {
+
+using test::Live;
+using test::Replay;
+
+/// The share of its pixels that are not white or gray.
+double coloured_share(const Image& image, const WidgetPlace& place) {
+  int coloured = 0, all = 0;
+  for (int y = static_cast<int>(place.y0); y < static_cast<int>(place.y1); ++y)
+    for (int x = static_cast<int>(place.x0); x < static_cast<int>(place.x1); ++x) {
+      const auto* pixel = &image.pixels[3 * static_cast<std::size_t>(y * image.width + x)];
+      coloured += pixel[0] != pixel[1] || pixel[1] != pixel[2] ? 1 : 0;
+      ++all;
+    }
+  return static_cast<double>(coloured) / all;
+}
+
+TEST_F(Replay, a_key_shows_another_map_beside_and_takes_it_away) {
+  EXPECT_FALSE(gui_.has("map beside"));
+  gui_.key('P');
+  ASSERT_TRUE(gui_.has("map beside"));
+  EXPECT_EQ(model_.state.beside.layers, (MapLayers{MapKind::displacement}));
+  const Image both = gui_.frame();
+  EXPECT_EQ(coloured_share(both, gui_.place("map")), 0.0) << "gray";
+  EXPECT_GT(coloured_share(both, gui_.place("map beside")), 0.1) << "in its own texture";
+  gui_.key('P');
+  EXPECT_FALSE(gui_.has("map beside"));
+}
+
+TEST_F(Replay, a_key_shows_what_changes_from_here_on) {
+  gui_.key(key_right);
+  const double here = model_.frame().tilt;
+  gui_.key('D');
+  ASSERT_TRUE(gui_.has("map beside"));
+  EXPECT_EQ(model_.state.beside.minus, std::optional(here));
+  gui_.key(key_end);
+  EXPECT_NE(model_.annotated_map_beside().title.find("1.00° minus 0.25°"), std::string::npos)
+      << model_.annotated_map_beside().title;
+  EXPECT_EQ(model_.annotated_map_beside().caption, model_.annotated_map().caption);
+}
+
+TEST_F(Replay, the_mouse_on_either_view_moves_both) {
+  gui_.key('P');
+  gui_.scroll("map beside", 3.0f);
+  EXPECT_GT(model_.state.camera.zoom, 1.5);
+  const double before = model_.state.camera.centre_x;
+  gui_.drag("map beside", 0.5f, 0.5f, 0.4f, 0.5f);
+  EXPECT_GT(model_.state.camera.centre_x, before);
+  EXPECT_EQ(model_.map(2.0).x_min, model_.map_beside(2.0).x_min);
+}
+
+TEST_F(Replay, a_grain_is_selected_in_either_view) {
+  gui_.key('P');
+  const WidgetPlace map = gui_.place("map"), beside = gui_.place("map beside");
+  EXPECT_EQ(map.x1 - map.x0, beside.x1 - beside.x0);
+  EXPECT_EQ(map.y1 - map.y0, beside.y1 - beside.y0);
+  const auto [x, y] = share_of(31);
+  gui_.click("map beside", x, y);
+  EXPECT_EQ(model_.state.selected, std::optional<Index>(31));
+}
+
+TEST_F(Replay, the_mouse_tells_values_in_the_second_view) {
+  gui_.key('D');
+  const auto [x, y] = share_of(31);
+  const WidgetPlace at = gui_.place("map beside");
+  const Image before = gui_.frame();
+  gui_.move(at.x0 + x * (at.x1 - at.x0), at.y0 + y * (at.y1 - at.y0));
+  EXPECT_NE(gui_.frame().pixels, before.pixels);
+  EXPECT_EQ(model_.values_beside().values.size(), static_cast<std::size_t>(model_.statics().free_count));
+}
+
+TEST_F(Replay, another_run_is_opened_beside_from_the_panel) {
+  gui_.click("tab map");
+  gui_.click("beside");
+  model_.state.beside.path = folder_.path("none.h5");
+  gui_.settle();
+  gui_.click("open beside");
+  EXPECT_EQ(model_.run_beside(), nullptr);
+  EXPECT_NE(model_.state.message.find("none.h5"), std::string::npos) << model_.state.message;
+  model_.state.beside.path = folder_.path("bed.h5");
+  gui_.click("open beside");
+  ASSERT_NE(model_.run_beside(), nullptr);
+  gui_.key(key_end);
+  EXPECT_EQ(model_.run_beside()->frame_index(), model_.frame_index());
+  gui_.click("beside clock");
+  gui_.click("beside clock: t");
+  EXPECT_EQ(model_.state.beside.clock, PlotAxis::time);
+  gui_.click("close beside");
+  EXPECT_EQ(model_.run_beside(), nullptr);
+}
+
+TEST_F(Replay, two_views_have_room_or_it_is_said) {
+  gui_.key('P');
+  for (const auto& [width, height] : {std::pair(640, 480), {2400, 500}, {900, 1400}, {3000, 2000}}) {
+    gui_.resize(width, height);
+    ASSERT_TRUE(gui_.has("map beside")) << width;
+    const WidgetPlace map = gui_.place("map"), beside = gui_.place("map beside");
+    EXPECT_TRUE(beside.x0 >= map.x1 || beside.y0 >= map.y1) << width << ": one hides the other";
+    EXPECT_LE(beside.x1, static_cast<float>(width));
+    EXPECT_LE(beside.y1, static_cast<float>(height));
+  }
+  gui_.resize(300, 250);
+  EXPECT_FALSE(gui_.has("map beside"));
+  EXPECT_TRUE(gui_.has("map"));
+  EXPECT_NE(model_.state.message.find("no room"), std::string::npos);
+  gui_.resize(1400, 900);
+  EXPECT_TRUE(gui_.has("map beside"));
+  EXPECT_EQ(model_.state.message, "");
+}
+
+TEST_F(Live, has_a_second_view_too) {
+  gui_.key('P');
+  EXPECT_TRUE(gui_.has("map beside"));
+  gui_.key('D');
+  gui_.click("tab map");
+  EXPECT_FALSE(gui_.has("open beside")) << "another run only beside a replay";
+}
+
+}  // namespace
+}  // namespace talus
