@@ -105,6 +105,15 @@ bool ViewModel::Data::follow_beside(const ViewState& asked, double seconds) {
     changed = true;
   }
   changed = other->update(seconds) || changed;
+  const auto as_high = [](const Data& as, const Data& in) {
+    MapExtent extent = as.bed;
+    const double scale = in.statics().mean_diameter / as.statics().mean_diameter;
+    extent.y_min *= scale;
+    extent.y_max *= scale;
+    return extent;
+  };
+  bed_beside = as_high(*other->data_, *this);
+  other->data_->bed_beside = as_high(*this, *other->data_);
   if (!other->state.message.empty() && other->state.message != asked.message) error = other->state.message;
   return changed;
 }
@@ -131,6 +140,7 @@ void ViewModel::open_beside(const std::string& path) {
 void ViewModel::close_beside() {
   data_->other.reset();
   data_->linked = {};
+  data_->bed_beside.reset();
 }
 
 const ViewModel* ViewModel::run_beside() const { return data_->other.get(); }

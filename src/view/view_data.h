@@ -62,7 +62,8 @@ struct ViewModel::Data {
     MapLayers layers;
     double theta_c = 0.0, other_theta_c = 0.0;  ///< rad
     std::optional<ScaleRange> range;
-  } linked;  ///< the range of a map that both runs show
+  } linked;                             ///< the range of a map that both runs show
+  std::optional<MapExtent> bed_beside;  ///< m of this run: how high the other one is, for one scale of both
 
   // Of a run that is replayed.
   std::shared_ptr<RunFrames> frames;
@@ -164,6 +165,8 @@ struct ViewModel::Data {
   MapExtent part(const ViewState& asked, double aspect) const;
   /// Which of the frames of the run the one shown is, or would be if it were one of them.
   std::size_t shown_index() const;
+  /// The bed, as high as the higher one of two runs.
+  MapExtent viewed_bed() const;
   /// Width over height of a picture in which the bed just has room.
   double bed_aspect(const ViewState& asked) const;
   /// The angle since which motions are shown, where the frame shown comes after it.

@@ -87,14 +87,21 @@ const Inspection* ViewModel::Data::inspect_selected(const ViewState& asked) {
   return &inspection.of;
 }
 
+MapExtent ViewModel::Data::viewed_bed() const {
+  MapExtent viewed = bed;
+  if (bed_beside) extend(viewed, *bed_beside);
+  return viewed;
+}
+
 double ViewModel::Data::bed_aspect(const ViewState& asked) const {
-  return picture_aspect((bed.y_max - bed.y_min) / (bed.x_max - bed.x_min),
+  const MapExtent viewed = viewed_bed();
+  return picture_aspect((viewed.y_max - viewed.y_min) / (viewed.x_max - viewed.x_min),
                         std::max(0.0, map_settings(asked).tilt_max));
 }
 
 MapExtent ViewModel::Data::part(const ViewState& asked, double shown_aspect) const {
   const double turn_max = std::max(0.0, map_settings(asked).tilt_max);
-  return shown_part(asked.camera, bed, statics().mean_diameter,
+  return shown_part(asked.camera, viewed_bed(), statics().mean_diameter,
                     shown_aspect > 0.0 ? shown_aspect : bed_aspect(asked), turn_max);
 }
 

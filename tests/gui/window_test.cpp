@@ -39,6 +39,24 @@ TEST(View, takes_a_picture_of_itself_without_a_display) {
   EXPECT_EQ(run_talus(command, folder.path()).exit_code, 73) << "it is there already";
 }
 
+TEST(View, shows_two_views_in_the_picture_and_says_what_cannot_be_beside) {
+  const TemporaryFolder folder;
+  write_file(folder, "bed.toml", small_bed);
+  ASSERT_EQ(run_talus({"run", "bed.toml", "-q"}, folder.path()).exit_code, 0);
+  const auto view = [&](const std::string& file, std::vector<std::string> words) {
+    words.insert(words.begin(), {"view", file, "--screenshot", "view.png", "--overwrite"});
+    return run_talus(words, folder.path());
+  };
+  EXPECT_EQ(view("bed.h5", {"--beside", "bed.h5", "--link", "time"}).exit_code, 0);
+  EXPECT_EQ(view("bed.h5", {"--beside-map", "forces", "--beside-minus", "0.5"}).exit_code, 0);
+  const Outcome unlinked = view("bed.h5", {"--beside", "bed.h5", "--link", "angle-left"});
+  EXPECT_EQ(unlinked.exit_code, 64);
+  EXPECT_NE(unlinked.err.find("has not failed"), std::string::npos) << unlinked.err;
+  EXPECT_EQ(view("bed.h5", {"--beside", "none.h5"}).exit_code, 66);
+  EXPECT_EQ(view("bed.h5", {"--beside-map", "gamm"}).exit_code, 64);
+  EXPECT_EQ(view("bed.toml", {"--beside", "bed.h5"}).exit_code, 64);
+}
+
 TEST(View, refuses_a_beginning_that_is_none) {
   const TemporaryFolder folder;
   write_file(folder, "bed.toml", small_bed);

@@ -137,7 +137,7 @@ TEST_F(TwoViews, show_the_same_place) {
   model_->state.camera = {3.0, 2.0, 2.0};
   model_->update(0.0);
   const FrameView first = model_->map(2.0), second = model_->map_beside(2.0);
-  EXPECT_LT(first.x_max - first.x_min, 6.0);
+  EXPECT_LT(first.x_max - first.x_min, 7.0);
   EXPECT_EQ(first.x_min, second.x_min);
   EXPECT_EQ(first.x_max, second.x_max);
   const Vec2 place = model_->place_in_first(4.0, 1.0);
