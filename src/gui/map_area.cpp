@@ -39,9 +39,8 @@ void draw_caption(const FrameView& view, float width) {
 }
 
 /// Gravity, beside the legend.
-void draw_gravity(const ImVec2& middle, float em, double fall) {
+void draw_gravity(const ImVec2& middle, float em, double fall, ImU32 ink) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  const ImU32 ink = IM_COL32(0, 0, 0, 255);
   const auto x = static_cast<float>(sine(fall)), y = static_cast<float>(cosine(fall));
   const float reach = 1.1f * em;
   const ImVec2 tip{middle.x + reach * x, middle.y + reach * y};
@@ -111,9 +110,9 @@ void draw_map_area(Gui& gui) {
   list.AddImage(gui.draw_map(view, pixels, static_cast<int>(room.y)), shown.corner, end, {0.0f, 0.0f},
                 {1.0f, (end.y - shown.corner.y) / shown_height});
   const ImVec2 under{shown.corner.x + room.x - 1.4f * gui.em, ImGui::GetCursorScreenPos().y + 1.2f * gui.em};
-  if (room.x > 26.0f * gui.em) draw_gravity(under, gui.em, view.tilt - view.turn);
+  if (room.x > 26.0f * gui.em) draw_gravity(under, gui.em, view.tilt - view.turn, packed(gui.colours.ink));
   use_mouse(gui, shown);
-  draw_legends(gui.model.annotated_map());
+  draw_legends(gui, gui.model.annotated_map());
 }
 
 }  // namespace talus

@@ -9,9 +9,9 @@ namespace talus {
 namespace {
 
 /// The state of a live run, in lines.
-void draw_status(const LiveStatus& status, bool theta_c_known, double theta_c) {
+void draw_status(const Palette& colours, const LiveStatus& status, bool theta_c_known, double theta_c) {
   if (!status.error.empty()) {
-    ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0.7f, 0.1f, 0.0f, 1.0f));
+    ImGui::PushStyleColor(ImGuiCol_Text, packed(colours.warning));
     ImGui::TextWrapped("%s", status.error.c_str());
     ImGui::PopStyleColor();
   }
@@ -45,7 +45,7 @@ void draw_live(Gui& gui, LiveRun& live) {
   if (named_button(gui, "run to", "Run to", "compute until the tilt is reached, then pause: g"))
     live.run_to(radians(state.run_to_tilt));
   ImGui::Separator();
-  draw_status(status, gui.model.theta_c_known(), gui.model.theta_c());
+  draw_status(gui.colours, status, gui.model.theta_c_known(), gui.model.theta_c());
   ImGui::Separator();
   ImGui::SetNextItemWidth(6.0f * gui.em);
   named_number(gui, "seed", "seed", state.seed, "of the random deposition");

@@ -29,7 +29,7 @@ float map_area_height(float picture, float em);
 void draw_help(Gui& gui);
 
 /// The legends of a view in a row, in the available width.
-void draw_legends(const FrameView& view);
+void draw_legends(Gui& gui, const FrameView& view);
 
 /// Carries out what the pressed keys mean.
 void handle_keys(Gui& gui);

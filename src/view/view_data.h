@@ -85,6 +85,7 @@ struct ViewModel::Data {
   } inspection;
   struct {
     MapSource source;
+    bool dark = false;  ///< on_dark_ground
     FrameView view;
   } map;
   double aspect = 0.0;  ///< of the picture asked for last; 0: none was

@@ -173,9 +173,11 @@ FrameView ViewModel::map(double aspect) const {
 }
 
 FrameView ViewModel::furnished_map() const {
-  const MapExtent part = common_part(data_->part(state, data_->aspect), data_->bed);
-  const FrameView& whole = data_->whole_map(state, part);
-  FrameView view = data_->picture(state, part);
+  ViewState on_paper = state;
+  on_paper.theme = Theme::light;
+  const MapExtent part = common_part(data_->part(on_paper, data_->aspect), data_->bed);
+  const FrameView& whole = data_->whole_map(on_paper, part);
+  FrameView view = data_->picture(on_paper, part);
   add_surroundings(view, {*data_->frame, data_->statics()});
   view.furniture = true;
   view.transparent = whole.transparent;

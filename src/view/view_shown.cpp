@@ -4,6 +4,7 @@
 #include "core/trigonometry.h"
 #include "pictures/frame_choice.h"
 #include "view/camera.h"
+#include "view/dark_map.h"
 #include "view/render_command.h"
 #include "view/view_data.h"
 
@@ -110,9 +111,12 @@ const FrameView& ViewModel::Data::whole_map(const ViewState& asked, const MapExt
   std::shared_ptr<const Frame> reference;
   if (from) reference = replay ? read(*from) : recorded->all()[*from];
   MapSource source = source_of(pictures, k, frame, reference);
-  if (!(map.source == source)) {
+  const bool dark = asked.theme == Theme::dark;
+  if (!(map.source == source) || map.dark != dark) {
     map.view = draw_map(pictures, k, *frame, reference.get());
+    if (dark) map.view = on_dark_ground(std::move(map.view));
     map.source = std::move(source);
+    map.dark = dark;
   }
   return map.view;
 }

@@ -8,6 +8,7 @@
 
 #include "core/types.h"
 #include "pictures/maps.h"
+#include "view/theme.h"
 
 namespace talus {
 
@@ -27,6 +28,8 @@ struct PlotLook {
 struct ViewState {
   MapSettings map;  ///< layers, colours, threshold, length, turned, ...
   ViewCamera camera;
+  Theme theme = Theme::light;
+  double scale = 0.0;             ///< of text and widgets; 0: that of the display
   std::optional<double> since;    ///< rad: motion and strain since that tilt; without: per degree
   std::optional<Index> selected;  ///< grain
   double neighbourhood = 10.0;    ///< D: diameter of the neighbourhood drawn about the selected grain
