@@ -1,4 +1,7 @@
 #include <algorithm>
+#include <cmath>
+#include <fmt/core.h>
+#include <utility>
 
 #include "gui/panels.h"
 
@@ -12,34 +15,79 @@ void make_room(float width) {
     ImGui::NewLine();
 }
 
-void draw_bar(const Bar& bar, float em, ImU32 ink) {
+/// The mouse on a bar: pulling its ends sets the range of the map, a double click gives back the map's own.
+void use_bar(Gui& gui, const Bar& bar, const ImVec2& low, const ImVec2& high) {
+  const float em = gui.em, length = high.x - low.x;
+  MapSettings& map = gui.model.state.map;
+  ImGui::SetCursorScreenPos({low.x - 0.5f * em, low.y});
+  ImGui::InvisibleButton("range of the bar", {length + em, high.y - low.y});
+  note_place(gui, "legend bar", low, high);
+  const float x = ImGui::GetIO().MousePos.x;
+  using Part = HeldBar::Part;
+  const Part part = x < low.x + 0.6f * em ? Part::low : x > high.x - 0.6f * em ? Part::high : Part::middle;
+  const BarEnds ends{bar.low, bar.high, bar.logarithmic};
+  HeldBar& held = gui.model.state.held_bar;
+  if (ImGui::IsItemActivated()) held = {part, ends, static_cast<double>(x)};
+  if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0)) {
+    map.range_low.reset();
+    map.range_high.reset();
+    held.part = Part::none;
+  }
+  if (!ImGui::IsItemActive()) held.part = Part::none;
+  if (held.part != Part::none && ImGui::GetIO().MouseDelta.x != 0.0f) {
+    const auto [from, to] = pulled(held, (static_cast<double>(x) - held.from) / static_cast<double>(length));
+    map.range_low = from;
+    map.range_high = to;
+  }
+  if (!ImGui::IsItemHovered() && !ImGui::IsItemActive()) return;
+  ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  for (const float end : {low.x, high.x})
+    list.AddRectFilled({end - 0.15f * em, low.y - 0.15f * em}, {end + 0.15f * em, high.y + 0.15f * em},
+                       packed(gui.colours.accent), 0.15f * em);
+  if (ImGui::IsItemActive()) return;
+  const double share = std::clamp(static_cast<double>((x - low.x) / length), 0.0, 1.0);
+  ImGui::BeginTooltip();
+  rich_text(fmt::format("{} = {:.3g} {}", bar.symbol, value_at(ends, share), bar.unit));
+  rich_text("drag an end, or the middle; double click: the range of the map");
+  ImGui::EndTooltip();
+}
+
+/// Where a bar lies that has been drawn.
+struct DrawnBar {
+  ImVec2 low, high;
+};
+
+DrawnBar draw_bar(const Bar& bar, float em, ImU32 ink) {
   const ImFont& font = *ImGui::GetFont();
   const float size = ImGui::GetFontSize(), title = rich_width(font, size, bar.title);
-  float length = 12.0f * em;
+  const float length = 12.0f * em, height = 0.85f * em;
   const float width = title + 0.6f * em + length + 4.0f * em;
   make_room(width);
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  add_rich_text(list, corner, ink, bar.title);
-  const float left = corner.x + title + 0.6f * em;
+  add_rich_text(list, {corner.x, corner.y - 0.1f * em}, ink, bar.title);
+  const float left = corner.x + title + 0.8f * em;
   const std::size_t pieces = bar.colours.size() - 1;
   for (std::size_t k = 0; k < pieces; ++k) {
     const float x0 = left + length * static_cast<float>(k) / static_cast<float>(pieces);
     const float x1 = left + length * static_cast<float>(k + 1) / static_cast<float>(pieces);
-    list.AddRectFilled({x0, corner.y}, {x1, corner.y + em}, packed(bar.colours[k]));
+    list.AddRectFilled({x0, corner.y}, {x1, corner.y + height}, packed(bar.colours[k]));
   }
-  list.AddRect({left, corner.y}, {left + length, corner.y + em}, ink);
+  list.AddRect({left, corner.y}, {left + length, corner.y + height}, ink);
   float free_from = 0.0f;
+  const TextOfSize small(TextSize::small);
   for (const BarTick& tick : bar.ticks) {
     const float x = left + static_cast<float>(tick.share) * length;
-    list.AddLine({x, corner.y + em}, {x, corner.y + 1.2f * em}, ink);
-    const float label = rich_width(font, size, tick.label), at = x - 0.5f * label;
+    list.AddLine({x, corner.y + height}, {x, corner.y + height + 0.2f * em}, ink);
+    const float label = rich_width(*ImGui::GetFont(), ImGui::GetFontSize(), tick.label),
+                at = x - 0.5f * label;
     if (at < free_from) continue;
     free_from = at + label + 0.4f * em;
-    add_rich_text(list, {at, corner.y + 1.2f * em}, ink, tick.label);
+    add_rich_text(list, {at, corner.y + height + 0.25f * em}, ink, tick.label);
   }
   ImGui::Dummy({width, 2.4f * em});
-  ImGui::SameLine();
+  return {{left, corner.y}, {left + length, corner.y + height}};
 }
 
 void draw_swatch(const Swatch& swatch, float em, ImU32 ink) {
@@ -65,8 +113,17 @@ void draw_swatch(const Swatch& swatch, float em, ImU32 ink) {
 void draw_legends(Gui& gui, const FrameView& view) {
   const float em = gui.em;
   const ImU32 ink = packed(gui.colours.ink);
+  bool first = true;  // the bar whose range can be chosen
   for (const Legend& legend : view.legends) {
-    for (const Bar& bar : legend.bars) draw_bar(bar, em, ink);
+    for (const Bar& bar : legend.bars) {
+      const DrawnBar drawn = draw_bar(bar, em, ink);
+      ImGui::SameLine();
+      const ImVec2 next = ImGui::GetCursorScreenPos();
+      if (std::exchange(first, false)) {
+        use_bar(gui, bar, drawn.low, drawn.high);
+        ImGui::SetCursorScreenPos(next);
+      }
+    }
     for (const Swatch& swatch : legend.swatches) draw_swatch(swatch, em, ink);
   }
   ImGui::NewLine();

@@ -60,9 +60,12 @@ void use_mouse(Gui& gui, const ShownMap& shown) {
       zoom_about(gui, std::pow(1.25, static_cast<double>(io.MouseWheel)), place.x, place.y);
     const double diameter = gui.model.mean_diameter();
     const std::optional<Index> grain = gui.model.grain_at(place.x, place.y);
-    if (grain && !ImGui::IsMouseDown(0))
-      ImGui::SetTooltip("%.1f, %.1f D: %s", place.x / diameter, place.y / diameter,
-                        grain_text(gui.model, *grain).c_str());
+    if (grain && !ImGui::IsMouseDown(0)) {
+      ImGui::BeginTooltip();
+      rich_text(fmt::format("{:.1f}, {:.1f} D: {}", place.x / diameter, place.y / diameter,
+                            grain_text(gui.model, *grain)));
+      ImGui::EndTooltip();
+    }
     const bool dragged = io.MouseDragMaxDistanceSqr[0] > 16.0f;
     if (ImGui::IsMouseReleased(0) && !dragged) state.selected = grain;
   }
@@ -80,10 +83,25 @@ void use_mouse(Gui& gui, const ShownMap& shown) {
 std::string grain_text(const ViewModel& model, Index grain) {
   std::string text = fmt::format("grain {}", grain);
   if (grain >= model.statics().free_count) return "floor " + text;
-  if (!any_layer(model.state.map.layers, [](MapKind kind) { return shows_gamma(kind); })) return text;
-  const double gamma = model.frame().gamma[grain];
+  const auto of_grain = static_cast<std::size_t>(grain);
+  bool gamma_told = false;
+  for (const Legend& legend : model.annotated_map().legends)
+    for (const Bar& bar : legend.bars) {
+      if (of_grain >= bar.values.size()) continue;
+      const double value = bar.values[of_grain];
+      gamma_told = gamma_told || bar.symbol == "γ";
+      if (std::isnan(value))
+        text += bar.symbol == "γ" ? ", carries nothing" : fmt::format(", {}: none", bar.symbol);
+      else
+        text += fmt::format(", {} = {:.3g}{}{}", bar.symbol, value,
+                            bar.unit.empty() || bar.unit.starts_with("°") ? "" : " ", bar.unit);
+      if (bar.symbol == "γ" && !std::isnan(value)) text += ", " + reading_text(model.state.map);
+    }
+  if (gamma_told || !any_layer(model.state.map.layers, [](MapKind kind) { return shows_gamma(kind); }))
+    return text;
+  const double gamma = model.frame().gamma[of_grain];
   return std::isnan(gamma) ? text + ", carries nothing"
-                           : fmt::format("{}, γ = {:.3f}, {}", text, gamma, reading_text(model.state.map));
+                           : fmt::format("{}, γ = {:.3g}, {}", text, gamma, reading_text(model.state.map));
 }
 
 float map_area_height(float picture, float em) {

@@ -21,7 +21,8 @@ void draw_plots(Gui& gui);
 void draw_time_line(Gui& gui);
 /// The map with its title and legend, the mouse on it.
 void draw_map_area(Gui& gui);
-/// What the map tells of a grain under the mouse: its gamma on maps that show it.
+/// What the map tells of a grain under the mouse, as rich text: what its bar measures, with the unit, and
+/// gamma on maps of overloaded grains.
 std::string grain_text(const ViewModel& model, Index grain);
 /// The height of the map with its title and legend around a picture of `picture` px.
 float map_area_height(float picture, float em);

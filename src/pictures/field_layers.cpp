@@ -72,10 +72,10 @@ std::vector<double> values_of(const FieldMap& map, const MapFrame& of, double cu
 
 MapLayer cells_layer(const MapFrame& of, const ScaleChoice& choice) {
   const Scale scale = chosen({ColourMap::viridis, 0.65, 0.95}, choice);
-  MapLayer layer{"Local solid fraction",
-                 looks_or_outlines(scale, local_solid_fractions(of)),
-                 {},
-                 {{bar_of(scale, "area of a grain over that of its cell")}, {}}};
+  const std::vector<double> values = local_solid_fractions(of);
+  const Bar bar = bar_of(scale, "area of a grain over that of its cell");
+  MapLayer layer{
+      "Local solid fraction", looks_or_outlines(scale, values), {}, {{measuring(bar, values)}, {}}};
   const GrainLook open = outline_look();
   layer.legend.swatches = {{Swatch::Kind::disc, open.fill, open.rim, 0.0, "at the surface"}};
   return layer;
@@ -89,10 +89,11 @@ MapLayer field_layer(MapKind kind, const MapFrame& of, const MapSettings& settin
   const Scale scale = chosen({ColourMap::viridis, by_depth ? 0.0 : map.low,
                               by_depth ? largest_pressure(of.statics) : map.high, map.logarithmic},
                              choice);
+  const std::vector<double> values = values_of(map, of, cutoff);
   return {fmt::format("{}, coarse-grained over {:.6g} D", map.title, settings.length),
-          looks_or_outlines(scale, values_of(map, of, cutoff)),
+          looks_or_outlines(scale, values),
           {},
-          {{bar_of(scale, std::string(map.bar))}, {}}};
+          {{measuring(bar_of(scale, std::string(map.bar)), values)}, {}}};
 }
 
 }  // namespace talus

@@ -24,18 +24,19 @@ MapLayer coordination_layer(const MapFrame& of, const ScaleChoice& choice) {
   const std::vector<Index> counts =
       loaded_contacts(contacts.a, contacts.b, contacts.fn, of.statics.free_count);
   const Scale scale = chosen({ColourMap::viridis, 0.0, most}, choice);
+  const std::vector<double> values(counts.begin(), counts.end());
   return {fmt::format("Contacts of grains, z = {:.2f}", coordination_number(counts)),
-          looks_of(scale, std::vector<double>(counts.begin(), counts.end())),
+          looks_of(scale, values),
           {},
-          {{bar_of(scale, "contacts that carry force")}, {}}};
+          {{measuring(bar_of(scale, "contacts that carry force"), values)}, {}}};
 }
 
 MapLayer mobilised_layer(const MapFrame& of, const ScaleChoice& choice) {
   const Scale scale = chosen({ColourMap::viridis, 0.0, 1.0}, choice);
-  MapLayer layer{"Mobilised friction of grains",
-                 looks_or_outlines(scale, mobilised_friction_of_grains(of)),
-                 {},
-                 {{bar_of(scale, "|f_t| / μf_n, mean over the contacts of a grain")}, {}}};
+  const std::vector<double> values = mobilised_friction_of_grains(of);
+  const Bar bar = bar_of(scale, "|f_t| / μf_n, mean over the contacts of a grain");
+  MapLayer layer{
+      "Mobilised friction of grains", looks_or_outlines(scale, values), {}, {{measuring(bar, values)}, {}}};
   layer.legend.swatches = {grain_swatch(outline_look(), "no contact")};
   return layer;
 }

@@ -8,6 +8,7 @@
 
 #include "core/types.h"
 #include "pictures/maps.h"
+#include "view/bar_range.h"
 #include "view/theme.h"
 
 namespace talus {
@@ -37,6 +38,7 @@ struct ViewState {
   bool highlight_cluster = false;
   bool show_help = false;
   bool show_controls = true, show_inspector = true, show_plots = true;
+  HeldBar held_bar;                            ///< of the legend
   std::map<std::string, PlotLook> plot_looks;  ///< by the names of plots
   std::string quantity_filter;                 ///< part of the names of quantities offered for plots
   std::string enlarged_plot;                   ///< its name; empty: all are shown
