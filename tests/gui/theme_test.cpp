@@ -113,6 +113,19 @@ TEST_F(Replay, nothing_overlaps_from_small_windows_to_large_ones) {
     }
 }
 
+TEST_F(Replay, playing_moves_nothing) {
+  const std::vector<WidgetPlace> before = gui_.places();
+  const Image still = gui_.frame();
+  gui_.click("play");
+  ASSERT_TRUE(model_.playing());
+  for (const WidgetPlace& place : before) {
+    const WidgetPlace now = gui_.place(place.name);
+    EXPECT_TRUE(now.x0 == place.x0 && now.y0 == place.y0 && now.x1 == place.x1 && now.y1 == place.y1)
+        << place.name;
+  }
+  EXPECT_NE(gui_.frame().pixels, still.pixels) << "the sign is that of a pause";
+}
+
 TEST_F(Replay, text_is_no_larger_than_a_small_window_has_room_for) {
   const WidgetPlace usual = gui_.place("play");
   gui_.resize(640, 480);
