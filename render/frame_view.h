@@ -37,9 +37,14 @@ struct BarTick {
 
 /// A gray or colour bar.
 struct Bar {
-  std::string title;            ///< "γ = q/p"
-  std::vector<Colour> colours;  ///< from left to right, evenly spaced, two or more
-  std::vector<BarTick> ticks;   ///< by ascending share
+  std::string title;             ///< "γ = q/p"
+  std::vector<Colour> colours;   ///< from left to right, evenly spaced, two or more
+  std::vector<BarTick> ticks;    ///< by ascending share
+  double low = 0.0, high = 1.0;  ///< values at its ends
+  bool logarithmic = false;      ///< then 0 < low
+  // What is not drawn, but told of a disc.
+  std::string symbol{}, unit{};  ///< rich texts: "u", "D per degree"
+  std::vector<double> values{};  ///< by the numbers of grains; NaN where there is none
 };
 
 /// A disc or a line of the legend.

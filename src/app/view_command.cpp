@@ -48,7 +48,8 @@ struct ViewArguments {
   std::string link;                 ///< empty: as the runs suggest
   std::string screenshot;
   std::string size = "1400x900";
-  double scale = 1.0;
+  double scale = 0.0;  ///< 0: that of the display
+  std::string theme = "light";
   std::string context = "auto";
   std::string places;
 };
@@ -87,6 +88,12 @@ void show_beside(ViewModel& model, const ViewArguments& arguments) {
                             arguments.link, model.theta_c_known() ? arguments.beside : arguments.file));
 }
 
+std::vector<std::string> names_of_themes() {
+  std::vector<std::string> names;
+  for (const Theme theme : themes()) names.emplace_back(theme_name(theme));
+  return names;
+}
+
 /// What is shown first.
 void show_first(ViewModel& model, const ViewArguments& arguments) {
   if (!arguments.map.empty()) model.state.map.layers = map_layers(arguments.map);
@@ -95,6 +102,8 @@ void show_first(ViewModel& model, const ViewArguments& arguments) {
     throw Error(ExitCode::usage, fmt::format("--grain {}: the grains are 0 to {}", *arguments.grain,
                                              model.statics().free_count - 1));
   model.state.selected = arguments.grain;
+  model.state.theme = theme_of(arguments.theme);
+  model.state.scale = arguments.scale;
   if (!arguments.behind.empty()) {
     model.hold();
     model.set_ghost(read_ghost(arguments.behind, MissingAnalysis::made));
@@ -110,7 +119,7 @@ void take_screenshot(const ViewArguments& arguments) {
   output_target(arguments.screenshot, output_of_run(arguments.file, arguments.overwrite));
   ViewModel model = ViewModel::open(arguments.file, arguments.settings, "", false, command_line());
   show_first(model, arguments);
-  OffscreenGui gui(model, width, height, static_cast<float>(arguments.scale), kind);
+  OffscreenGui gui(model, width, height, 1.0f, kind);
   for (int quiet = 0; quiet < 25; std::this_thread::sleep_for(20ms))
     quiet = model.update(0.0) ? 0 : quiet + 1;
   gui.settle();
@@ -308,10 +317,13 @@ void add_view_command(CLI::App& app) {
           ->add_option("--screenshot", arguments->screenshot,
                        "Write a picture of the window as a PNG file and exit; needs no display")
           ->excludes(output);
-  command->add_option("--scale", arguments->scale, "Size of text and widgets in the screenshot")
+  command->add_option("--theme", arguments->theme, "Colours of the window; print is for paper")
       ->capture_default_str()
-      ->check(in_range(0.5, 4.0))
-      ->needs(screenshot);
+      ->check(one_of(names_of_themes()));
+  command
+      ->add_option("--scale", arguments->scale,
+                   "Size of text and widgets, 1 on a usual display [that of the display; 1 in a screenshot]")
+      ->check(in_range(0.5, 4.0));
   command->add_option("--context", arguments->context, "What draws the screenshot: auto, osmesa or egl")
       ->capture_default_str()
       ->needs(screenshot);

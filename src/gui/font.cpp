@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "gui/theme.h"
 #include "render/embedded.h"
 
 namespace talus {
@@ -15,8 +16,8 @@ constexpr ImWchar glyph_blocks[] = {0x0020, 0x007E,  // ASCII
                                     0x2010, 0x2027,  // dashes, dots, ellipsis
                                     0x2070, 0x209C,  // superscripts and subscripts
                                     0x2113, 0x2113,  // script l
-                                    0x2190, 0x21FF,  // arrows
-                                    0x2200, 0x22FF,  // mathematical operators
+                                    0x2190, 0x2199,  // arrows
+                                    0x2200, 0x2265,  // mathematical operators
                                     0x23CF, 0x23CF,  // eject
                                     0x25A0, 0x25FF,  // squares, triangles, circles
                                     0x2713, 0x2717,  // check marks, crosses
@@ -28,10 +29,12 @@ constexpr ImWchar glyph_blocks[] = {0x0020, 0x007E,  // ASCII
 void add_embedded_font(ImFontAtlas& atlas, float scale) {
   ImFontConfig config;
   config.FontDataOwnedByAtlas = false;
+  config.OversampleH = 2;
   // Not const in the interface, but only read.
   void* bytes = const_cast<unsigned char*>(embedded::font.data());
-  atlas.AddFontFromMemoryTTF(bytes, static_cast<int>(embedded::font.size()), std::round(font_size * scale),
-                             &config, glyph_blocks);
+  for (const float size : {type_scale.body, type_scale.small, type_scale.heading})
+    atlas.AddFontFromMemoryTTF(bytes, static_cast<int>(embedded::font.size()), std::round(size * scale),
+                               &config, glyph_blocks);
   atlas.Build();
 }
 

@@ -94,9 +94,9 @@ void draw_tabs(Gui& gui, bool with_inspector) {
 void draw_message(Gui& gui) {
   ViewState& state = gui.model.state;
   if (!state.announcement.empty()) {
-    ImGui::PushStyleColor(ImGuiCol_Button, ImVec4(0.62f, 0.08f, 0.0f, 1.0f));
-    ImGui::PushStyleColor(ImGuiCol_ButtonHovered, ImVec4(0.75f, 0.15f, 0.05f, 1.0f));
-    ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(1.0f, 1.0f, 1.0f, 1.0f));
+    ImGui::PushStyleColor(ImGuiCol_Button, packed(gui.colours.alarm));
+    ImGui::PushStyleColor(ImGuiCol_ButtonHovered, packed(gui.colours.alarm));
+    ImGui::PushStyleColor(ImGuiCol_Text, packed(gui.colours.alarm_text));
     if (named_button(gui, "announcement", state.announcement.c_str(), "click: the last frame before it")) {
       gui.model.go_to(Landmark::theta_c);
       state.announcement.clear();
@@ -114,7 +114,7 @@ void draw_message(Gui& gui) {
 
 GuiRequests draw_gui(ViewModel& model, const DrawMap& draw_map, std::vector<WidgetPlace>& places) {
   GuiRequests requests;
-  Gui gui{model, draw_map, places, requests, ImGui::GetFontSize(), {}};
+  Gui gui{model, draw_map, places, requests, palette_of(model.state.theme), ImGui::GetFontSize(), {}};
   handle_keys(gui);
   const ImVec2 size = ImGui::GetIO().DisplaySize;
   const float line = 1.9f * gui.em;  // the message at the bottom
@@ -140,32 +140,6 @@ GuiRequests draw_gui(ViewModel& model, const DrawMap& draw_map, std::vector<Widg
   part("message", {0.0f, height + time_line}, {size.x, line}, 0, [&] { draw_message(gui); });
   if (model.state.show_help) draw_help(gui);
   return requests;
-}
-
-void set_style(float scale) {
-  ImGui::StyleColorsLight();
-  ImGuiStyle& style = ImGui::GetStyle();
-  style.WindowRounding = 0.0f;
-  style.FrameRounding = 3.0f;
-  style.GrabRounding = 3.0f;
-  style.WindowBorderSize = 1.0f;
-  style.FrameBorderSize = 1.0f;
-  style.FramePadding = {6.0f, 3.0f};
-  style.ItemSpacing = {6.0f, 5.0f};
-  style.ScaleAllSizes(scale);
-  const auto gray = [](float value, float alpha = 1.0f) { return ImVec4(value, value, value, alpha); };
-  const auto blue = [](float alpha) { return ImVec4(0.0f, 0.35f, 0.70f, alpha); };
-  const std::pair<ImGuiCol, ImVec4> colours[] = {
-      {ImGuiCol_WindowBg, gray(1.0f)},          {ImGuiCol_Border, gray(0.72f)},
-      {ImGuiCol_Separator, gray(0.82f)},        {ImGuiCol_Text, gray(0.08f)},
-      {ImGuiCol_TextDisabled, gray(0.42f)},     {ImGuiCol_FrameBg, gray(1.0f)},
-      {ImGuiCol_Button, gray(0.90f)},           {ImGuiCol_ButtonHovered, gray(0.83f)},
-      {ImGuiCol_ButtonActive, blue(0.55f)},     {ImGuiCol_Tab, gray(0.90f)},
-      {ImGuiCol_TabHovered, blue(0.30f)},       {ImGuiCol_TabActive, blue(0.22f)},
-      {ImGuiCol_Header, blue(0.18f)},           {ImGuiCol_HeaderHovered, blue(0.28f)},
-      {ImGuiCol_HeaderActive, blue(0.45f)},     {ImGuiCol_SliderGrab, blue(0.60f)},
-      {ImGuiCol_SliderGrabActive, blue(0.85f)}, {ImGuiCol_CheckMark, blue(1.0f)}};
-  for (const auto& [part, colour] : colours) style.Colors[part] = colour;
 }
 
 }  // namespace talus

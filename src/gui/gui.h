@@ -34,8 +34,4 @@ struct GuiRequests {
 /// of the widgets.
 GuiRequests draw_gui(ViewModel& model, const DrawMap& draw_map, std::vector<WidgetPlace>& places);
 
-/// Sets text sizes and colours; to be called once for each ImGui context. `scale` is that of the display
-/// (1, 2 ...).
-void set_style(float scale);
-
 }  // namespace talus

@@ -43,6 +43,7 @@ constexpr KeyLine key_lines[] = {
     {"R M A F G", "the panels run, map, act, files, grain; tab: from field to field"},
     {"h", "show or hide the panels"},
     {"l", "show or hide the plots"},
+    {"T", "next theme: light, dark, print"},
     {"?", "this list"},
     {"q", "quit"},
 };
@@ -151,6 +152,9 @@ void change_view(Gui& gui, ImWchar key) {
       break;
     case 'y':
       state.show_neighbourhoods = !state.show_neighbourhoods;
+      break;
+    case 'T':
+      state.theme = next_theme(state.theme);
       break;
     case 'h':
       state.show_controls = state.show_inspector = !state.show_controls;

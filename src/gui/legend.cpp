@@ -1,15 +1,12 @@
 #include <algorithm>
+#include <cmath>
+#include <fmt/core.h>
+#include <utility>
 
 #include "gui/panels.h"
 
 namespace talus {
 namespace {
-
-constexpr ImU32 legend_ink = IM_COL32(0, 0, 0, 255);
-
-ImU32 colour_of(const Colour& colour) {
-  return IM_COL32(colour.red, colour.green, colour.blue, colour.alpha);
-}
 
 /// Goes to the next line if what follows would not fit.
 void make_room(float width) {
@@ -28,49 +25,93 @@ float width_of(const Bar& bar, float em) { return text_width(bar.title) + (0.6f 
 
 float width_of(const Swatch& swatch, float em) { return 2.4f * em + text_width(swatch.label); }
 
-void draw_bar(const Bar& bar, float em) {
-  const ImFont& font = *ImGui::GetFont();
-  const float size = ImGui::GetFontSize(), title = text_width(bar.title), length = bar_length * em;
+/// The mouse on a bar: pulling its ends sets the range of the map, a double click gives back the map's own.
+void use_bar(Gui& gui, const Bar& bar, const ImVec2& low, const ImVec2& high) {
+  const float em = gui.em, length = high.x - low.x;
+  MapSettings& map = gui.model.state.map;
+  ImGui::SetCursorScreenPos({low.x - 0.5f * em, low.y});
+  ImGui::InvisibleButton("range of the bar", {length + em, high.y - low.y});
+  note_place(gui, "legend bar", low, high);
+  const float x = ImGui::GetIO().MousePos.x;
+  using Part = HeldBar::Part;
+  const Part part = x < low.x + 0.6f * em ? Part::low : x > high.x - 0.6f * em ? Part::high : Part::middle;
+  const BarEnds ends{bar.low, bar.high, bar.logarithmic};
+  HeldBar& held = gui.model.state.held_bar;
+  if (ImGui::IsItemActivated()) held = {part, ends, static_cast<double>(x)};
+  if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0)) {
+    map.range_low.reset();
+    map.range_high.reset();
+    held.part = Part::none;
+  }
+  if (!ImGui::IsItemActive()) held.part = Part::none;
+  if (held.part != Part::none && ImGui::GetIO().MouseDelta.x != 0.0f) {
+    const auto [from, to] = pulled(held, (static_cast<double>(x) - held.from) / static_cast<double>(length));
+    map.range_low = from;
+    map.range_high = to;
+  }
+  if (!ImGui::IsItemHovered() && !ImGui::IsItemActive()) return;
+  ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  for (const float end : {low.x, high.x})
+    list.AddRectFilled({end - 0.15f * em, low.y - 0.15f * em}, {end + 0.15f * em, high.y + 0.15f * em},
+                       packed(gui.colours.accent), 0.15f * em);
+  if (ImGui::IsItemActive()) return;
+  const double share = std::clamp(static_cast<double>((x - low.x) / length), 0.0, 1.0);
+  ImGui::BeginTooltip();
+  rich_text(fmt::format("{} = {:.3g} {}", bar.symbol, value_at(ends, share), bar.unit));
+  rich_text("drag an end, or the middle; double click: the range of the map");
+  ImGui::EndTooltip();
+}
+
+/// Where a bar lies that has been drawn.
+struct DrawnBar {
+  ImVec2 low, high;
+};
+
+DrawnBar draw_bar(const Bar& bar, float em, ImU32 ink) {
+  const float title = text_width(bar.title), length = bar_length * em, height = 0.85f * em;
   const float width = width_of(bar, em);
   make_room(width);
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  add_rich_text(list, corner, legend_ink, bar.title);
-  const float left = corner.x + title + 0.6f * em;
+  add_rich_text(list, {corner.x, corner.y - 0.1f * em}, ink, bar.title);
+  const float left = corner.x + title + 0.8f * em;
   const std::size_t pieces = bar.colours.size() - 1;
   for (std::size_t k = 0; k < pieces; ++k) {
     const float x0 = left + length * static_cast<float>(k) / static_cast<float>(pieces);
     const float x1 = left + length * static_cast<float>(k + 1) / static_cast<float>(pieces);
-    list.AddRectFilled({x0, corner.y}, {x1, corner.y + em}, colour_of(bar.colours[k]));
+    list.AddRectFilled({x0, corner.y}, {x1, corner.y + height}, packed(bar.colours[k]));
   }
-  list.AddRect({left, corner.y}, {left + length, corner.y + em}, legend_ink);
+  list.AddRect({left, corner.y}, {left + length, corner.y + height}, ink);
   float free_from = 0.0f;
+  const TextOfSize small(TextSize::small);
   for (const BarTick& tick : bar.ticks) {
     const float x = left + static_cast<float>(tick.share) * length;
-    list.AddLine({x, corner.y + em}, {x, corner.y + 1.2f * em}, legend_ink);
-    const float label = rich_width(font, size, tick.label), at = x - 0.5f * label;
+    list.AddLine({x, corner.y + height}, {x, corner.y + height + 0.2f * em}, ink);
+    const float label = rich_width(*ImGui::GetFont(), ImGui::GetFontSize(), tick.label),
+                at = x - 0.5f * label;
     if (at < free_from) continue;
     free_from = at + label + 0.4f * em;
-    add_rich_text(list, {at, corner.y + 1.2f * em}, legend_ink, tick.label);
+    add_rich_text(list, {at, corner.y + height + 0.25f * em}, ink, tick.label);
   }
   ImGui::Dummy({width, 2.4f * em});
-  ImGui::SameLine();
+  return {{left, corner.y}, {left + length, corner.y + height}};
 }
 
-void draw_swatch(const Swatch& swatch, float em) {
+void draw_swatch(const Swatch& swatch, float em, ImU32 ink) {
   const float width = width_of(swatch, em);
   make_room(width);
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const float middle = corner.y + 0.55f * em;
   if (swatch.kind == Swatch::Kind::line) {
-    list.AddLine({corner.x, middle}, {corner.x + 1.6f * em, middle}, colour_of(swatch.fill),
+    list.AddLine({corner.x, middle}, {corner.x + 1.6f * em, middle}, packed(swatch.fill),
                  std::max(1.0f, static_cast<float>(swatch.width) * em));
   } else {
-    list.AddCircleFilled({corner.x + 1.0f * em, middle}, 0.45f * em, colour_of(swatch.rim));
-    list.AddCircleFilled({corner.x + 1.0f * em, middle}, 0.36f * em, colour_of(swatch.fill));
+    list.AddCircleFilled({corner.x + 1.0f * em, middle}, 0.45f * em, packed(swatch.rim));
+    list.AddCircleFilled({corner.x + 1.0f * em, middle}, 0.36f * em, packed(swatch.fill));
   }
-  add_rich_text(list, {corner.x + 1.9f * em, corner.y}, legend_ink, swatch.label);
+  add_rich_text(list, {corner.x + 1.9f * em, corner.y}, ink, swatch.label);
   ImGui::Dummy({width, 2.4f * em});
   ImGui::SameLine();
 }
@@ -95,11 +136,21 @@ int legend_rows(const FrameView& view, float width) {
   return rows;
 }
 
-void draw_legends(const FrameView& view) {
-  const float em = ImGui::GetFontSize();
+void draw_legends(Gui& gui, const FrameView& view, bool of_first) {
+  const float em = gui.em;
+  const ImU32 ink = packed(gui.colours.ink);
+  bool first = of_first;  // the bar whose range can be chosen
   for (const Legend& legend : view.legends) {
-    for (const Bar& bar : legend.bars) draw_bar(bar, em);
-    for (const Swatch& swatch : legend.swatches) draw_swatch(swatch, em);
+    for (const Bar& bar : legend.bars) {
+      const DrawnBar drawn = draw_bar(bar, em, ink);
+      ImGui::SameLine();
+      const ImVec2 next = ImGui::GetCursorScreenPos();
+      if (std::exchange(first, false)) {
+        use_bar(gui, bar, drawn.low, drawn.high);
+        ImGui::SetCursorScreenPos(next);
+      }
+    }
+    for (const Swatch& swatch : legend.swatches) draw_swatch(swatch, em, ink);
   }
   ImGui::NewLine();
 }

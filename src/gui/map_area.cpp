@@ -39,9 +39,8 @@ void draw_caption(const FrameView& view, float width) {
 }
 
 /// Gravity, beside the legend.
-void draw_gravity(const ImVec2& middle, float em, double fall) {
+void draw_gravity(const ImVec2& middle, float em, double fall, ImU32 ink) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  const ImU32 ink = IM_COL32(0, 0, 0, 255);
   const auto x = static_cast<float>(sine(fall)), y = static_cast<float>(cosine(fall));
   const float reach = 1.1f * em;
   const ImVec2 tip{middle.x + reach * x, middle.y + reach * y};
@@ -58,11 +57,12 @@ void tell_grain(const Gui& gui, const MapPane& pane, const Point& place, Index g
   const ViewModel& of = pane.beside && model.run_beside() ? *model.run_beside() : model;
   const double diameter = of.mean_diameter();
   ImGui::BeginTooltip();
-  ImGui::Text("%.1f, %.1f D: %s", place.x / diameter, place.y / diameter, grain_text(of, grain).c_str());
-  const GrainValues& shown = pane.beside ? model.values_beside() : model.values();
+  rich_text(
+      fmt::format("{:.1f}, {:.1f} D: {}", place.x / diameter, place.y / diameter, grain_text(of, grain)));
+  // A second view of the same run shows another map, or what has changed.
+  const GrainValues none, &shown = pane.beside ? model.values_beside() : none;
   const auto k = static_cast<std::size_t>(grain);
-  const bool told = !pane.beside && shows(model.state.map.layers, MapKind::gamma);
-  if (!told && k < shown.values.size() && !std::isnan(shown.values[k]))
+  if (k < shown.values.size() && !std::isnan(shown.values[k]))
     rich_text(fmt::format("{}: {:.4g}", shown.title, shown.values[k]));
   ImGui::EndTooltip();
 }
@@ -101,10 +101,25 @@ void use_mouse(Gui& gui, const MapPane& pane, const ShownMap& shown) {
 std::string grain_text(const ViewModel& model, Index grain) {
   std::string text = fmt::format("grain {}", grain);
   if (grain >= model.statics().free_count) return "floor " + text;
-  if (!any_layer(model.state.map.layers, [](MapKind kind) { return shows_gamma(kind); })) return text;
-  const double gamma = model.frame().gamma[grain];
+  const auto of_grain = static_cast<std::size_t>(grain);
+  bool gamma_told = false;
+  for (const Legend& legend : model.annotated_map().legends)
+    for (const Bar& bar : legend.bars) {
+      if (of_grain >= bar.values.size()) continue;
+      const double value = bar.values[of_grain];
+      gamma_told = gamma_told || bar.symbol == "γ";
+      if (std::isnan(value))
+        text += bar.symbol == "γ" ? ", carries nothing" : fmt::format(", {}: none", bar.symbol);
+      else
+        text += fmt::format(", {} = {:.3g}{}{}", bar.symbol, value,
+                            bar.unit.empty() || bar.unit.starts_with("°") ? "" : " ", bar.unit);
+      if (bar.symbol == "γ" && !std::isnan(value)) text += ", " + reading_text(model.state.map);
+    }
+  if (gamma_told || !any_layer(model.state.map.layers, [](MapKind kind) { return shows_gamma(kind); }))
+    return text;
+  const double gamma = model.frame().gamma[of_grain];
   return std::isnan(gamma) ? text + ", carries nothing"
-                           : fmt::format("{}, γ = {:.3f}, {}", text, gamma, reading_text(model.state.map));
+                           : fmt::format("{}, γ = {:.3g}, {}", text, gamma, reading_text(model.state.map));
 }
 
 float map_area_height(float picture, float em) {
@@ -128,7 +143,8 @@ void draw_map_pane(Gui& gui, const MapPane& pane, const ImVec2& room) {
   list.AddImage(gui.draw_map(view, pixels, pane.beside ? 1 : 0), shown.corner, end, {0.0f, 0.0f},
                 {1.0f, (end.y - shown.corner.y) / shown_height});
   const ImVec2 under{shown.corner.x + room.x - 1.4f * gui.em, ImGui::GetCursorScreenPos().y + 1.2f * gui.em};
-  if (room.x > 26.0f * gui.em && pane.gravity) draw_gravity(under, gui.em, view.tilt - view.turn);
+  if (room.x > 26.0f * gui.em && pane.gravity)
+    draw_gravity(under, gui.em, view.tilt - view.turn, packed(gui.colours.ink));
   use_mouse(gui, pane, shown);
 }
 
@@ -140,7 +156,7 @@ void draw_map_area(Gui& gui) {
   const ImVec2 room{std::max(width, 1.0f),
                     std::max(ImGui::GetContentRegionAvail().y - legend_lines * gui.em, 4.0f * gui.em)};
   draw_map_pane(gui, {}, room);
-  draw_legends(gui.model.annotated_map());
+  draw_legends(gui, gui.model.annotated_map(), true);
 }
 
 }  // namespace talus

@@ -136,7 +136,7 @@ bool draw_pair(Gui& gui) {
                       ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
     draw_head(of.heads[k], of.pane.x, of.lines);
     draw_map_pane(gui, {.beside = k == 1, .gravity = false}, of.picture);
-    draw_legends(k == 0 ? gui.model.annotated_map() : gui.model.annotated_map_beside());
+    draw_legends(gui, k == 0 ? gui.model.annotated_map() : gui.model.annotated_map_beside(), k == 0);
     ImGui::EndChild();
   }
   return true;

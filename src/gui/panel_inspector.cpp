@@ -53,7 +53,7 @@ void draw_mohr_circle(Gui& gui, const Inspection& grain, double theta_c) {
   ImGui::Dummy(size);
   note_place(gui, "mohr circle");
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  const ImU32 ink = IM_COL32(0, 0, 0, 255), law = IM_COL32(213, 94, 0, 255);
+  const ImU32 ink = packed(gui.colours.ink), law = packed(gui.colours.curves[1]);
   const float scale = 0.7f * width;  // px for p
   const ImVec2 origin{corner.x + 0.05f * width, corner.y + 1.6f * em + 0.37f * width};
   list.AddLine({corner.x, origin.y}, {corner.x + size.x, origin.y}, ink);

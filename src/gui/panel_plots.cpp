@@ -32,7 +32,7 @@ void draw_and_answer(Gui& gui, const Plot& plot, const ImVec2& size, const PlotM
     const ImVec2 low{corner.x + size.x - 1.6f * gui.em, corner.y},
         high{corner.x + size.x, corner.y + 1.4f * gui.em};
     ImGui::GetWindowDrawList()->AddText({low.x + 0.3f * gui.em, low.y + 0.2f * gui.em},
-                                        IM_COL32(90, 90, 90, 255), "x");
+                                        packed(gui.colours.soft), "x");
     note_place(gui, "remove " + plot.name, low, high);
     if (clicked && ImGui::IsMouseHoveringRect(low, high)) {
       gone = plot.name;

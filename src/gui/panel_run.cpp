@@ -2,6 +2,7 @@
 
 #include "core/errors.h"
 #include "core/trigonometry.h"
+#include "gui/icons.h"
 #include "gui/panels.h"
 #include "gui/run_actions.h"
 
@@ -9,9 +10,9 @@ namespace talus {
 namespace {
 
 /// The state of a live run, in lines.
-void draw_status(const LiveStatus& status, bool theta_c_known, double theta_c) {
+void draw_status(const Palette& colours, const LiveStatus& status, bool theta_c_known, double theta_c) {
   if (!status.error.empty()) {
-    ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0.7f, 0.1f, 0.0f, 1.0f));
+    ImGui::PushStyleColor(ImGuiCol_Text, packed(colours.warning));
     ImGui::TextWrapped("%s", status.error.c_str());
     ImGui::PopStyleColor();
   }
@@ -28,7 +29,8 @@ void draw_status(const LiveStatus& status, bool theta_c_known, double theta_c) {
 void draw_live(Gui& gui, LiveRun& live) {
   const LiveStatus status = live.status();
   ViewState& state = gui.model.state;
-  if (named_button(gui, "play", status.running ? "Pause" : "Play", "space")) toggle_playing(gui);
+  if (icon_button(gui, "play", status.running ? Icon::pause : Icon::play, "play, pause: space"))
+    toggle_playing(gui);
   for (const auto& [name, label, count] :
        {std::tuple{"step 1", "+1", 1}, {"step 10", "+10", 10}, {"step 100", "+100", 100}}) {
     ImGui::SameLine();
@@ -45,7 +47,7 @@ void draw_live(Gui& gui, LiveRun& live) {
   if (named_button(gui, "run to", "Run to", "compute until the tilt is reached, then pause: g"))
     live.run_to(radians(state.run_to_tilt));
   ImGui::Separator();
-  draw_status(status, gui.model.theta_c_known(), gui.model.theta_c());
+  draw_status(gui.colours, status, gui.model.theta_c_known(), gui.model.theta_c());
   ImGui::Separator();
   ImGui::SetNextItemWidth(6.0f * gui.em);
   named_number(gui, "seed", "seed", state.seed, "of the random deposition");
@@ -74,13 +76,11 @@ void draw_landmarks(Gui& gui) {
     const char* tip;
   };
   const LandmarkButton places[] = {
-      {"first", "first", Landmark::first, "home"},
       {"theta_d", "θ_d", Landmark::theta_d, "where contraction turns into dilation: d"},
       {"length jump", "ℓ_c jumps", Landmark::length_jump,
        "where the largest coarse-graining length jumps: j"},
       {"percolation", "spans", Landmark::percolation, "where a cluster first spans from floor to surface: p"},
-      {"theta_c", "θ_c", Landmark::theta_c, "the last frame before failure: c"},
-      {"last", "last", Landmark::last, "end"}};
+      {"theta_c", "θ_c", Landmark::theta_c, "the last frame before failure: c"}};
   bool first = true;
   for (const LandmarkButton& place : places) {
     if (!first) same_line_if_fits(rich_width(*ImGui::GetFont(), ImGui::GetFontSize(), place.label) + gui.em);
@@ -93,11 +93,17 @@ void draw_landmarks(Gui& gui) {
 
 void draw_replay(Gui& gui) {
   ViewModel& model = gui.model;
-  if (named_button(gui, "play", model.playing() ? "Pause" : "Play", "space")) toggle_playing(gui);
+  if (icon_button(gui, "first", Icon::first, "the first frame: home")) model.go_to(Landmark::first);
   ImGui::SameLine();
-  if (named_button(gui, "back", "<", "one frame back: left arrow; with shift 10")) advance(gui, -1);
+  if (icon_button(gui, "back", Icon::back, "one frame back: left arrow; with shift 10")) advance(gui, -1);
   ImGui::SameLine();
-  if (named_button(gui, "forward", ">", "one frame forward: right arrow; with shift 10")) advance(gui, 1);
+  if (icon_button(gui, "play", model.playing() ? Icon::pause : Icon::play, "play, pause: space"))
+    toggle_playing(gui);
+  ImGui::SameLine();
+  if (icon_button(gui, "forward", Icon::forward, "one frame forward: right arrow; with shift 10"))
+    advance(gui, 1);
+  ImGui::SameLine();
+  if (icon_button(gui, "last", Icon::last, "the last frame: end")) model.go_to(Landmark::last);
   int frame = static_cast<int>(model.frame_index());
   ImGui::SetNextItemWidth(-1.0f);
   if (ImGui::SliderInt("##frame", &frame, 0, static_cast<int>(model.frame_count()) - 1,

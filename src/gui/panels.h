@@ -32,7 +32,8 @@ void draw_map_pane(Gui& gui, const MapPane& pane, const ImVec2& room);
 bool draw_pair(Gui& gui);
 /// What is shown beside the map, in the panel of maps.
 void choose_beside(Gui& gui);
-/// What the map tells of a grain under the mouse: its gamma on maps that show it.
+/// What the map tells of a grain under the mouse, as rich text: what its bar measures, with the unit, and
+/// gamma on maps of overloaded grains.
 std::string grain_text(const ViewModel& model, Index grain);
 /// The height of the map with its title and legend around a picture of `picture` px.
 float map_area_height(float picture, float em);
@@ -40,7 +41,8 @@ float map_area_height(float picture, float em);
 void draw_help(Gui& gui);
 
 /// The legends of a view in a row, in the available width.
-void draw_legends(const FrameView& view);
+/// The range of the first bar is chosen with the mouse if the view is `of_first` map.
+void draw_legends(Gui& gui, const FrameView& view, bool of_first);
 /// How many rows they have in a width, px.
 int legend_rows(const FrameView& view, float width);
 

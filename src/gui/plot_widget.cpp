@@ -12,16 +12,8 @@
 namespace talus {
 namespace {
 
-constexpr ImU32 plot_ink = IM_COL32(0, 0, 0, 255);
-constexpr ImU32 faint = IM_COL32(0, 0, 0, 90);
-constexpr ImU32 mark_colour = IM_COL32(90, 90, 90, 255);
-constexpr ImU32 tick_colour = IM_COL32(176, 92, 0, 255);
-
-/// Colours of the curves, in their order; they differ in lightness.
-ImU32 curve_colour(std::size_t k) {
-  constexpr ImU32 colours[] = {IM_COL32(0, 0, 0, 255), IM_COL32(213, 94, 0, 255), IM_COL32(0, 114, 178, 255),
-                               IM_COL32(120, 120, 120, 255)};
-  return colours[k % std::size(colours)];
+ImU32 curve_colour(const Palette& colours, std::size_t k) {
+  return packed(colours.curves[k % colours.curves.size()]);
 }
 
 struct AxisRange {
@@ -75,23 +67,23 @@ void find_ranges(const Plot& plot, const PlotLook& look, Axes& axes) {
   }
 }
 
-void draw_ticks(ImDrawList& list, const Axes& axes, float em) {
+void draw_ticks(ImDrawList& list, const Axes& axes, float em, ImU32 ink) {
   const int most_x = std::max(2, static_cast<int>((axes.high.x - axes.low.x) / (4.0f * em)));
   for (const RoundTick& tick : round_ticks(axes.x.low, axes.x.high, most_x)) {
     const float x = axes.px(tick.value);
-    list.AddLine({x, axes.high.y}, {x, axes.high.y - 0.3f * em}, plot_ink);
+    list.AddLine({x, axes.high.y}, {x, axes.high.y - 0.3f * em}, ink);
     const float width = ImGui::CalcTextSize(tick.label.c_str()).x;
-    list.AddText({x - 0.5f * width, axes.high.y + 0.1f * em}, plot_ink, tick.label.c_str());
+    list.AddText({x - 0.5f * width, axes.high.y + 0.1f * em}, ink, tick.label.c_str());
   }
   const int most_y = std::max(2, static_cast<int>((axes.high.y - axes.low.y) / (2.0f * em)));
   for (const RoundTick& tick : round_ticks(axes.y.low, axes.y.high, most_y)) {
     const float share = static_cast<float>((tick.value - axes.y.low) / (axes.y.high - axes.y.low));
     const float y = axes.high.y - share * (axes.high.y - axes.low.y);
-    list.AddLine({axes.low.x, y}, {axes.low.x + 0.3f * em, y}, plot_ink);
+    list.AddLine({axes.low.x, y}, {axes.low.x + 0.3f * em, y}, ink);
     if (axes.log_y && tick.value != std::round(tick.value)) continue;
     const std::string label = axes.log_y ? fmt::format("1e{:.0f}", tick.value) : tick.label;
     const float width = ImGui::CalcTextSize(label.c_str()).x;
-    list.AddText({axes.low.x - width - 0.2f * em, y - 0.5f * ImGui::GetFontSize()}, plot_ink, label.c_str());
+    list.AddText({axes.low.x - width - 0.2f * em, y - 0.5f * ImGui::GetFontSize()}, ink, label.c_str());
   }
 }
 
@@ -190,25 +182,26 @@ void show_values(const Plot& plot, const Axes& axes) {
 }
 
 /// The range chosen, and a line for each curve that was measured.
-void draw_chosen(ImDrawList& list, const Plot& plot, const PlotLook& look, const Axes& axes, float em) {
+void draw_chosen(const Palette& colours, ImDrawList& list, const Plot& plot, const PlotLook& look,
+                 const Axes& axes, float em) {
   float y = axes.low.y + 0.1f * em;
   const float left = axes.low.x + 0.4f * em;
   if (!plot.note.empty()) {
-    add_rich_text(list, {left, y}, mark_colour, plot.note);
+    add_rich_text(list, {left, y}, packed(colours.soft), plot.note);
     y += 1.1f * em;
   }
   if (!look.chosen) return;
   const auto [low, high] = *look.chosen;
   const auto [left_end, right_end] = std::minmax(axes.px(low), axes.px(high));
-  list.AddRectFilled({left_end, axes.low.y}, {right_end, axes.high.y}, IM_COL32(0, 90, 180, 40));
+  list.AddRectFilled({left_end, axes.low.y}, {right_end, axes.high.y}, packed(colours.range));
   for (std::size_t k = 0; k < plot.series.size(); ++k) {
     if (plot.series[k].law) continue;
     const RangeStatistics of = statistics_of(plot.series[k], low, high);
     const std::string text =
         fmt::format("{:.4g} ± {:.2g}, slope {:.3g}, {} values", of.mean, of.deviation, of.slope, of.count);
     const float width = ImGui::CalcTextSize(text.c_str()).x;
-    list.AddRectFilled({left, y}, {left + width, y + 1.1f * em}, IM_COL32(255, 255, 255, 200));
-    list.AddText({left, y}, curve_colour(k), text.c_str());
+    list.AddRectFilled({left, y}, {left + width, y + 1.1f * em}, packed(colours.note));
+    list.AddText({left, y}, curve_colour(colours, k), text.c_str());
     y += 1.1f * em;
   }
 }
@@ -240,7 +233,8 @@ std::optional<double> use_plot(ViewState& state, const Plot& plot, const Axes& a
 }
 
 /// The title, and the names of several curves in their colours: beside it where there is room, else alone.
-void draw_names(ImDrawList& list, const Plot& plot, const ImVec2& place, float right, float em) {
+void draw_names(const Palette& colours, ImDrawList& list, const Plot& plot, const ImVec2& place, float right,
+                float em) {
   const auto width_of = [](const std::string& text) {
     return rich_width(*ImGui::GetFont(), ImGui::GetFontSize(), text);
   };
@@ -248,24 +242,28 @@ void draw_names(ImDrawList& list, const Plot& plot, const ImVec2& place, float r
   for (const PlotSeries& series : plot.series) names += width_of(series.name) + 0.8f * em;
   const bool several = plot.series.size() > 1;
   const float title = width_of(plot.title);
-  if (!several || title + names < right - place.x) add_rich_text(list, place, plot_ink, plot.title);
+  if (!several || title + names < right - place.x)
+    add_rich_text(list, place, packed(colours.ink), plot.title);
   if (!several) return;
   float x = std::max(place.x, right - names + 0.8f * em);
   for (std::size_t k = 0; k < plot.series.size(); ++k) {
-    add_rich_text(list, {x, place.y}, curve_colour(k), plot.series[k].name);
+    add_rich_text(list, {x, place.y}, curve_colour(colours, k), plot.series[k].name);
     x += width_of(plot.series[k].name) + 0.8f * em;
   }
 }
 
-void draw_marks(ImDrawList& list, const Axes& axes, const PlotMarks& marks, float em) {
+void draw_marks(const Palette& colours, ImDrawList& list, const Axes& axes, const PlotMarks& marks,
+                float em) {
   if (marks.shown)
-    list.AddLine({axes.px(*marks.shown), axes.low.y}, {axes.px(*marks.shown), axes.high.y}, mark_colour);
+    list.AddLine({axes.px(*marks.shown), axes.low.y}, {axes.px(*marks.shown), axes.high.y},
+                 packed(colours.frame_shown));
   for (const double tick : marks.ticks)
-    list.AddLine({axes.px(tick), axes.high.y}, {axes.px(tick), axes.high.y - 0.7f * em}, tick_colour);
+    list.AddLine({axes.px(tick), axes.high.y}, {axes.px(tick), axes.high.y - 0.7f * em},
+                 packed(colours.rearrangement));
   if (!marks.theta_c) return;
   const float x = axes.px(*marks.theta_c), dash = 0.3f * em;
   for (float y = axes.low.y; y < axes.high.y; y += 2.0f * dash)
-    list.AddLine({x, y}, {x, std::min(y + dash, axes.high.y)}, faint);
+    list.AddLine({x, y}, {x, std::min(y + dash, axes.high.y)}, packed(colours.grid));
 }
 
 }  // namespace
@@ -292,23 +290,24 @@ std::optional<double> draw_plot(Gui& gui, const Plot& plot, const ImVec2& size, 
   const PlotLook look = gui.model.state.plot_looks[plot.name];
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const float em = gui.em;
+  const Palette& colours = gui.colours;
   Axes axes;
   axes.log_y = look.log_y.value_or(plot.log_y);
   axes.falling_x = plot.falling_x;
   axes.low = {corner.x + 3.4f * em, corner.y + 1.5f * em};
   axes.high = {corner.x + size.x - 0.8f * em, corner.y + size.y - 2.5f * em};
   list.PushClipRect(corner, {corner.x + size.x, corner.y + size.y}, true);
-  draw_names(list, plot, {axes.low.x, corner.y + 0.2f * em}, axes.high.x, em);
+  draw_names(colours, list, plot, {axes.low.x, corner.y + 0.2f * em}, axes.high.x, em);
   list.PopClipRect();
-  list.AddRect(axes.low, axes.high, plot_ink);
+  list.AddRect(axes.low, axes.high, packed(colours.ink));
   const float title = rich_width(*ImGui::GetFont(), ImGui::GetFontSize(), plot.x_title);
-  add_rich_text(list, {0.5f * (axes.low.x + axes.high.x - title), axes.high.y + 1.1f * em}, plot_ink,
-                plot.x_title);
+  add_rich_text(list, {0.5f * (axes.low.x + axes.high.x - title), axes.high.y + 1.1f * em},
+                packed(colours.ink), plot.x_title);
   Axes all = axes;
   find_ranges(plot, {}, all);
   find_ranges(plot, look, axes);
   if (all.x.empty()) {
-    list.AddText({axes.low.x + 0.5f * em, axes.low.y + 0.5f * em}, faint, "nothing yet");
+    list.AddText({axes.low.x + 0.5f * em, axes.low.y + 0.5f * em}, packed(colours.soft), "nothing yet");
     return std::nullopt;
   }
   all.x.widen();
@@ -319,14 +318,15 @@ std::optional<double> draw_plot(Gui& gui, const Plot& plot, const ImVec2& size, 
     axes.x.high = (*look.zoomed)[1];
   }
   axes.y.widen();
-  draw_ticks(list, axes, em);
+  draw_ticks(list, axes, em, packed(gui.colours.ink));
   list.PushClipRect(axes.low, axes.high, true);
-  draw_marks(list, axes, marks, em);
+  draw_marks(colours, list, axes, marks, em);
   for (std::size_t k = 0; k < plot.series.size(); ++k)
-    draw_behind(list, axes, plot.series[k].behind, curve_colour(k), 0.06f * em);
+    draw_behind(list, axes, plot.series[k].behind, curve_colour(colours, k), 0.06f * em);
   for (std::size_t k = plot.series.size(); k-- > 0;)
-    draw_curve(list, axes, plot.series[k], curve_colour(k), (plot.series[k].law ? 0.06f : 0.1f) * em);
-  draw_chosen(list, plot, look, axes, em);
+    draw_curve(list, axes, plot.series[k], curve_colour(colours, k),
+               (plot.series[k].law ? 0.06f : 0.1f) * em);
+  draw_chosen(colours, list, plot, look, axes, em);
   list.PopClipRect();
   if (ImGui::IsItemHovered() && !ImGui::IsItemActive()) show_values(plot, axes);
   return use_plot(gui.model.state, plot, axes, all);

@@ -1,10 +1,12 @@
 #include "gui/screen.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 #include "gui/font.h"
 #include "gui/map_texture.h"
+#include "gui/theme.h"
 
 namespace talus {
 namespace {
@@ -33,12 +35,20 @@ GLuint upload_font(const Gl& gl, ImFontAtlas& atlas) {
   return texture;
 }
 
+/// The scale asked for, or the largest, in steps, with which a small window still has room for its parts.
+float fitting_scale(float asked, int width, int height) {
+  constexpr float least_width = 560.0f, least_height = 400.0f, step = 0.25f;  // px at scale 1
+  const float room =
+      std::min(static_cast<float>(width) / least_width, static_cast<float>(height) / least_height);
+  return std::min(asked, std::max(1.0f, step * std::floor(room / step)));
+}
+
 }  // namespace
 
 void GuiScreen::ContextDeleter::operator()(ImGuiContext* context) const { ImGui::DestroyContext(context); }
 
 GuiScreen::GuiScreen(std::unique_ptr<Context> context, float scale)
-    : context_(context.get()), gl_(load_gl(*context)) {
+    : context_(context.get()), gl_(load_gl(*context)), display_scale_(scale) {
   map_ = std::make_unique<MapTexture>(std::move(context), gl_);
   painter_ = std::make_unique<DrawDataPainter>(gl_);
   imgui_.reset(ImGui::CreateContext());
@@ -48,12 +58,25 @@ GuiScreen::GuiScreen(std::unique_ptr<Context> context, float scale)
   own.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
   own.MousePos = {-1.0f, -1.0f};
   name_keys(own);
-  add_embedded_font(*own.Fonts, scale);
-  font_texture_ = upload_font(gl_, *own.Fonts);
-  set_style(scale);
+  put_on({Theme::light, scale, 1.0f});
 }
 
 GuiScreen::~GuiScreen() { gl_.DeleteTextures(1, &font_texture_); }
+
+/// The glyphs are baked in the pixels that they are drawn with, so that they are as sharp as the display.
+void GuiScreen::put_on(const Look& look) {
+  ImGuiIO& own = io();
+  const float fine = look.scale * look.fineness;
+  if (fine != look_.scale * look_.fineness) {
+    own.Fonts->Clear();
+    add_embedded_font(*own.Fonts, fine);
+    gl_.DeleteTextures(1, &font_texture_);
+    font_texture_ = upload_font(gl_, *own.Fonts);
+  }
+  own.FontGlobalScale = 1.0f / look.fineness;
+  ImGui::GetStyle() = style_of(look.theme, look.scale);
+  look_ = look;
+}
 
 ImGuiIO& GuiScreen::io() {
   ImGui::SetCurrentContext(imgui_.get());
@@ -66,6 +89,9 @@ GuiRequests GuiScreen::draw(ViewModel& model, const Surface& surface, int width,
   own.DisplaySize = {static_cast<float>(width), static_cast<float>(height)};
   own.DisplayFramebufferScale = {pixels, static_cast<float>(surface.height) / static_cast<float>(height)};
   own.DeltaTime = std::max(static_cast<float>(seconds), 1e-4f);  // ImGui accepts none that is zero
+  const float asked = model.state.scale > 0.0 ? static_cast<float>(model.state.scale) : display_scale_;
+  const Look look{model.state.theme, fitting_scale(asked, width, height), pixels};
+  if (!(look == look_)) put_on(look);
   input_.hand_over(own);
   ImGui::NewFrame();
   const DrawMap draw_map = [&](const FrameView& view, int map_width, std::size_t texture) {

@@ -19,7 +19,8 @@ class MapTexture;
 
 class GuiScreen {
  public:
-  /// For a current context. `scale` is that of the display: 2 draws everything twice as large.
+  /// For a current context. `scale` is that of the display: 2 draws everything twice as large, where the
+  /// model asks for no other.
   GuiScreen(std::unique_ptr<Context> context, float scale);
   ~GuiScreen();
   GuiScreen(const GuiScreen&) = delete;
@@ -28,6 +29,9 @@ class GuiScreen {
   /// One picture of the whole window, `seconds` after the one before. `width` and `height` are those in which
   /// mouse positions are given; the surface may have more pixels.
   GuiRequests draw(ViewModel& model, const Surface& surface, int width, int height, double seconds);
+
+  /// The window is on another display.
+  void set_display_scale(float scale) { display_scale_ = scale; }
 
   InputQueue& input() { return input_; }
   ImGuiIO& io();
@@ -42,6 +46,15 @@ class GuiScreen {
     void operator()(ImGuiContext* context) const;
   };
 
+  /// What fonts and style were made for.
+  struct Look {
+    Theme theme = Theme::light;
+    float scale = 0.0f;     ///< of text and widgets
+    float fineness = 1.0f;  ///< px of the surface in one of the window
+    bool operator==(const Look&) const = default;
+  };
+  void put_on(const Look& look);
+
   const Context* context_;  ///< of map_
   Gl gl_;
   std::unique_ptr<MapTexture> map_;         ///< owns the OpenGL context: destroyed last
@@ -49,6 +62,8 @@ class GuiScreen {
   std::unique_ptr<DrawDataPainter> painter_;
   std::unique_ptr<ImGuiContext, ContextDeleter> imgui_;
   GLuint font_texture_ = 0;
+  float display_scale_ = 1.0f;
+  Look look_;
   InputQueue input_;
   std::vector<WidgetPlace> places_;
 };

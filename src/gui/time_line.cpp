@@ -12,22 +12,20 @@
 namespace talus {
 namespace {
 
-constexpr ImU32 line_ink = IM_COL32(0, 0, 0, 255), line_gray = IM_COL32(110, 110, 110, 255);
-
-ImU32 event_colour(TimelineEvent::Kind kind) {
+ImU32 event_colour(const Palette& colours, TimelineEvent::Kind kind) {
   switch (kind) {
     case TimelineEvent::Kind::failure:
-      return IM_COL32(170, 20, 0, 255);
+      return packed(colours.failure);
     case TimelineEvent::Kind::command:
-      return IM_COL32(0, 114, 178, 255);
+      return packed(colours.command);
     case TimelineEvent::Kind::rearrangement:
-      return IM_COL32(176, 92, 0, 255);
+      return packed(colours.rearrangement);
     case TimelineEvent::Kind::bookmark:
-      return IM_COL32(110, 60, 160, 255);
+      return packed(colours.bookmark);
     case TimelineEvent::Kind::transition:
       break;
   }
-  return line_ink;
+  return packed(colours.transition);
 }
 
 /// From frames to pixels.
@@ -44,22 +42,23 @@ struct Track {
 };
 
 /// Angles below the track, of the frames of the tilt, which ascend.
-void draw_angles(ImDrawList& list, const Track& track, const std::vector<double>& tilts, float em) {
+void draw_angles(ImDrawList& list, const Track& track, const std::vector<double>& tilts, float em,
+                 ImU32 ink) {
   const auto end = std::ranges::is_sorted_until(tilts);
   const std::span<const double> ascending(tilts.begin(), end);
   if (ascending.size() < 2 || !(ascending.front() < ascending.back())) return;
   const int most = std::max(2, static_cast<int>((track.high.x - track.low.x) / (5.0f * em)));
   for (const RoundTick& tick : round_ticks(degrees(ascending.front()), degrees(ascending.back()), most)) {
     const float x = track.px(place_among(ascending, radians(tick.value)));
-    list.AddLine({x, track.high.y}, {x, track.high.y + 0.3f * em}, line_ink);
+    list.AddLine({x, track.high.y}, {x, track.high.y + 0.3f * em}, ink);
     const std::string label = tick.label + "°";
-    list.AddText({x - 0.5f * ImGui::CalcTextSize(label.c_str()).x, track.high.y + 0.25f * em}, line_ink,
+    list.AddText({x - 0.5f * ImGui::CalcTextSize(label.c_str()).x, track.high.y + 0.25f * em}, ink,
                  label.c_str());
   }
 }
 
 /// Where a programme of the tilt turns or begins to be held: the angles that it goes to.
-void draw_turns(ImDrawList& list, const Track& track, const std::vector<double>& tilts, float em) {
+void draw_turns(ImDrawList& list, const Track& track, const std::vector<double>& tilts, float em, ImU32 ink) {
   float first_free = 0.0f;
   for (std::size_t k = 0; k < tilts.size(); ++k) {
     const bool end = k == 0 || k + 1 == tilts.size();
@@ -68,17 +67,18 @@ void draw_turns(ImDrawList& list, const Track& track, const std::vector<double>&
     };
     if (!end && way(k - 1) == way(k)) continue;
     const float x = track.px(static_cast<double>(k));
-    list.AddLine({x, track.high.y}, {x, track.high.y + 0.3f * em}, line_ink);
+    list.AddLine({x, track.high.y}, {x, track.high.y + 0.3f * em}, ink);
     const std::string label = fmt::format("{:.3g}°", degrees(tilts[k]));
     const float low = x - 0.5f * ImGui::CalcTextSize(label.c_str()).x;
     if (low < first_free) continue;
     first_free = low + ImGui::CalcTextSize(label.c_str()).x + 0.4f * em;
-    list.AddText({low, track.high.y + 0.25f * em}, line_ink, label.c_str());
+    list.AddText({low, track.high.y + 0.25f * em}, ink, label.c_str());
   }
 }
 
 /// Labels above the track, theta_c before all others: each where it has room.
-void draw_labels(ImDrawList& list, const Track& track, std::span<const TimelineEvent> events, float em) {
+void draw_labels(const Palette& colours, ImDrawList& list, const Track& track,
+                 std::span<const TimelineEvent> events, float em) {
   std::vector<std::pair<float, float>> taken;
   for (const bool failure : {true, false})
     for (const TimelineEvent& event : events) {
@@ -89,7 +89,7 @@ void draw_labels(ImDrawList& list, const Track& track, std::span<const TimelineE
       if (std::ranges::any_of(taken, [=](const auto& of) { return low < of.second && of.first < high; }))
         continue;
       taken.emplace_back(low, high);
-      add_rich_text(list, {low, track.low.y - 1.25f * em}, event_colour(event.kind), event.label);
+      add_rich_text(list, {low, track.low.y - 1.25f * em}, event_colour(colours, event.kind), event.label);
     }
 }
 
@@ -99,7 +99,7 @@ void draw_events(Gui& gui, ImDrawList& list, const Track& track) {
   const float em = gui.em, top = track.low.y;
   for (const TimelineEvent& event : gui.model.events()) {
     const float x = track.px(event.place);
-    const ImU32 colour = event_colour(event.kind);
+    const ImU32 colour = event_colour(gui.colours, event.kind);
     const bool rearranges = event.kind == TimelineEvent::Kind::rearrangement;
     const float above = event.kind == TimelineEvent::Kind::bookmark ? 0.55f : 0.15f;
     const float high =
@@ -112,7 +112,7 @@ void draw_events(Gui& gui, ImDrawList& list, const Track& track) {
     if (event.kind == TimelineEvent::Kind::bookmark)
       list.AddRectFilled({x, top - 0.55f * em}, {x + 0.6f * em, top - 0.1f * em}, colour);
   }
-  draw_labels(list, track, gui.model.events(), em);
+  draw_labels(gui.colours, list, track, gui.model.events(), em);
 }
 
 /// The event under the mouse.
@@ -221,21 +221,23 @@ void draw_time_line(Gui& gui) {
   const std::vector<double> tilts = gui.model.frame_tilts();
   ImDrawList& list = *ImGui::GetWindowDrawList();
   if (tilts.empty()) {
-    list.AddText({corner.x + em, corner.y + em}, line_gray, "The time line begins with the tilt.");
+    list.AddText({corner.x + em, corner.y + em}, packed(gui.colours.soft),
+                 "The time line begins with the tilt.");
     return;
   }
   const Track track{{corner.x + 1.2f * em, corner.y + 1.2f * em},
                     {corner.x + width - 1.2f * em, corner.y + 2.0f * em},
                     std::max(1.0, static_cast<double>(tilts.size()) - 1.0)};
-  list.AddRectFilled(track.low, track.high, IM_COL32(225, 225, 225, 255));
+  list.AddRectFilled(track.low, track.high, packed(gui.colours.track));
   const float now = track.px(static_cast<double>(gui.model.frame_index()));
-  list.AddRectFilled(track.low, {now, track.high.y}, IM_COL32(150, 190, 230, 255));
+  list.AddRectFilled(track.low, {now, track.high.y}, packed(gui.colours.tint));
+  list.AddRect(track.low, track.high, packed(gui.colours.line));
   if (gui.model.has_program())
-    draw_turns(list, track, tilts, em);
+    draw_turns(list, track, tilts, em, packed(gui.colours.ink));
   else
-    draw_angles(list, track, tilts, em);
+    draw_angles(list, track, tilts, em, packed(gui.colours.ink));
   draw_events(gui, list, track);
-  list.AddLine({now, track.low.y - 0.3f * em}, {now, track.high.y + 0.3f * em}, IM_COL32(0, 90, 180, 255),
+  list.AddLine({now, track.low.y - 0.3f * em}, {now, track.high.y + 0.3f * em}, packed(gui.colours.accent),
                0.2f * em);
   use_line(gui, track, tilts);
 }

@@ -8,7 +8,9 @@
 #include <string_view>
 #include <vector>
 
+#include "gui/font.h"
 #include "gui/gui.h"
+#include "gui/theme.h"
 
 namespace talus {
 
@@ -18,6 +20,7 @@ struct Gui {
   const DrawMap& draw_map;
   std::vector<WidgetPlace>& places;
   GuiRequests& requests;
+  const Palette& colours;
   float em = 16.0f;         ///< height of the text, px
   std::string panel_asked;  ///< a panel that a key has asked for
 };

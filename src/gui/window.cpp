@@ -152,6 +152,10 @@ void catch_the_rest(GLFWwindow* window) {
   });
   glfwSetFramebufferSizeCallback(
       window, [](GLFWwindow* w, int, int) { state_of(w).pictures_due = settling_pictures; });
+  glfwSetWindowContentScaleCallback(window, [](GLFWwindow* w, float, float) {  // on another display
+    state_of(w).screen.set_display_scale(display_scale(w));
+    state_of(w).pictures_due = settling_pictures;
+  });
   glfwSetWindowRefreshCallback(window, [](GLFWwindow* w) { state_of(w).pictures_due = settling_pictures; });
   glfwSetDropCallback(window, [](GLFWwindow* w, int count, const char** paths) {
     if (count > 0) state_of(w).dropped = paths[0];

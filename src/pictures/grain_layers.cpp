@@ -72,20 +72,23 @@ MapLayer dyed_layer(const MapFrame& of, const ScaleChoice& choice) {
   for (Index i = 0; i < statics.free_count; ++i) highest = std::max(highest, begin(i).y);
   const Scale scale = chosen({ColourMap::viridis, 0.0, highest / diameter}, choice);
   MapLayer layer;
+  std::vector<double> heights;
   layer.title = "Layers and columns of the bed as the tilt began";
   for (Index i = 0; i < statics.free_count; ++i) {
     const Vec2 at = begin(i);
     const Colour light = colour_at(scale.colours, layer_share(share_of(scale, at.y / diameter)));
     const Colour fill = in_second_column(at.x, statics.length, diameter) ? shaded(light) : light;
     layer.looks.push_back({fill, rim_of(fill)});
+    heights.push_back(at.y / diameter);
   }
-  Bar bar{"height above the floor at that time, in D", {}, {}};
+  Bar bar{"height above the floor at that time, in D", {}, {}, scale.low, scale.high};
   const std::size_t colours = colour_ramp(scale.colours).size();
   for (std::size_t k = 0; k < colours; ++k)
     bar.colours.push_back(
         colour_at(scale.colours, layer_share((static_cast<double>(k) + 0.5) / static_cast<double>(colours))));
   for (const RoundTick& tick : round_ticks(scale.low, scale.high, most_steps))
     bar.ticks.push_back({std::clamp(share_of(scale, tick.value), 0.0, 1.0), tick.label});
+  bar.values = std::move(heights);
   layer.legend.bars = {bar};
   return layer;
 }

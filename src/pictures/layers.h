@@ -29,6 +29,9 @@ Colour colour_over(const MapSettings& settings, std::size_t k);
 /// "θ = 12.25°, θ_c = 19.52°", with "(assumed)" where it is.
 std::string caption_of(const Frame& frame, const MapSettings& settings);
 
+/// The bar with what it measures of each free grain.
+Bar measuring(Bar bar, std::vector<double> values);
+
 /// Grains in the colours of their values.
 MapLayer scaled_layer(const std::string& title, const Scale& scale, std::vector<double> values,
                       const Bar& bar);

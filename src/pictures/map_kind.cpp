@@ -71,6 +71,54 @@ std::string_view map_name(MapKind kind) { return entry_of(kind).name; }
 
 std::string_view map_help(MapKind kind) { return entry_of(kind).help; }
 
+MapReading map_reading(MapKind kind) {
+  switch (kind) {
+    case MapKind::gamma:
+      return {"γ", ""};
+    case MapKind::coarse:
+      return {"γ_l", ""};
+    case MapKind::pressure:
+    case MapKind::stress:
+      return {"P", "ρgD"};
+    case MapKind::displacement:
+      return {"displacement", "D"};
+    case MapKind::rotation:
+      return {"rotation", "°"};
+    case MapKind::speed:
+      return {"speed", "√(gD)"};
+    case MapKind::nonaffine:
+      return {"D_m_i_n", "D"};
+    case MapKind::shear:
+      return {"shear strain", ""};
+    case MapKind::dilation:
+      return {"ΔA/A", ""};
+    case MapKind::vorticity:
+      return {"vorticity", "rad"};
+    case MapKind::coordination:
+      return {"contacts", ""};
+    case MapKind::mobilised:
+      return {"|f_t| / μf_n", ""};
+    case MapKind::size:
+      return {"diameter", "D"};
+    case MapKind::cells:
+    case MapKind::density:
+      return {"solid fraction", ""};
+    case MapKind::shear_rate:
+      return {"shear rate", "√(g/D)"};
+    case MapKind::temperature:
+      return {"temperature", "gD"};
+    case MapKind::dyed:
+      return {"height as the tilt began", "D"};
+    case MapKind::overloaded:
+    case MapKind::clusters:
+    case MapKind::forces:
+    case MapKind::critical:
+    case MapKind::rigid:
+      break;
+  }
+  return {"", ""};
+}
+
 std::string list_of_maps() { return joined(entries, ", ", &MapEntry::name); }
 
 bool needs_theta_c(MapKind kind) { return shows_gamma(kind) || kind == MapKind::coarse; }

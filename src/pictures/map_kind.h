@@ -41,6 +41,12 @@ std::span<const MapKind> map_kinds();
 std::string_view map_name(MapKind kind);
 /// A line for users: what the map shows.
 std::string_view map_help(MapKind kind);
+/// What the bar of a map measures, as rich texts: "v" and "√(gD)". Empty where a map has no bar, and the unit
+/// of a ratio.
+struct MapReading {
+  std::string_view symbol, unit;
+};
+MapReading map_reading(MapKind kind);
 /// The names of all: "gamma, overloaded, ...".
 std::string list_of_maps();
 

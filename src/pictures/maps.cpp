@@ -64,6 +64,16 @@ void add_grains(FrameView& view, const BedFrame& bed, std::span<const std::vecto
     add_disc(view, disc_of(bed, i), bed.statics);
 }
 
+/// What a bar measures, and in which unit, as it is told of one grain.
+void name_reading(MapKind kind, const MapFrame& of, Bar& bar) {
+  const MapReading reading = map_reading(kind);
+  bar.symbol = reading.symbol;
+  bar.unit = reading.unit;
+  if (!needs_reference(kind)) return;
+  bar.unit += motion_span(of).unit;
+  if (bar.unit.starts_with(' ')) bar.unit.erase(0, 1);
+}
+
 /// "Overloaded grains, p_o = 0.300; force chains".
 std::string joint_title(std::span<const MapLayer> layers) {
   std::string title = layers[0].title;
@@ -84,6 +94,11 @@ Colour colour_over(const MapSettings& settings, std::size_t k) {
   const bool light = kind == MapKind::clusters || kind == MapKind::rigid ||
                      choice_of(settings, k).colours.value_or(own) == ColourMap::diverging;
   return light ? black : Colour{255, 60, 130};
+}
+
+Bar measuring(Bar bar, std::vector<double> values) {
+  bar.values = std::move(values);
+  return bar;
 }
 
 MapLayer make_layer(const MapFrame& of, const MapSettings& settings, const MapExtent& extent, std::size_t k) {
@@ -151,12 +166,13 @@ std::string caption_of(const Frame& frame, const MapSettings& settings) {
 
 MapLayer scaled_layer(const std::string& title, const Scale& scale, std::vector<double> values,
                       const Bar& bar) {
-  return {title, looks_of(scale, values), {}, {{bar}, {}}, std::move(values), scale};
+  return {title, looks_of(scale, values), {}, {{measuring(bar, values)}, {}}, std::move(values), scale};
 }
 
 MapLayer scaled_layer_with_outlines(const std::string& title, const Scale& scale, std::vector<double> values,
                                     const Bar& bar) {
-  return {title, looks_or_outlines(scale, values), {}, {{bar}, {}}, std::move(values), scale};
+  return {title, looks_or_outlines(scale, values), {}, {{measuring(bar, values)}, {}}, std::move(values),
+          scale};
 }
 
 MapExtent bed_extent(const RunStatics& statics) { return {0.0, statics.length, 0.0, 0.0}; }
@@ -186,8 +202,10 @@ bool has_bar(const MapLayers& layers) {
 FrameView make_map(const MapFrame& frame, const MapSettings& settings, const MapExtent& extent) {
   check_theta_c(settings);
   std::vector<MapLayer> layers;
-  for (std::size_t k = 0; k < settings.layers.size(); ++k)
+  for (std::size_t k = 0; k < settings.layers.size(); ++k) {
     layers.push_back(make_layer(frame, settings, extent, k));
+    for (Bar& bar : layers.back().legend.bars) name_reading(settings.layers[k], frame, bar);
+  }
   return compose_map(frame, settings, extent, std::move(layers));
 }
 

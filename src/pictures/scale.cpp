@@ -89,7 +89,7 @@ Bar bar_of(const Scale& scale, const std::string& title) {
   // Over few decades their halves and fifths are wanted too, and within one round numbers say more.
   if (scale.logarithmic && ticks.size() < few) ticks = decades(scale, {1.0, 2.0, 5.0});
   if (ticks.size() < few) ticks = round_shares(scale);
-  return {title, colour_ramp(scale.colours), std::move(ticks)};
+  return {title, colour_ramp(scale.colours), std::move(ticks), scale.low, scale.high, scale.logarithmic};
 }
 
 }  // namespace talus

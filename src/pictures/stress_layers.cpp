@@ -18,7 +18,8 @@ constexpr double black_gamma = 2.0, black_coarse = 1.5;
 /// With ticks at the ends and at Gamma_c.
 Bar stress_ratio_bar(const Scale& scale, double gamma_c, const std::string& title, const std::string& end) {
   constexpr double clear_of_ends = 0.2;  // of the bar, for the labels
-  Bar bar{title, colour_ramp(scale.colours), {{0.0, fmt::format("{:.6g}", scale.low)}}};
+  Bar bar{
+      title, colour_ramp(scale.colours), {{0.0, fmt::format("{:.6g}", scale.low)}}, scale.low, scale.high};
   const double share = share_of(scale, gamma_c);
   if (share > clear_of_ends && share < 1.0 - clear_of_ends)
     bar.ticks.push_back({share, fmt::format("Γ_c = {:.2f}", gamma_c)});

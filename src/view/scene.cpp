@@ -16,7 +16,7 @@ namespace talus {
 namespace {
 
 constexpr Colour selection_colour{0, 90, 220}, length_colour{220, 50, 0}, circle_colour{70, 110, 170};
-constexpr Colour cluster_colour{240, 130, 0};
+constexpr Colour cluster_colour{240, 130, 0}, light_wall{190, 196, 206};
 constexpr int circle_lines = 64;
 
 void add_grains(FrameView& view, const FrameView& map) {
@@ -85,12 +85,13 @@ void add_overlay(FrameView& view, const BedFrame& bed, const Overlay& overlay) {
   add_ring(view, centre, statics.radius[grain] + 0.05 * d, 0.08 * pen, selection_colour, statics);
 }
 
-/// Side walls, and a smooth floor.
+/// Side walls, and a smooth floor; light where there is no white behind them.
 void add_boundary(FrameView& view, const BedFrame& bed) {
   const RunStatics& statics = bed.statics;
+  const Colour colour = view.transparent ? light_wall : black;
   const auto add = [&](double x0, double y0, double x1, double y1) {
     view.lines.push_back({static_cast<float>(x0), static_cast<float>(y0), static_cast<float>(x1),
-                          static_cast<float>(y1), static_cast<float>(0.1 * statics.mean_diameter), black});
+                          static_cast<float>(y1), static_cast<float>(0.1 * statics.mean_diameter), colour});
   };
   const double low = std::max(view.y_min, std::min(0.0, view.y_max));
   if (!statics.periodic)

@@ -35,6 +35,7 @@ class RecordedFrames {
 /// A map, and what it was made from.
 struct MapCache {
   MapSource source;
+  bool dark = false;  ///< on_dark_ground
   FrameView view;
   std::optional<GrainValues> values;  ///< of its grains, once asked for
 };

@@ -103,8 +103,9 @@ class ViewModel {
   /// growing neighbourhoods and the highlighted cluster drawn into it; without furniture: that is drawn by
   /// widgets.
   FrameView map(double aspect) const;
-  /// The same with its legends, its title and its caption, and without what is beside the bed; of the aspect
-  /// that map was asked for last. A map that cannot be drawn has the reason as its title.
+  /// The same, on white whatever the theme, with its legends, its title and its caption, and without what is
+  /// beside the bed; of the aspect that map was asked for last. A map that cannot be drawn has the reason as
+  /// its title.
   FrameView furnished_map() const;
   /// Title, caption and legends of the map asked for last.
   const FrameView& annotated_map() const;

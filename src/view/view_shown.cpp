@@ -6,6 +6,7 @@
 #include "pictures/bed_view.h"
 #include "pictures/frame_choice.h"
 #include "view/camera.h"
+#include "view/dark_map.h"
 #include "view/render_command.h"
 #include "view/view_data.h"
 
@@ -139,19 +140,22 @@ const FrameView& ViewModel::Data::whole_map(const ViewState& asked, const MapExt
     pictures.since = first ? first : nearest_frame(tilts, *since).value_or(0);
   }
   const std::size_t k = shown_index();
+  const bool dark = asked.theme == Theme::dark;
+  const auto keep = [&](MapSource source, FrameView view) {
+    cache = {std::move(source), dark, dark ? on_dark_ground(std::move(view)) : std::move(view), std::nullopt};
+  };
   if (asked.minus) {
     MapSource source = source_of(pictures, k, frame, reference_at(*asked.minus));
     source.change = true;
-    if (!(cache.source == source)) {
-      cache = {source, draw_change(pictures, *frame, source.reference.get()), std::nullopt};
-    }
+    if (!(cache.source == source) || cache.dark != dark)
+      keep(source, draw_change(pictures, *frame, source.reference.get()));
     return cache.view;
   }
   const std::optional<std::size_t> from = reference_of(pictures, k);
   const std::shared_ptr<const Frame> moved_from = from ? frame_at(*from) : nullptr;
   MapSource source = source_of(pictures, k, frame, moved_from);
-  if (!(cache.source == source))
-    cache = {source, draw_map(pictures, k, *frame, moved_from.get()), std::nullopt};
+  if (!(cache.source == source) || cache.dark != dark)
+    keep(source, draw_map(pictures, k, *frame, moved_from.get()));
   return cache.view;
 }
 
@@ -170,7 +174,9 @@ FrameView ViewModel::Data::picture(const ViewState& asked, const MapExtent& show
                    shown_clusters(map_settings(asked)));
 }
 
-FrameView ViewModel::Data::furnished(const ViewState& asked, MapCache& cache) {
+FrameView ViewModel::Data::furnished(const ViewState& shown, MapCache& cache) {
+  ViewState asked = shown;
+  asked.theme = Theme::light;  // on paper
   const MapExtent seen = common_part(part(asked, aspect), bed);
   const FrameView& whole = whole_map(asked, seen, cache);
   FrameView view = picture(asked, seen, cache);

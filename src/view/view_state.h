@@ -8,7 +8,9 @@
 
 #include "core/types.h"
 #include "pictures/maps.h"
+#include "view/bar_range.h"
 #include "view/plots.h"
+#include "view/theme.h"
 
 namespace talus {
 
@@ -38,7 +40,9 @@ struct ViewState {
   MapSettings map;  ///< layers, colours, threshold, length, turned, ...
   ViewCamera camera;
   BesideState beside;
-  std::optional<double> minus;    ///< rad, of a view that shows a frame minus that at this tilt
+  std::optional<double> minus;  ///< rad, of a view that shows a frame minus that at this tilt
+  Theme theme = Theme::light;
+  double scale = 0.0;             ///< of text and widgets; 0: that of the display
   std::optional<double> since;    ///< rad: motion and strain since that tilt; without: per degree
   std::optional<Index> selected;  ///< grain
   double neighbourhood = 10.0;    ///< D: diameter of the neighbourhood drawn about the selected grain
@@ -46,6 +50,7 @@ struct ViewState {
   bool highlight_cluster = false;
   bool show_help = false;
   bool show_controls = true, show_inspector = true, show_plots = true;
+  HeldBar held_bar;                            ///< of the legend
   std::map<std::string, PlotLook> plot_looks;  ///< by the names of plots
   std::string quantity_filter;                 ///< part of the names of quantities offered for plots
   std::string enlarged_plot;                   ///< its name; empty: all are shown

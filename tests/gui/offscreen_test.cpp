@@ -95,7 +95,7 @@ TEST_F(Replay, escape_closes_a_list_before_it_selects_no_grain) {
 TEST_F(Replay, a_grain_is_told_by_what_the_map_shows) {
   const std::string gamma = grain_text(model_, 7);
   EXPECT_NE(gamma.find("grain 7, γ = "), std::string::npos) << gamma;
-  model_.state.map.layers = {MapKind::displacement};
+  model_.state.map.layers = {MapKind::forces};
   EXPECT_EQ(grain_text(model_, 7), "grain 7");
   model_.state.map.layers = {MapKind::displacement, MapKind::gamma};
   EXPECT_EQ(grain_text(model_, model_.statics().free_count),

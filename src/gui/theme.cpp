@@ -1,0 +1,204 @@
+#include "gui/theme.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace talus {
+namespace {
+
+constexpr Palette light_palette = {.ground = {255, 255, 255},
+                                   .panel = {246, 247, 249},
+                                   .raised = {233, 236, 240},
+                                   .hovered = {219, 225, 233},
+                                   .pressed = {190, 212, 240},
+                                   .field = {255, 255, 255},
+                                   .tint = {205, 224, 246},
+                                   .track = {231, 234, 238},
+                                   .range = {0, 95, 184, 38},
+                                   .note = {255, 255, 255, 215},
+                                   .line = {206, 211, 219},
+                                   .ink = {26, 29, 34},
+                                   .soft = {88, 94, 104},
+                                   .accent = {0, 95, 184},
+                                   .alarm = {168, 30, 14},
+                                   .alarm_text = {255, 255, 255},
+                                   .warning = {168, 30, 14},
+                                   .grid = {150, 155, 163},
+                                   .frame_shown = {0, 95, 184},
+                                   .transition = {26, 29, 34},
+                                   .failure = {168, 30, 14},
+                                   .command = {0, 106, 168},
+                                   .rearrangement = {160, 84, 0},
+                                   .bookmark = {108, 58, 160},
+                                   .curves = {{{26, 29, 34}, {190, 84, 0}, {0, 106, 168}, {112, 117, 125}}}};
+
+constexpr Palette dark_palette = {
+    .ground = {20, 23, 28},
+    .panel = {29, 33, 40},
+    .raised = {46, 52, 62},
+    .hovered = {58, 66, 79},
+    .pressed = {38, 82, 130},
+    .field = {20, 23, 28},
+    .tint = {38, 70, 108},
+    .track = {46, 52, 62},
+    .range = {96, 170, 255, 52},
+    .note = {20, 23, 28, 215},
+    .line = {62, 69, 81},
+    .ink = {228, 232, 238},
+    .soft = {166, 174, 186},
+    .accent = {96, 170, 255},
+    .alarm = {178, 44, 30},
+    .alarm_text = {255, 255, 255},
+    .warning = {255, 138, 118},
+    .grid = {112, 120, 132},
+    .frame_shown = {96, 170, 255},
+    .transition = {228, 232, 238},
+    .failure = {255, 118, 98},
+    .command = {96, 188, 245},
+    .rearrangement = {226, 150, 62},
+    .bookmark = {196, 156, 255},
+    .curves = {{{236, 239, 244}, {255, 152, 64}, {86, 180, 245}, {150, 157, 168}}}};
+
+/// White and black; what is pointed at is seen by a light blue, which no picture keeps.
+constexpr Palette print_palette = {.ground = {255, 255, 255},
+                                   .panel = {255, 255, 255},
+                                   .raised = {255, 255, 255},
+                                   .hovered = {225, 238, 252},
+                                   .pressed = {205, 226, 248},
+                                   .field = {255, 255, 255},
+                                   .tint = {205, 226, 248},
+                                   .track = {255, 255, 255},
+                                   .range = {0, 95, 184, 38},
+                                   .note = {255, 255, 255, 230},
+                                   .line = {0, 0, 0},
+                                   .ink = {0, 0, 0},
+                                   .soft = {0, 0, 0},
+                                   .accent = {0, 0, 0},
+                                   .alarm = {255, 255, 255},
+                                   .alarm_text = {150, 20, 0},
+                                   .warning = {150, 20, 0},
+                                   .grid = {0, 0, 0},
+                                   .frame_shown = {0, 0, 0},
+                                   .transition = {0, 0, 0},
+                                   .failure = {150, 20, 0},
+                                   .command = {0, 90, 150},
+                                   .rearrangement = {150, 75, 0},
+                                   .bookmark = {100, 50, 150},
+                                   .curves = {{{0, 0, 0}, {190, 84, 0}, {0, 106, 168}, {110, 110, 110}}}};
+
+/// Which colour of the palette is that of a part of Dear ImGui.
+constexpr std::pair<ImGuiCol, Colour Palette::*> roles[] = {
+    {ImGuiCol_Text, &Palette::ink},
+    {ImGuiCol_TextDisabled, &Palette::soft},
+    {ImGuiCol_WindowBg, &Palette::ground},
+    {ImGuiCol_PopupBg, &Palette::ground},
+    {ImGuiCol_Border, &Palette::line},
+    {ImGuiCol_FrameBg, &Palette::field},
+    {ImGuiCol_FrameBgHovered, &Palette::hovered},
+    {ImGuiCol_FrameBgActive, &Palette::pressed},
+    {ImGuiCol_TitleBg, &Palette::raised},
+    {ImGuiCol_TitleBgActive, &Palette::raised},
+    {ImGuiCol_TitleBgCollapsed, &Palette::raised},
+    {ImGuiCol_ScrollbarGrab, &Palette::line},
+    {ImGuiCol_ScrollbarGrabHovered, &Palette::soft},
+    {ImGuiCol_ScrollbarGrabActive, &Palette::soft},
+    {ImGuiCol_CheckMark, &Palette::accent},
+    {ImGuiCol_SliderGrab, &Palette::pressed},  // the value is written over it
+    {ImGuiCol_SliderGrabActive, &Palette::pressed},
+    {ImGuiCol_Button, &Palette::raised},
+    {ImGuiCol_ButtonHovered, &Palette::hovered},
+    {ImGuiCol_ButtonActive, &Palette::pressed},
+    {ImGuiCol_Header, &Palette::tint},
+    {ImGuiCol_HeaderHovered, &Palette::hovered},
+    {ImGuiCol_HeaderActive, &Palette::pressed},
+    {ImGuiCol_Separator, &Palette::line},
+    {ImGuiCol_SeparatorHovered, &Palette::accent},
+    {ImGuiCol_SeparatorActive, &Palette::accent},
+    {ImGuiCol_Tab, &Palette::raised},
+    {ImGuiCol_TabHovered, &Palette::hovered},
+    {ImGuiCol_TabActive, &Palette::tint},
+    {ImGuiCol_TableHeaderBg, &Palette::raised},
+    {ImGuiCol_TableBorderStrong, &Palette::line},
+    {ImGuiCol_TableBorderLight, &Palette::line},
+    {ImGuiCol_TextSelectedBg, &Palette::tint},
+    {ImGuiCol_NavHighlight, &Palette::accent},
+    {ImGuiCol_DragDropTarget, &Palette::accent},
+};
+
+constexpr Colour nothing{0, 0, 0, 0};
+
+double linear(std::uint8_t channel) {
+  const double share = channel / 255.0;
+  return share <= 0.04045 ? share / 12.92 : std::pow((share + 0.055) / 1.055, 2.4);
+}
+
+double luminance(const Colour& colour) {
+  return 0.2126 * linear(colour.red) + 0.7152 * linear(colour.green) + 0.0722 * linear(colour.blue);
+}
+
+}  // namespace
+
+const Palette& palette_of(Theme theme) {
+  switch (theme) {
+    case Theme::dark:
+      return dark_palette;
+    case Theme::print:
+      return print_palette;
+    case Theme::light:
+      break;
+  }
+  return light_palette;
+}
+
+std::array<TextPair, 19> text_pairs(const Palette& of) {
+  return {{{"text", of.ink, of.ground},
+           {"text in columns", of.ink, of.panel},
+           {"buttons", of.ink, of.raised},
+           {"buttons under the mouse", of.ink, of.hovered},
+           {"buttons held", of.ink, of.pressed},
+           {"fields", of.ink, of.field},
+           {"chosen rows", of.ink, of.tint},
+           {"hints", of.soft, of.ground},
+           {"hints in columns", of.soft, of.panel},
+           {"an announcement", of.alarm_text, of.alarm},
+           {"a warning", of.warning, of.panel},
+           {"transition", of.transition, of.ground},
+           {"failure", of.failure, of.ground},
+           {"command", of.command, of.ground},
+           {"rearrangement", of.rearrangement, of.ground},
+           {"bookmark", of.bookmark, of.ground},
+           {"second curve", of.curves[1], of.ground},
+           {"third curve", of.curves[2], of.ground},
+           {"fourth curve", of.curves[3], of.ground}}};
+}
+
+double contrast(const Colour& a, const Colour& b) {
+  const double one = luminance(a), other = luminance(b);
+  return (std::max(one, other) + 0.05) / (std::min(one, other) + 0.05);
+}
+
+ImGuiStyle style_of(Theme theme, float scale) {
+  ImGuiStyle style;
+  style.WindowPadding = {spacing.window.x, spacing.window.y};
+  style.FramePadding = {spacing.frame.x, spacing.frame.y};
+  style.ItemSpacing = {spacing.item.x, spacing.item.y};
+  style.ItemInnerSpacing = {spacing.inner.x, spacing.inner.y};
+  style.CellPadding = {spacing.cell.x, spacing.cell.y};
+  style.ScrollbarSize = spacing.scroll_bar;
+  style.GrabMinSize = spacing.grab;
+  style.FrameRounding = style.GrabRounding = style.PopupRounding = spacing.rounding;
+  style.ScrollbarRounding = style.TabRounding = style.ChildRounding = spacing.rounding;
+  style.WindowRounding = 0.0f;
+  style.ScaleAllSizes(scale);
+  style.WindowBorderSize = style.FrameBorderSize = style.PopupBorderSize = std::max(1.0f, std::round(scale));
+  const Palette& colours = palette_of(theme);
+  ImGui::StyleColorsLight(&style);
+  for (const auto& [part, colour] : roles) style.Colors[part] = mixed(colours.*colour);
+  for (const ImGuiCol part : {ImGuiCol_ScrollbarBg, ImGuiCol_BorderShadow, ImGuiCol_TableRowBg,
+                              ImGuiCol_TableRowBgAlt, ImGuiCol_ChildBg})
+    style.Colors[part] = mixed(nothing);
+  return style;
+}
+
+}  // namespace talus

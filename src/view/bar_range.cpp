@@ -1,0 +1,47 @@
+#include "view/bar_range.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace talus {
+namespace {
+
+constexpr double least_share = 0.02;  // of the range, that is left of it
+
+/// To hundredths of the power of ten of the range, or of the value where the bar is logarithmic.
+double rounded(double value, const BarEnds& bar) {
+  const double size = bar.logarithmic ? std::abs(value) : bar.high - bar.low;
+  const double decimals = 2.0 - std::floor(std::log10(size));
+  const double scale = std::pow(10.0, std::abs(decimals));  // a whole number: its division leaves no hair
+  return decimals < 0.0 ? scale * std::round(value / scale) : std::round(value * scale) / scale;
+}
+
+}  // namespace
+
+double value_at(const BarEnds& bar, double share) {
+  if (bar.logarithmic) return bar.low * std::pow(bar.high / bar.low, share);
+  return bar.low + share * (bar.high - bar.low);
+}
+
+std::array<double, 2> pulled(const HeldBar& held, double share) {
+  double low = 0.0, high = 1.0;  // as shares of the bar before
+  switch (held.part) {
+    case HeldBar::Part::low:
+      low = std::min(share, 1.0 - least_share);
+      break;
+    case HeldBar::Part::high:
+      high = std::max(1.0 + share, least_share);
+      break;
+    case HeldBar::Part::middle:
+      low = -share;
+      high = 1.0 - share;
+      break;
+    case HeldBar::Part::none:
+      break;
+  }
+  const BarEnds& bar = held.before;
+  return {low == 0.0 ? bar.low : rounded(value_at(bar, low), bar),
+          high == 1.0 ? bar.high : rounded(value_at(bar, high), bar)};
+}
+
+}  // namespace talus

@@ -1,0 +1,70 @@
+#include "view/dark_map.h"
+
+#include <algorithm>
+
+namespace talus {
+namespace {
+
+/// What mirrored black and white become: neither blinds, nor is lost in the ground.
+constexpr double brightest = 245.0, darkest = 34.0;
+constexpr Colour floor_fill{46, 51, 59}, floor_rim{140, 148, 160};
+constexpr double dark_luma = 60.0;  // below it a grain needs a rim that is lighter
+constexpr Colour light_rim{96, 104, 118};
+
+Colour mirrored(const Colour& colour) {
+  if (!is_gray(colour)) return colour;
+  const double share = 1.0 - colour.red / 255.0;
+  const auto value = static_cast<std::uint8_t>(darkest + share * (brightest - darkest));
+  return {value, value, value, colour.alpha};
+}
+
+bool all_gray(const Bar& bar) {
+  return std::ranges::all_of(bar.colours, [](const Colour& colour) { return is_gray(colour); });
+}
+
+/// Whether the bar goes from one hue to another through a light gray.
+bool passes_white(const Bar& bar) {
+  const Colour& middle = bar.colours[bar.colours.size() / 2];
+  const int low = std::min({middle.red, middle.green, middle.blue});
+  const int high = std::max({middle.red, middle.green, middle.blue});
+  return !all_gray(bar) && low > 200 && high - low < 20;
+}
+
+bool keeps_grains(const FrameView& map) {
+  return std::ranges::any_of(
+      map.legends, [](const Legend& legend) { return std::ranges::any_of(legend.bars, passes_white); });
+}
+
+void mirror(Disc& disc, bool keep) {
+  if (disc.hatched > 0.5f) {
+    disc.fill = floor_fill;
+    disc.rim = floor_rim;
+    return;
+  }
+  if (keep) return;
+  disc.fill = mirrored(disc.fill);
+  disc.rim = luma(disc.fill) < dark_luma ? light_rim : mirrored(disc.rim);
+}
+
+}  // namespace
+
+FrameView on_dark_ground(FrameView map) {
+  const bool keep = keeps_grains(map);
+  for (Disc& disc : map.discs) mirror(disc, keep);
+  for (Line& line : map.lines)
+    if (!keep) line.colour = mirrored(line.colour);
+  for (Legend& legend : map.legends) {
+    for (Bar& bar : legend.bars)
+      if (all_gray(bar)) std::ranges::transform(bar.colours, bar.colours.begin(), mirrored);
+    for (Swatch& swatch : legend.swatches) {
+      if (keep) continue;
+      swatch.fill = mirrored(swatch.fill);
+      swatch.rim = swatch.kind == Swatch::Kind::disc && luma(swatch.fill) < dark_luma ? light_rim
+                                                                                      : mirrored(swatch.rim);
+    }
+  }
+  map.transparent = true;
+  return map;
+}
+
+}  // namespace talus

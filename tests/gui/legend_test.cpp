@@ -1,0 +1,54 @@
+/// The legend of the map sets its range, and the mouse is told values with units.
+
+#include <gtest/gtest.h>
+
+#include "gui/offscreen_fixture.h"
+#include "gui/panels.h"
+
+namespace talus {
+namespace {
+
+using test::Replay;
+
+TEST_F(Replay, the_ends_of_the_legend_set_the_range) {
+  const Bar before = model_.annotated_map().legends[0].bars[0];
+  gui_.drag("legend bar", 1.0f, 0.5f, 1.5f, 0.5f);
+  ASSERT_TRUE(model_.state.map.range_high.has_value());
+  EXPECT_NEAR(*model_.state.map.range_high, before.high + 0.5 * (before.high - before.low), 0.01);
+  EXPECT_EQ(*model_.state.map.range_low, before.low) << "the other end stays";
+  gui_.drag("legend bar", 0.0f, 0.5f, 0.25f, 0.5f);
+  EXPECT_GT(*model_.state.map.range_low, before.low + 0.1);
+  EXPECT_NE(model_.render_command().find("--range"), std::string::npos);
+  gui_.double_click("legend bar");
+  EXPECT_FALSE(model_.state.map.range_low || model_.state.map.range_high);
+  EXPECT_EQ(model_.annotated_map().legends[0].bars[0].high, before.high);
+}
+
+TEST_F(Replay, a_click_on_the_legend_changes_nothing) {
+  gui_.click("legend bar", 0.02f);
+  gui_.click("legend bar", 0.5f);
+  EXPECT_FALSE(model_.state.map.range_low || model_.state.map.range_high);
+}
+
+TEST_F(Replay, a_grain_is_told_in_the_unit_of_the_map) {
+  model_.go_to(2);
+  const auto told = [&](MapKind kind) {
+    model_.state.map.layers = {kind};
+    gui_.frame();
+    return grain_text(model_, 7);
+  };
+  EXPECT_NE(told(MapKind::speed).find("speed = "), std::string::npos);
+  EXPECT_TRUE(told(MapKind::speed).ends_with(" √(gD)")) << told(MapKind::speed);
+  EXPECT_TRUE(told(MapKind::pressure).ends_with(" ρgD")) << told(MapKind::pressure);
+  EXPECT_TRUE(told(MapKind::rotation).ends_with("° per degree")) << told(MapKind::rotation);
+  EXPECT_TRUE(told(MapKind::displacement).ends_with(" D per degree")) << told(MapKind::displacement);
+  EXPECT_NE(told(MapKind::overloaded).find("γ = "), std::string::npos);
+  EXPECT_EQ(told(MapKind::forces), "grain 7");
+  for (const MapKind kind : map_kinds()) {
+    if (!has_bar({kind})) continue;
+    EXPECT_NE(told(kind).find(" = "), std::string::npos) << map_name(kind);
+  }
+}
+
+}  // namespace
+}  // namespace talus

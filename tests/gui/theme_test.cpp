@@ -1,0 +1,140 @@
+/// The look of the window: contrast, themes, and sizes of text from small windows to large ones.
+
+#include "gui/theme.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fmt/core.h>
+#include <fstream>
+#include <sstream>
+
+#include "gui/offscreen_fixture.h"
+#include "render/png.h"
+
+namespace talus {
+namespace {
+
+using test::Replay;
+
+TEST(Contrast, is_that_of_the_standard) {
+  EXPECT_NEAR(contrast(black, white), 21.0, 1e-9);
+  EXPECT_NEAR(contrast({119, 119, 119}, white), 4.48, 0.005) << "the usual example that just fails";
+  EXPECT_DOUBLE_EQ(contrast({10, 20, 30}, {10, 20, 30}), 1.0);
+}
+
+TEST(Contrast, of_all_text_is_enough) {
+  for (const Theme theme : themes())
+    for (const TextPair& pair : text_pairs(palette_of(theme)))
+      EXPECT_GE(contrast(pair.text, pair.ground), 4.5) << theme_name(theme) << ": " << pair.name;
+}
+
+TEST(Print, fills_nothing_with_gray) {
+  const Palette& of = palette_of(Theme::print);
+  for (const Colour& fill : {of.ground, of.panel, of.raised, of.field, of.track, of.alarm})
+    EXPECT_EQ(fill, white);
+  for (const Colour& text : {of.ink, of.soft, of.line}) EXPECT_EQ(text, black);
+}
+
+/// A literal of a colour in a source: IM_COL32(1, 2, 3, 4), ImVec4(0.1f ...), Colour{1, 2, 3}.
+bool has_colour(const std::string& text) {
+  for (const std::string_view mark : {"IM_COL32(", "ImVec4(", "ImVec4{", "Colour{"})
+    for (std::size_t at = text.find(mark); at != std::string::npos; at = text.find(mark, at + 1)) {
+      const char next = text[at + mark.size()];
+      if (next >= '0' && next <= '9') return true;
+    }
+  return false;
+}
+
+TEST(Theme, is_the_only_place_of_colours) {
+  int read = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(TALUS_SOURCE "/src/gui")) {
+    const std::string name = entry.path().filename().string();
+    if (name == "theme.cpp" || name == "theme.h") continue;
+    std::ifstream file(entry.path());
+    std::stringstream text;
+    text << file.rdbuf();
+    ++read;
+    EXPECT_FALSE(has_colour(text.str())) << name;
+  }
+  EXPECT_GT(read, 20);
+}
+
+/// The share of the pixels of a picture that are as dark as that.
+double share_below(const Image& image, double limit) {
+  int dark = 0;
+  for (std::size_t k = 0; k + 2 < image.pixels.size(); k += 3)
+    dark += luma({image.pixels[k], image.pixels[k + 1], image.pixels[k + 2]}) < limit ? 1 : 0;
+  return 3.0 * dark / static_cast<double>(image.pixels.size());
+}
+
+TEST_F(Replay, all_of_the_window_follows_the_theme) {
+  EXPECT_LT(share_below(gui_.frame(), 80.0), 0.2);
+  gui_.key('T');
+  EXPECT_EQ(model_.state.theme, Theme::dark);
+  EXPECT_GT(share_below(gui_.frame(), 80.0), 0.7);
+  const Image saved = gui_.draw_image(model_.furnished_map(), 800);
+  EXPECT_GT(saved.pixels[0], 250) << "a picture that is saved is that of talus render";
+  gui_.key('T');
+  const Image print = gui_.frame();
+  const WidgetPlace play = gui_.place("play");
+  const auto x = static_cast<std::size_t>(play.x0 + 3.0f),
+             y = static_cast<std::size_t>(0.5f * (play.y0 + play.y1));
+  EXPECT_EQ(print.pixels[3 * (y * 1400 + x)], 255) << "a button";
+  gui_.key('T');
+  EXPECT_EQ(model_.state.theme, Theme::light);
+}
+
+/// Names of widgets that are always there, and of which none lies over another.
+const char* const apart[] = {"play", "frame", "map", "time line", "bookmark"};
+
+void expect_apart(const OffscreenGui& gui, float width, float height, const std::string& at) {
+  for (const char* one : apart) {
+    if (!gui.has(one)) continue;
+    const WidgetPlace a = gui.place(one);
+    EXPECT_TRUE(a.x0 >= 0.0f && a.y0 >= 0.0f && a.x1 <= width && a.y1 <= height) << one << " " << at;
+    EXPECT_GT(a.x1 - a.x0, 8.0f) << one << " " << at;
+    for (const char* other : apart) {
+      if (one == other || !gui.has(other)) continue;
+      const WidgetPlace b = gui.place(other);
+      const bool clear = a.x1 <= b.x0 || b.x1 <= a.x0 || a.y1 <= b.y0 || b.y1 <= a.y0;
+      EXPECT_TRUE(clear) << one << " and " << other << " " << at;
+    }
+  }
+}
+
+TEST_F(Replay, nothing_overlaps_from_small_windows_to_large_ones) {
+  for (const auto& [width, height] : {std::pair{640, 480}, {1280, 800}, {1920, 1080}, {3840, 2160}})
+    for (const double scale : {1.0, 1.5, 2.0, 3.0}) {
+      model_.state.scale = scale;
+      gui_.resize(width, height);
+      expect_apart(gui_, static_cast<float>(width), static_cast<float>(height),
+                   fmt::format("at {} x {}, scale {}", width, height, scale));
+    }
+}
+
+TEST_F(Replay, playing_moves_nothing) {
+  const std::vector<WidgetPlace> before = gui_.places();
+  const Image still = gui_.frame();
+  gui_.click("play");
+  ASSERT_TRUE(model_.playing());
+  for (const WidgetPlace& place : before) {
+    const WidgetPlace now = gui_.place(place.name);
+    EXPECT_TRUE(now.x0 == place.x0 && now.y0 == place.y0 && now.x1 == place.x1 && now.y1 == place.y1)
+        << place.name;
+  }
+  EXPECT_NE(gui_.frame().pixels, still.pixels) << "the sign is that of a pause";
+}
+
+TEST_F(Replay, text_is_no_larger_than_a_small_window_has_room_for) {
+  const WidgetPlace usual = gui_.place("play");
+  gui_.resize(640, 480);
+  model_.state.scale = 3.0;
+  gui_.settle();
+  EXPECT_NEAR(gui_.place("play").y1 - gui_.place("play").y0, usual.y1 - usual.y0, 1.0f);
+  gui_.resize(1920, 1440);
+  EXPECT_NEAR(gui_.place("play").y1 - gui_.place("play").y0, 3.0f * (usual.y1 - usual.y0), 4.0f);
+}
+
+}  // namespace
+}  // namespace talus
