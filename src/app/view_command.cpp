@@ -41,6 +41,7 @@ struct ViewArguments {
   std::string map;                  ///< empty: that of the window
   std::optional<int> grain;         ///< selected
   std::vector<std::string> behind;  ///< runs or an ensemble, behind the curves
+  std::string select;               ///< a condition; empty: none
   std::string screenshot;
   std::string size = "1400x900";
   double scale = 1.0;
@@ -69,9 +70,17 @@ void show_first(ViewModel& model, const ViewArguments& arguments) {
     throw Error(ExitCode::usage, fmt::format("--grain {}: the grains are 0 to {}", *arguments.grain,
                                              model.statics().free_count - 1));
   model.state.selected = arguments.grain;
-  if (arguments.behind.empty()) return;
-  model.hold();
-  model.set_ghost(read_ghost(arguments.behind, MissingAnalysis::made));
+  if (!arguments.behind.empty()) {
+    model.hold();
+    model.set_ghost(read_ghost(arguments.behind, MissingAnalysis::made));
+  }
+  if (arguments.select.empty()) return;
+  model.state.selecting.condition = arguments.select;
+  model.update(0.0);
+  model.select_by_condition();
+  const std::string& error = model.state.selecting.error;
+  if (!error.empty()) throw Error(ExitCode::usage, "--select " + error);
+  model.state.panel_asked = "select";
 }
 
 /// Draws once what works in the background has come in: nothing new for half a second.
@@ -257,6 +266,8 @@ void add_view_command(CLI::App& app) {
           "--behind", arguments->behind,
           "Draw another run, or an ensemble's mean and deviation, behind the curves; may be given again")
       ->allow_extra_args(false);
+  command->add_option("--select", arguments->select,
+                      "Select the grains of which this holds, e.g. --select 'gamma > 0.7 && y > 30'");
   command->add_option("--size", arguments->size, "Width and height of the window, px")->capture_default_str();
   CLI::Option* screenshot =
       command

@@ -31,6 +31,7 @@ constexpr KeyLine key_lines[] = {
     {"w a x z, drag", "move the picture"},
     {"f", "whole bed"},
     {"n", "select the next grain; escape: none"},
+    {"T, L", "trails of the selected grains; follow the selected grain"},
     {"i, y", "outline its cluster; draw its neighbourhoods"},
     {"B", "bookmark of the frame shown, with a note"},
     {"g, b", "run to the angle; deposit the bed"},
@@ -38,7 +39,7 @@ constexpr KeyLine key_lines[] = {
     {"s", "save the state of a run that is computed"},
     {"e", "write the picture to the file named under files"},
     {"u, k", "push the selected grain; drop grains there"},
-    {"R M A F G", "the panels run, map, act, files, grain; tab: from field to field"},
+    {"R M A S F G", "the panels run, map, act, select, files, grain; tab: from field to field"},
     {"h", "show or hide the panels"},
     {"l", "show or hide the plots"},
     {"?", "this list"},
@@ -81,7 +82,7 @@ void choose_map(MapLayers& layers, std::size_t k) {
 
 void ask_for_panel(Gui& gui, ImWchar key) {
   gui.model.state.show_controls = true;
-  for (const char* panel : {"run", "map", "act", "files", "grain"})
+  for (const char* panel : {"run", "map", "act", "select", "files", "grain"})
     if (*panel == static_cast<char>(key - 'A' + 'a')) gui.panel_asked = panel;
 }
 
@@ -160,7 +161,7 @@ void change_view(Gui& gui, ImWchar key) {
       state.show_help = !state.show_help;
       break;
     case 'n':
-      state.selected = state.selected ? (*state.selected + 1) % gui.model.statics().free_count : 0;
+      gui.model.select(state.selected ? (*state.selected + 1) % gui.model.statics().free_count : 0);
       break;
     default:
       if (key >= '1' && key <= '9') choose_map(state.map.layers, static_cast<std::size_t>(key - '1'));
@@ -200,9 +201,16 @@ void act(Gui& gui, ImWchar key) {
     case 'R':
     case 'M':
     case 'A':
+    case 'S':
     case 'F':
     case 'G':
       ask_for_panel(gui, key);
+      break;
+    case 'T':
+      model.state.selecting.trails = !model.state.selecting.trails;
+      break;
+    case 'L':
+      toggle_following(gui);
       break;
     case 'u':
       push_selected(gui);
@@ -245,7 +253,7 @@ void handle_keys(Gui& gui) {
     if (gui.model.state.show_help)
       gui.model.state.show_help = false;
     else
-      gui.model.state.selected.reset();
+      gui.model.select(std::optional<Index>());
   }
 }
 
@@ -261,6 +269,8 @@ void draw_help(Gui& gui) {
     rich_text(line.what);
   }
   ImGui::TextUnformatted("On the map: click a grain, drag to move, wheel to zoom.");
+  ImGui::TextUnformatted(
+      "With shift: click one more grain, drag a box. With ctrl: click a contact, drag a lasso.");
   note_place(gui, "help", ImGui::GetWindowPos(),
              {ImGui::GetWindowPos().x + ImGui::GetWindowWidth(),
               ImGui::GetWindowPos().y + ImGui::GetWindowHeight()});

@@ -5,6 +5,7 @@
 #include "core/trigonometry.h"
 #include "gui/panels.h"
 #include "gui/run_actions.h"
+#include "gui/select_tools.h"
 #include "render/layout.h"
 
 namespace talus {
@@ -56,6 +57,7 @@ void use_mouse(Gui& gui, const ShownMap& shown) {
   const ImGuiIO& io = ImGui::GetIO();
   ViewState& state = gui.model.state;
   const Point place = shown.bed_place(io.MousePos);
+  const bool outlining = select_by_outline(gui, [&](const ImVec2& px) { return shown.bed_place(px); });
   if (ImGui::IsItemHovered()) {
     if (io.MouseWheel != 0.0f)
       zoom_about(gui, std::pow(1.25, static_cast<double>(io.MouseWheel)), place.x, place.y);
@@ -65,12 +67,14 @@ void use_mouse(Gui& gui, const ShownMap& shown) {
       ImGui::SetTooltip("%.1f, %.1f D: %s", place.x / diameter, place.y / diameter,
                         grain_text(gui.model, *grain).c_str());
     const bool dragged = io.MouseDragMaxDistanceSqr[0] > 16.0f;
-    if (ImGui::IsMouseReleased(0) && !dragged) state.selected = grain;
+    if (ImGui::IsMouseReleased(0) && !dragged && !outlining) select_clicked(gui, place.x, place.y);
   }
+  if (outlining) return;
   const bool panning =
       ImGui::IsItemActive() || (ImGui::IsItemHovered() && (io.MouseDown[1] || io.MouseDown[2]));
   if (panning && (io.MouseDelta.x != 0.0f || io.MouseDelta.y != 0.0f)) {
     const Point before = shown.bed_place({io.MousePos.x - io.MouseDelta.x, io.MousePos.y - io.MouseDelta.y});
+    state.selecting.follow = false;
     state.camera.centre_x -= place.x - before.x;
     state.camera.centre_y -= place.y - before.y;
   }

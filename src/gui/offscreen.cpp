@@ -147,6 +147,11 @@ void OffscreenGui::key(int code, bool control) {
   settle();
 }
 
+void OffscreenGui::hold(int key, bool down) {
+  press_key(key, down);
+  settle();
+}
+
 void OffscreenGui::type(std::string_view text) {
   for (const char character : text) key(static_cast<unsigned char>(character));
 }

@@ -41,6 +41,8 @@ class OffscreenGui {
   /// A printable ASCII character, or a number of KeyCode.
   void key(int code, bool control = false);
   void type(std::string_view text);
+  /// A key, as key_left_shift, is held or let go from here on.
+  void hold(int key, bool down);
 
   void resize(int width, int height);
   /// A view as talus render draws it.

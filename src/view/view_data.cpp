@@ -36,6 +36,7 @@ void ViewModel::Data::open_replay() {
 }
 
 void ViewModel::Data::begin_series() {
+  history.reset();
   series.reset();
   if (replay) {
     series =
@@ -51,6 +52,7 @@ void ViewModel::Data::begin_series() {
 void ViewModel::Data::start_live(const std::string& next_output, bool overwrite) {
   auto next = std::make_unique<LiveRun>(scenario, scenario_text, next_output, overwrite, command_line);
   output = next_output;
+  history.reset();
   series.reset();
   pictures.met = {};
   pictures.has_program = !scenario.tilt.program.empty();
@@ -73,6 +75,7 @@ void ViewModel::Data::start_live(const std::string& next_output, bool overwrite)
   bookmarks.clear();
   bookmarks_unread.clear();
   dilation.reset();
+  first_frame.reset();
   show(newest);
   recorded = std::make_shared<RecordedFrames>();
   begin_series();

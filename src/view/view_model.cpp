@@ -66,7 +66,7 @@ void ViewModel::restart(std::uint64_t seed) {
   data_->live->halt();
   data_->scenario.seed = seed;
   data_->start_live(data_->output.empty() ? "" : next_output(data_->first_output), false);
-  state.selected.reset();
+  select(std::optional<Index>());
   state.announcement.clear();
 }
 
@@ -153,6 +153,9 @@ bool ViewModel::update(double seconds) {
   }
   changed = data.read_with(std::clamp(state.map.l_min, 0.0, 100.0)) || changed;
   changed = data.follow_frames(data.map_settings(state)) || changed;
+  if (state.selecting.in_each_frame && data.condition_frame != data.frame) select_by_condition();
+  changed = data.follow_history(state) || changed;
+  follow_grain();
   state.camera = centred(clamped(state.camera, data.bed, mean_diameter()), data.part(state, data.aspect));
   if (const std::string end = data.take_end(); !end.empty()) state.announcement = end;
   if (!data.error.empty()) state.message = std::exchange(data.error, {});

@@ -10,7 +10,9 @@
 #include <vector>
 
 #include "render/frame_view.h"
+#include "view/contact_inspection.h"
 #include "view/ghost.h"
+#include "view/grain_quantities.h"
 #include "view/inspection.h"
 #include "view/landmarks.h"
 #include "view/live_run.h"
@@ -112,6 +114,41 @@ class ViewModel {
   /// The grain whose disc holds the place (m, frame of the bed), or is nearest to it within a D.
   std::optional<Index> grain_at(double x, double y) const;
 
+  // Selecting: state.selected is the grain that is looked at, state.selecting what is selected beside it.
+  /// One grain, or none, and nothing else.
+  void select(std::optional<Index> grain);
+  /// These grains, by ascending ids; a single one as above. The one that is looked at stays if it is among
+  /// them.
+  void select(std::vector<Index> grains);
+  void select(const ContactKey& contact);
+  /// What is selected now, combined with grains that were found, as state.selecting.mode has it; a condition
+  /// selects no longer in each frame.
+  void select_found(const std::vector<Index>& found);
+  /// The same for the grains of which state.selecting.condition holds in the frame shown; an empty one finds
+  /// none. With in_each_frame they take the place of those before. What is wrong with it is put into
+  /// state.selecting.error, and changes nothing.
+  void select_by_condition();
+  /// All that are selected and there in the frame shown, by ascending ids.
+  std::vector<Index> selected_grains() const;
+  /// grains_within, in the frame shown.
+  std::vector<Index> grains_within(std::span<const Vec2> outline) const;
+  /// find_contact, in the frame shown.
+  std::optional<ContactKey> contact_at(double x, double y, double reach) const;
+  /// Of all grains of the frame shown, by their ids. Made once for a frame and an overload rule.
+  const std::vector<double>& grain_values(const GrainQuantity& quantity) const;
+
+  /// Of the selected contact in the frame shown; none where none is selected.
+  std::optional<ContactInspection> contact_inspection() const;
+  /// contact_plots of it, over the axis of all plots; frames come in as they are read.
+  std::vector<Plot> contact_history() const;
+  /// Of how many grains trails are drawn at most; where more are selected, of every second, third, ... of
+  /// them.
+  static constexpr std::size_t most_trails = 500;
+
+  /// Writes all quantities of the selected grains as grains_table to a file that is not there yet, and says
+  /// so in state.message, or what stands in the way.
+  void write_selected(const std::string& path);
+
   /// Of state.selected in the frame shown; none where nothing is selected. Made once for a frame and a
   /// selection.
   const Inspection* inspection() const;
@@ -141,6 +178,9 @@ class ViewModel {
   std::string render_command() const;
 
  private:
+  /// Moves the camera to the grain that is looked at, where that is asked for.
+  void follow_grain();
+
   struct Data;
   explicit ViewModel(std::unique_ptr<Data> data);
   std::unique_ptr<Data> data_;

@@ -128,8 +128,10 @@ FrameView ViewModel::Data::picture(const ViewState& asked, const MapExtent& show
       overlay.critical_length = of->coarse_graining_length;
     }
   }
-  return shown_map(whole_map(asked, shown), shown, {*frame, statics()}, overlay,
-                   shown_clusters(map_settings(asked)));
+  FrameView view = shown_map(whole_map(asked, shown), shown, {*frame, statics()}, overlay,
+                             shown_clusters(map_settings(asked)));
+  add_selection(view, {*frame, statics()}, selection_marks(asked));
+  return view;
 }
 
 std::string ViewModel::Data::render_command(const ViewState& asked) const {

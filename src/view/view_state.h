@@ -5,9 +5,11 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/types.h"
 #include "pictures/maps.h"
+#include "view/selection.h"
 
 namespace talus {
 
@@ -24,14 +26,31 @@ struct PlotLook {
   std::optional<bool> log_y;                    ///< instead of what the plot has
 };
 
+/// What is selected beside a single grain, and how.
+struct SelectingState {
+  Selection selection;                           ///< two grains or more, or a contact; empty: neither
+  SelectionMode mode = SelectionMode::anew;      ///< of a box, a lasso or a condition
+  std::string condition;                         ///< that is written, or was
+  std::string error;                             ///< why it selects nothing
+  bool in_each_frame = false;                    ///< the condition selects anew in each frame
+  std::string quantity = "gamma_neighbourhood";  ///< whose histogram is shown
+  std::string table_path = "selected.csv";       ///< to be written
+  bool trails = false;          ///< where the selected grains have been, up to the frame shown
+  bool follow = false;          ///< the picture keeps the grain that is looked at in its middle
+  std::vector<Vec2> outline;    ///< that is being drawn, px of the window; empty: none
+  bool outline_is_box = false;  ///< between its first place and its last
+};
+
 struct ViewState {
   MapSettings map;  ///< layers, colours, threshold, length, turned, ...
   ViewCamera camera;
   std::optional<double> since;    ///< rad: motion and strain since that tilt; without: per degree
-  std::optional<Index> selected;  ///< grain
+  std::optional<Index> selected;  ///< the grain that is looked at, and that commands act on
+  SelectingState selecting;       ///< more grains than that one, or a contact
   double neighbourhood = 10.0;    ///< D: diameter of the neighbourhood drawn about the selected grain
   bool show_neighbourhoods = true;
   bool highlight_cluster = false;
+  std::string panel_asked;  ///< to be opened with the next picture
   bool show_help = false;
   bool show_controls = true, show_inspector = true, show_plots = true;
   std::map<std::string, PlotLook> plot_looks;  ///< by the names of plots
