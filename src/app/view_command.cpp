@@ -96,6 +96,8 @@ std::string way_on(const Recording& run) {
   if (run_presence(run.output) == RunPresence::packed)
     return fmt::format("{} holds the whole run; look at it again with: talus view {}", run.output,
                        run.output);
+  if (run.scenario.empty())
+    return fmt::format("{0} holds the branch so far; continue with: talus run --resume {0}", run.output);
   std::string line = fmt::format("talus run {} -o {}", run.scenario, run.output);
   for (const std::string& setting : run.settings)
     if (!setting.starts_with("seed=")) line += " --set " + setting;

@@ -33,7 +33,7 @@ void draw_action_panel(Gui& gui) {
   ImGui::PopItemWidth();
   ImGui::Separator();
   ImGui::TextWrapped("Each of these is a command with a step number; talus replay repeats them.");
-  for (const Command& command : live->commands()) {
+  for (const Command& command : given_commands(live->commands())) {
     const long long step = command.step;
     switch (command.kind) {
       case CommandKind::push:
@@ -44,6 +44,11 @@ void draw_action_panel(Gui& gui) {
         break;
       case CommandKind::friction:
         ImGui::Text("%lld friction %.3g", step, command.x);
+        break;
+      case CommandKind::drag:
+        ImGui::Text("%lld drag grain %d", step, command.grain);
+        break;
+      case CommandKind::release:
         break;
       case CommandKind::tilt_rate:
         ImGui::Text("%lld tilt rate %.3g deg/s", step, command.x);
