@@ -135,10 +135,11 @@ void save_picture(const std::string& path, GuiWindow& window, ViewModel& model) 
 }
 
 /// Shows another run. What cannot be opened leaves what is shown.
-void open(const std::string& path, ViewModel& model) {
+void open(const std::string& path, std::optional<std::size_t> frame, ViewModel& model) {
   if (!model.may_discard()) return;
   model.hold();
   ViewModel next = ViewModel::open(path, {}, "", false, command_line());
+  if (frame) next.go_to(*frame);
   const std::string kept = close(std::exchange(model, std::move(next)));
   if (!kept.empty()) std::printf("%s\n", kept.c_str());
   std::fflush(stdout);
@@ -176,7 +177,7 @@ void serve(const GuiRequests& requests, GuiWindow& window, ViewModel& model) {
     if (!requests.save_png_path.empty()) save_picture(requests.save_png_path, window, model);
     if (!requests.plots_folder.empty()) save_plots(requests.plots_folder, model);
     if (!requests.behind_path.empty()) put_behind(requests.behind_path, model);
-    if (!requests.open_path.empty()) open(requests.open_path, model);
+    if (!requests.open_path.empty()) open(requests.open_path, requests.open_frame, model);
   } catch (const Error& error) {
     model.state.message = error.what();
   }

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "core/trigonometry.h"
+#include "gui/branching.h"
 #include "gui/panels.h"
 #include "gui/run_actions.h"
 
@@ -38,6 +39,7 @@ constexpr KeyLine key_lines[] = {
     {"s", "save the state of a run that is computed"},
     {"e", "write the picture to the file named under files"},
     {"u, k", "push the selected grain; drop grains there"},
+    {"N, U", "branch: go on from the frame shown; back before the last command"},
     {"R M A F G", "the panels run, map, act, files, grain; tab: from field to field"},
     {"h", "show or hide the panels"},
     {"l", "show or hide the plots"},
@@ -197,6 +199,12 @@ void act(Gui& gui, ImWchar key) {
     case 'B':
       model.state.bookmark_asked = true;
       break;
+    case 'N':
+      branch_here(gui);
+      break;
+    case 'U':
+      go_back(gui);
+      break;
     case 'R':
     case 'M':
     case 'A':
@@ -260,7 +268,8 @@ void draw_help(Gui& gui) {
     ImGui::SameLine(9.0f * gui.em);
     rich_text(line.what);
   }
-  ImGui::TextUnformatted("On the map: click a grain, drag to move, wheel to zoom.");
+  ImGui::TextUnformatted(
+      "On the map: click a grain, drag to move, wheel to zoom, ctrl and drag to pull a grain.");
   note_place(gui, "help", ImGui::GetWindowPos(),
              {ImGui::GetWindowPos().x + ImGui::GetWindowWidth(),
               ImGui::GetWindowPos().y + ImGui::GetWindowHeight()});

@@ -55,7 +55,7 @@ void ViewModel::Data::start_branch(std::size_t k) {
   scenario_text = run.header().scenario_given;
   command_line = fmt::format("talus view {}", pictures.path);
   parent_tilts = run.all_frame_tilts();
-  parent_times = run.all_frame_times();
+  parent_theta_c = theta_c;
   replay.reset();
   frames.reset();
   analysis.reset();

@@ -56,10 +56,10 @@ struct ViewModel::Data {
   Scenario scenario;
   std::vector<std::string> scenario_settings;
   std::string scenario_text, command_line;
-  std::string first_output, output;    ///< asked for at first; of this run: empty, it is not recorded
-  std::optional<BranchOrigin> branch;  ///< where it began, if it is a branch
-  std::vector<double> parent_tilts;    ///< rad, of the frames of the run that it left
-  std::vector<double> parent_times;    ///< s
+  std::string first_output, output;      ///< asked for at first; of this run: empty, it is not recorded
+  std::optional<BranchOrigin> branch;    ///< where it began, if it is a branch
+  std::vector<double> parent_tilts;      ///< rad, of the frames of the run that it left
+  std::optional<double> parent_theta_c;  ///< rad; assumed of the branch until it has failed
   std::unique_ptr<LiveRun> live;
   std::shared_ptr<RecordedFrames> recorded;
   std::shared_ptr<const Frame> newest;  ///< of the run as it is now

@@ -24,6 +24,13 @@ struct PlotLook {
   std::optional<bool> log_y;                    ///< instead of what the plot has
 };
 
+/// A grain that the mouse holds.
+struct GrainDrag {
+  Index grain = -1;
+  double x = 0.0, y = 0.0;  ///< m, where the mouse was when that was last told to the run
+  std::int64_t step = 0;    ///< of the run then
+};
+
 struct ViewState {
   MapSettings map;  ///< layers, colours, threshold, length, turned, ...
   ViewCamera camera;
@@ -44,6 +51,8 @@ struct ViewState {
   std::string bookmark_note;    ///< what is being written
   std::string announcement;     ///< of a run that has failed or ended, until it is clicked away
   std::string message;          ///< last thing worth telling: a file written, an error
+
+  std::optional<GrainDrag> drag;
 
   // What the action widgets hold.
   double push_speed = 1.0;  ///< sqrt(g D)
