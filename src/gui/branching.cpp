@@ -4,10 +4,10 @@
 #include <filesystem>
 #include <fmt/core.h>
 
+#include "core/drag_spring.h"
 #include "core/errors.h"
 #include "core/trigonometry.h"
 #include "gui/run_actions.h"
-#include "session/drag.h"
 
 namespace talus {
 namespace {

@@ -59,7 +59,7 @@ void check_drag(const Command& command, const Scenario& scenario, const World& w
   check_grain(command, world);
   const double farthest = farthest_drag * scenario.grains.mean_diameter;
   const Vec2 way = way_of_drag({command.grain, command.x, command.y}, world);
-  const double distance = std::hypot(way.x, way.y);
+  const double distance = std::sqrt(way.x * way.x + way.y * way.y);
   if (!(distance <= farthest))
     refuse(command, fmt::format("held {:.4g} m from the grain", distance),
            fmt::format("at most {:g} D = {:.4g} m", farthest_drag, farthest));

@@ -1,16 +1,11 @@
 #pragma once
 /// A grain that a user pulls with a damped spring.
 
+#include "core/drag_spring.h"
 #include "core/world.h"
 #include "session/schedule.h"
 
 namespace talus {
-
-/// Stiffness of the spring, m g / D, m the mass of the grain: held so many D away it pulls with ten times
-/// that many weights of the grain.
-inline constexpr double drag_stiffness = 10.0;
-/// D; a spring is held within this distance of its grain.
-inline constexpr double farthest_drag = 50.0;
 
 /// From the centre of the grain to where the spring is held, m; the shortest way around a periodic bed.
 Vec2 way_of_drag(const Drag& drag, const World& world);
