@@ -105,6 +105,8 @@ std::string way_on(const Recording& run) {
   if (run_presence(run.output) == RunPresence::packed)
     return fmt::format("{} holds the whole run; look at it again with: talus view {}", run.output,
                        run.output);
+  if (run.scenario.empty())
+    return fmt::format("{0} holds the branch so far; continue with: talus run --resume {0}", run.output);
   std::string line = fmt::format("talus run {} -o {}", run.scenario, run.output);
   for (const std::string& setting : run.settings)
     if (!setting.starts_with("seed=")) line += " --set " + setting;
@@ -142,10 +144,11 @@ void save_picture(const std::string& path, GuiWindow& window, ViewModel& model) 
 }
 
 /// Shows another run. What cannot be opened leaves what is shown.
-void open(const std::string& path, ViewModel& model) {
+void open(const std::string& path, std::optional<std::size_t> frame, ViewModel& model) {
   if (!model.may_discard()) return;
   model.hold();
   ViewModel next = ViewModel::open(path, {}, "", false, command_line());
+  if (frame) next.go_to(*frame);
   const std::string kept = close(std::exchange(model, std::move(next)));
   if (!kept.empty()) std::printf("%s\n", kept.c_str());
   std::fflush(stdout);
@@ -183,7 +186,7 @@ void serve(const GuiRequests& requests, GuiWindow& window, ViewModel& model) {
     if (!requests.save_png_path.empty()) save_picture(requests.save_png_path, window, model);
     if (!requests.plots_folder.empty()) save_plots(requests.plots_folder, model);
     if (!requests.behind_path.empty()) put_behind(requests.behind_path, model);
-    if (!requests.open_path.empty()) open(requests.open_path, model);
+    if (!requests.open_path.empty()) open(requests.open_path, requests.open_frame, model);
   } catch (const Error& error) {
     model.state.message = error.what();
   }

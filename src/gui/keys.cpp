@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "core/trigonometry.h"
+#include "gui/branching.h"
 #include "gui/panels.h"
 #include "gui/run_actions.h"
 
@@ -39,6 +40,7 @@ constexpr KeyLine key_lines[] = {
     {"s", "save the state of a run that is computed"},
     {"e", "write the picture to the file named under files"},
     {"u, k", "push the selected grain; drop grains there"},
+    {"N, U", "branch: go on from the frame shown; back before the last command"},
     {"R M A S F G", "the panels run, map, act, select, files, grain; tab: from field to field"},
     {"h", "show or hide the panels"},
     {"l", "show or hide the plots"},
@@ -198,6 +200,12 @@ void act(Gui& gui, ImWchar key) {
     case 'B':
       model.state.bookmark_asked = true;
       break;
+    case 'N':
+      branch_here(gui);
+      break;
+    case 'U':
+      go_back(gui);
+      break;
     case 'R':
     case 'M':
     case 'A':
@@ -271,6 +279,8 @@ void draw_help(Gui& gui) {
   ImGui::TextUnformatted("On the map: click a grain, drag to move, wheel to zoom.");
   ImGui::TextUnformatted(
       "With shift: click one more grain, drag a box. With ctrl: click a contact, drag a lasso.");
+  ImGui::TextUnformatted(
+      "With ctrl, from a grain of a run that is computed: pull it. With ctrl and shift: always a lasso.");
   note_place(gui, "help", ImGui::GetWindowPos(),
              {ImGui::GetWindowPos().x + ImGui::GetWindowWidth(),
               ImGui::GetWindowPos().y + ImGui::GetWindowHeight()});

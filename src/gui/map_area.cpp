@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include "core/trigonometry.h"
+#include "gui/branching.h"
 #include "gui/panels.h"
 #include "gui/run_actions.h"
 #include "gui/select_tools.h"
@@ -22,6 +23,11 @@ struct ShownMap {
     const double right = (static_cast<double>(mouse.x - corner.x) - camera.origin_x) / camera.scale;
     const double down = (static_cast<double>(mouse.y - corner.y) - camera.origin_y) / camera.scale;
     return {camera.cosine * right + camera.sine * down, camera.sine * right - camera.cosine * down};
+  }
+  ImVec2 pixel(double x, double y) const {
+    const double right = camera.cosine * x + camera.sine * y, down = camera.sine * x - camera.cosine * y;
+    return {corner.x + static_cast<float>(camera.origin_x + camera.scale * right),
+            corner.y + static_cast<float>(camera.origin_y + camera.scale * down)};
   }
 };
 
@@ -57,7 +63,10 @@ void use_mouse(Gui& gui, const ShownMap& shown) {
   const ImGuiIO& io = ImGui::GetIO();
   ViewState& state = gui.model.state;
   const Point place = shown.bed_place(io.MousePos);
-  const bool outlining = select_by_outline(gui, [&](const ImVec2& px) { return shown.bed_place(px); });
+  const BedPlace bed_place = [&](const ImVec2& px) { return shown.bed_place(px); };
+  if (drag_grain(gui, place.x, place.y, {[&](double x, double y) { return shown.pixel(x, y); }, bed_place}))
+    return;
+  const bool outlining = select_by_outline(gui, bed_place);
   if (ImGui::IsItemHovered()) {
     if (io.MouseWheel != 0.0f)
       zoom_about(gui, std::pow(1.25, static_cast<double>(io.MouseWheel)), place.x, place.y);

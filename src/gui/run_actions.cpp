@@ -48,7 +48,8 @@ void reset(Gui& gui) {
   if (!model.is_live() || !model.may_discard()) return;
   try {
     model.restart(static_cast<std::uint64_t>(std::max(model.state.seed, 0)));
-    model.state.message = fmt::format("A new run, seed {}.", model.seed());
+    model.state.message =
+        model.branch_line() ? "The branch begins anew." : fmt::format("A new run, seed {}.", model.seed());
   } catch (const Error& error) {
     model.state.message = error.what();
   }

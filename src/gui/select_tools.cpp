@@ -6,7 +6,6 @@
 namespace talus {
 namespace {
 
-constexpr float least_drag = 4.0f;            ///< px; less is a click
 constexpr double contact_reach = 1.0;         ///< D, with ctrl
 constexpr double small_contact_reach = 0.15;  ///< D, without: elsewhere it is the grain that is meant
 
@@ -70,7 +69,7 @@ bool select_by_outline(Gui& gui, const BedPlace& bed_place) {
   const Vec2 mouse{static_cast<double>(io.MousePos.x), static_cast<double>(io.MousePos.y)};
   if (ImGui::IsItemActivated() && (io.KeyShift || io.KeyCtrl)) {
     selecting.outline = {mouse};
-    selecting.outline_is_box = io.KeyShift;
+    selecting.outline_is_box = io.KeyShift && !io.KeyCtrl;
   }
   if (selecting.outline.empty()) return false;
   if (is_far(io.MousePos, selecting.outline.back())) {

@@ -60,7 +60,10 @@ struct ViewModel::Data {
   Scenario scenario;
   std::vector<std::string> scenario_settings;
   std::string scenario_text, command_line;
-  std::string first_output, output;  ///< asked for at first; of this run: empty, it is not recorded
+  std::string first_output, output;      ///< asked for at first; of this run: empty, it is not recorded
+  std::optional<BranchOrigin> branch;    ///< where it began, if it is a branch
+  std::vector<double> parent_tilts;      ///< rad, of the frames of the run that it left
+  std::optional<double> parent_theta_c;  ///< rad; assumed of the branch until it has failed
   std::unique_ptr<LiveRun> live;
   std::shared_ptr<RecordedFrames> recorded;
   std::shared_ptr<const Frame> newest;  ///< of the run as it is now
@@ -106,6 +109,10 @@ struct ViewModel::Data {
   /// Begins the run of `scenario`, and shows it instead of what was shown.
   void start_live(const std::string& output, bool overwrite);
   void begin_series();
+  // view_branch.cpp
+  void start_branch(std::size_t k);
+  /// Takes over what a live run has recorded, from its beginning.
+  void take_all_recorded();
   /// Frame k of a replay; null, with the reason in `error`, where it cannot be read.
   std::shared_ptr<const Frame> read(std::size_t k);
   /// Shows the frame that a replay is at; where it cannot be read, the one before stays and playing ends.

@@ -11,12 +11,10 @@
 #include "pictures/bed_view.h"
 #include "pictures/frame_choice.h"
 #include "view/camera.h"
+#include "view/next_output.h"
 #include "view/view_data.h"
 
 namespace talus {
-namespace {
-
-/// "slope-2.h5" after "slope.h5": the first that is not there yet.
 std::string next_output(const std::string& first) {
   const std::filesystem::path path(first);
   for (int k = 2;; ++k) {
@@ -25,8 +23,6 @@ std::string next_output(const std::string& first) {
     if (run_presence(next) == RunPresence::none) return next;
   }
 }
-
-}  // namespace
 
 ViewModel ViewModel::open(const std::string& path, const std::vector<std::string>& settings,
                           const std::string& output, bool overwrite, const std::string& command_line) {
@@ -64,7 +60,7 @@ std::uint64_t ViewModel::seed() const { return data_->pictures.run.seed; }
 void ViewModel::restart(std::uint64_t seed) {
   if (!is_live()) return;
   data_->live->halt();
-  data_->scenario.seed = seed;
+  if (!data_->branch) data_->scenario.seed = seed;
   data_->start_live(data_->output.empty() ? "" : next_output(data_->first_output), false);
   select(std::optional<Index>());
   state.announcement.clear();
@@ -78,7 +74,9 @@ void ViewModel::record(const std::string& output) {
 }
 
 bool ViewModel::may_discard() {
-  const bool saved = !is_live() || !data_->output.empty() || data_->live->status().step == 0;
+  const std::int64_t first = data_->branch ? data_->branch->start.world.step : 0;
+  const bool saved = !is_live() || !data_->output.empty() ||
+                     (data_->live->status().step == first && data_->commands.empty());
   if (saved || std::exchange(state.discard_asked, false)) return true;
   state.discard_asked = true;
   state.message = "This run is not saved. Press again to discard it, or s to save it.";
@@ -93,7 +91,8 @@ void ViewModel::hold() {
 }
 
 Recording ViewModel::recording() const {
-  return {data_->pictures.path, data_->scenario_settings, data_->output, data_->pictures.run.seed};
+  return {data_->branch ? "" : data_->pictures.path, data_->scenario_settings, data_->output,
+          data_->pictures.run.seed};
 }
 
 // --- replay ---

@@ -24,10 +24,17 @@ namespace talus {
 
 /// Where a live run comes from, and where it is recorded.
 struct Recording {
-  std::string scenario;
+  std::string scenario;  ///< empty: of a branch, which is in its file
   std::vector<std::string> settings;
   std::string output;  ///< empty: nowhere
   std::uint64_t seed = 0;
+};
+
+/// The run that a branch has left, for the time line.
+struct BranchLine {
+  std::string run;
+  std::size_t frame = 0;      ///< of it, at which the branch begins
+  std::vector<double> tilts;  ///< rad, of its frames
 };
 
 class ViewModel {
@@ -50,6 +57,14 @@ class ViewModel {
   /// LiveRun; then the run before is still there.
   void restart(std::uint64_t seed);
   std::uint64_t seed() const;
+  /// A replay goes on from the frame shown, as a live run that is not recorded. A branch is reset to that
+  /// frame, whatever the seed. Nothing in a live run. Throws as checkpoint_at_frame; then the replay is still
+  /// there.
+  void branch();
+  std::optional<BranchLine> branch_line() const;  ///< where the live run is a branch
+  /// A live run goes back before its last command, paused; one that is recorded goes on in a file beside it.
+  /// Throws as LiveRun::back.
+  void back();
   /// Records a live run that was not, from its beginning. Throws as LiveRun::record.
   void record(const std::string& output);
   Recording recording() const;

@@ -53,6 +53,9 @@ SelectionMarks ViewModel::Data::selection_marks(const ViewState& asked) const {
 
 double ViewModel::Data::friction_at(std::int64_t step) const {
   double friction = statics().friction;
+  // A branch goes on with what commands had set before it.
+  if (const auto& origin = replay ? pictures.run.branch : branch)
+    friction = find_value(origin->start.reals, "friction").value_or(friction);
   for (const Command& command : commands)
     if (command.kind == CommandKind::friction && command.step < step) friction = command.x;
   return friction;

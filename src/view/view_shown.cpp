@@ -37,7 +37,9 @@ std::size_t ViewModel::Data::shown_index() const {
   return static_cast<std::size_t>(after - all.begin());
 }
 
-double ViewModel::Data::shown_theta_c() const { return theta_c.value_or(radians(assumed_theta_c)); }
+double ViewModel::Data::shown_theta_c() const {
+  return theta_c.value_or(parent_theta_c.value_or(radians(assumed_theta_c)));
+}
 
 MapSettings ViewModel::Data::map_settings(const ViewState& asked) const {
   MapSettings settings = asked.map;

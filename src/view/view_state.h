@@ -41,6 +41,13 @@ struct SelectingState {
   bool outline_is_box = false;  ///< between its first place and its last
 };
 
+/// A grain that the mouse holds.
+struct GrainDrag {
+  Index grain = -1;
+  double x = 0.0, y = 0.0;  ///< m, where the mouse was when that was last told to the run
+  std::int64_t step = 0;    ///< of the run then
+};
+
 struct ViewState {
   MapSettings map;  ///< layers, colours, threshold, length, turned, ...
   ViewCamera camera;
@@ -63,6 +70,8 @@ struct ViewState {
   std::string bookmark_note;    ///< what is being written
   std::string announcement;     ///< of a run that has failed or ended, until it is clicked away
   std::string message;          ///< last thing worth telling: a file written, an error
+
+  std::optional<GrainDrag> drag;
 
   // What the action widgets hold.
   double push_speed = 1.0;  ///< sqrt(g D)
