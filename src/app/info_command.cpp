@@ -44,6 +44,7 @@ struct RunInfo {
   double solver_tolerance = none;     ///< asked of a bed at rest
   double residual_max = none;         ///< worst natural-map residual of the steps of the tilt
   std::string state_hash;
+  std::optional<BranchOrigin> branch;
   std::string lost;  ///< before the run was repaired
   Facts provenance;
   Figures results;  ///< SI
@@ -108,7 +109,8 @@ RunInfo look_at(const std::string& path) {
   info.has_program = run.has_program();
   info.tilt = run.checkpoint().world.tilt;
   count_steps(run.steps(), info);
-  info.commands = run.commands();
+  info.commands = given_commands(run.commands());
+  info.branch = run.header().branch;
   info.command_tilts = tilts_of(info.commands, run.all_observables());
   info.solver_tolerance = tolerance_of(run.header(), path);
   info.state_hash = run.has_state() ? hash_text(state_hash(run.checkpoint().world)) : "none";
@@ -154,6 +156,10 @@ void print_json(const RunInfo& info) {
       {"steps", number(info.steps)},
       {"commands", number(info.commands.size())},
       {"state_hash", quoted(info.state_hash)},
+      {"branch_of", info.branch ? quoted(info.branch->run) : "null"},
+      {"branch_frame", info.branch ? number(info.branch->frame) : "null"},
+      {"branch_step", info.branch ? number(info.branch->start.world.step) : "null"},
+      {"branch_run_hash", info.branch ? quoted(info.branch->run_hash) : "null"},
       {"talus_version", quoted(fact(info.provenance, "version"))},
       {"git_hash", quoted(fact(info.provenance, "git_hash"))},
       {"results", json::object(as_json(info.results), 1)},
@@ -200,6 +206,11 @@ void print_text(const RunInfo& info) {
   print_line("run",
              info.path + (info.complete ? "" : fmt::format(" (not complete, at {})", in_degrees(info.tilt))));
   if (!info.lost.empty()) print_line("lost", info.lost + " (the run was repaired)");
+  if (info.branch)
+    print_line("branch of",
+               fmt::format("{}, frame {}, at {}, step {}; the end of that run is {}", info.branch->run,
+                           info.branch->frame, in_degrees(info.branch->start.world.tilt),
+                           info.branch->start.world.step, info.branch->run_hash));
   print_line("version", version_of(info.provenance));
   print_line("seed", std::to_string(info.seed));
   print_line("grains", fmt::format("{} free, {} on the floor", info.grains, info.floor_grains));

@@ -64,7 +64,7 @@ std::optional<RunStore> begin_output(const ReplayArguments& arguments, const Ses
   prepare_folder_of(arguments.output);
   RunHeader header =
       run_header(session, {run.header().scenario_given, fact(run.header().provenance, "scenario_file"),
-                           command_line(), arguments.threads});
+                           command_line(), arguments.threads, run.header().branch});
   header.provenance.emplace_back("replay_of", arguments.run);
   header.provenance.emplace_back("replay_steps", std::to_string(run.checkpoint().world.step));
   return RunStore::create(arguments.output, header, arguments.overwrite);
@@ -88,8 +88,13 @@ void replay_run(const ReplayArguments& arguments) {
                 arguments.run +
                     " was repaired, and its last state is lost: there is nothing to compare with; "
                     "compute it again from its scenario (talus info)");
+  if (!run.header().branch && !run.steps().empty() && at(run.steps().front(), StepField::step) != 1.0)
+    throw Error(ExitCode::bad_data,
+                arguments.run +
+                    " was repaired, and the state that it began from is lost: it cannot be "
+                    "computed again");
   const std::vector<Command> commands = run.commands();
-  Session session(stored_scenario(run.header(), arguments.run + ":/parameters"));
+  Session session = session_at_start(run.header(), arguments.run + ":/parameters");
   session.use_threads(arguments.threads);
   std::optional<RunStore> store = begin_output(arguments, session, run);
   ProgressLine line(arguments.quiet);

@@ -46,6 +46,7 @@ struct ViewArguments {
   std::string beside_map;           ///< of the second view
   std::string beside_minus;         ///< angle of the frame that the second view is shown minus
   std::string link;                 ///< empty: as the runs suggest
+  std::string select;               ///< a condition; empty: none
   std::string screenshot;
   std::string size = "1400x900";
   double scale = 0.0;  ///< 0: that of the display
@@ -109,6 +110,13 @@ void show_first(ViewModel& model, const ViewArguments& arguments) {
     model.set_ghost(read_ghost(arguments.behind, MissingAnalysis::made));
   }
   show_beside(model, arguments);
+  if (arguments.select.empty()) return;
+  model.state.selecting.condition = arguments.select;
+  model.update(0.0);
+  model.select_by_condition();
+  const std::string& error = model.state.selecting.error;
+  if (!error.empty()) throw Error(ExitCode::usage, "--select " + error);
+  model.state.panel_asked = "select";
 }
 
 /// Draws once what works in the background has come in: nothing new for half a second.
@@ -133,6 +141,8 @@ std::string way_on(const Recording& run) {
   if (run_presence(run.output) == RunPresence::packed)
     return fmt::format("{} holds the whole run; look at it again with: talus view {}", run.output,
                        run.output);
+  if (run.scenario.empty())
+    return fmt::format("{0} holds the branch so far; continue with: talus run --resume {0}", run.output);
   std::string line = fmt::format("talus run {} -o {}", run.scenario, run.output);
   for (const std::string& setting : run.settings)
     if (!setting.starts_with("seed=")) line += " --set " + setting;
@@ -173,10 +183,11 @@ void save_picture(const std::string& path, GuiWindow& window, ViewModel& model) 
 }
 
 /// Shows another run. What cannot be opened leaves what is shown.
-void open(const std::string& path, ViewModel& model) {
+void open(const std::string& path, std::optional<std::size_t> frame, ViewModel& model) {
   if (!model.may_discard()) return;
   model.hold();
   ViewModel next = ViewModel::open(path, {}, "", false, command_line());
+  if (frame) next.go_to(*frame);
   const std::string kept = close(std::exchange(model, std::move(next)));
   if (!kept.empty()) std::printf("%s\n", kept.c_str());
   std::fflush(stdout);
@@ -214,7 +225,7 @@ void serve(const GuiRequests& requests, GuiWindow& window, ViewModel& model) {
     if (!requests.save_png_path.empty()) save_picture(requests.save_png_path, window, model);
     if (!requests.plots_folder.empty()) save_plots(requests.plots_folder, model);
     if (!requests.behind_path.empty()) put_behind(requests.behind_path, model);
-    if (!requests.open_path.empty()) open(requests.open_path, model);
+    if (!requests.open_path.empty()) open(requests.open_path, requests.open_frame, model);
   } catch (const Error& error) {
     model.state.message = error.what();
   }
@@ -311,6 +322,8 @@ void add_view_command(CLI::App& app) {
           "time where the tilt of both follows a programme]")
       ->check(CLI::IsMember({"tilt", "angle-left", "time"}))
       ->needs(beside);
+  command->add_option("--select", arguments->select,
+                      "Select the grains of which this holds, e.g. --select 'gamma > 0.7 && y > 30'");
   command->add_option("--size", arguments->size, "Width and height of the window, px")->capture_default_str();
   CLI::Option* screenshot =
       command

@@ -1,6 +1,7 @@
 #pragma once
 /// What surrounds the grains: a periodic direction, planes.
 
+#include <cmath>
 #include <vector>
 
 #include "core/types.h"
@@ -20,5 +21,11 @@ struct Boundary {
   double length = 0.0;    ///< m: period, or distance between the side walls
   std::vector<Plane> planes;
 };
+
+/// From one place along the bed to another, m; the shortest way around a periodic one.
+inline double offset_along(const Boundary& boundary, double from, double to) {
+  const double offset = to - from;
+  return boundary.periodic ? std::remainder(offset, boundary.length) : offset;
+}
 
 }  // namespace talus

@@ -14,8 +14,10 @@ enum class CommandKind : std::int8_t {
              ///< bed, and lets them fall at x, from y (m) above the free surface there
   friction = 2,   ///< sets the friction between grains, and between grains and floor, to x
   tilt_rate = 3,  ///< sets the rate of the tilt to x, deg/s; the time step stays
+  drag = 4,       ///< from the next step on a spring pulls the centre of the free grain `grain` to (x, y), m
+  release = 5,    ///< ends the drag
 };
-inline constexpr std::int8_t command_kind_count = 4;
+inline constexpr std::int8_t command_kind_count = 6;
 
 struct Command {
   std::int64_t step = 0;  ///< steps taken before it is applied: it acts from the next step on

@@ -85,6 +85,7 @@ void draw_tabs(Gui& gui, bool with_inspector) {
   tab("run", draw_run_panel);
   tab("map", draw_map_panel);
   tab("act", draw_action_panel);
+  tab("select", draw_select_panel);
   tab("files", draw_file_panel);
   if (with_inspector) tab("grain", draw_inspector);
   ImGui::EndTabBar();
@@ -114,7 +115,13 @@ void draw_message(Gui& gui) {
 
 GuiRequests draw_gui(ViewModel& model, const DrawMap& draw_map, std::vector<WidgetPlace>& places) {
   GuiRequests requests;
-  Gui gui{model, draw_map, places, requests, palette_of(model.state.theme), ImGui::GetFontSize(), {}};
+  Gui gui{model,
+          draw_map,
+          places,
+          requests,
+          palette_of(model.state.theme),
+          ImGui::GetFontSize(),
+          std::exchange(model.state.panel_asked, {})};
   handle_keys(gui);
   const ImVec2 size = ImGui::GetIO().DisplaySize;
   const float line = 1.9f * gui.em;  // the message at the bottom

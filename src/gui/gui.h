@@ -3,6 +3,7 @@
 /// folder includes imgui.h.
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,10 +25,11 @@ using DrawMap = std::function<void*(const FrameView& view, int width, std::size_
 /// Requests of the widgets to the program around them.
 struct GuiRequests {
   bool quit = false;
-  std::string open_path;      ///< a run or scenario to open instead
-  std::string save_png_path;  ///< write what is shown
-  std::string behind_path;    ///< a run or an ensemble to draw behind the curves
-  std::string plots_folder;   ///< write the plots shown there, as figures with their data
+  std::string open_path;                  ///< a run or scenario to open instead
+  std::optional<std::size_t> open_frame;  ///< of that run, to be shown first
+  std::string save_png_path;              ///< write what is shown
+  std::string behind_path;                ///< a run or an ensemble to draw behind the curves
+  std::string plots_folder;               ///< write the plots shown there, as figures with their data
 };
 
 /// One picture of the whole window, between ImGui::NewFrame and ImGui::Render. Fills `places` with the places

@@ -2,6 +2,7 @@
 
 #include "core/trigonometry.h"
 #include "gui/beside_actions.h"
+#include "gui/branching.h"
 #include "gui/panels.h"
 #include "gui/run_actions.h"
 
@@ -32,6 +33,7 @@ constexpr KeyLine key_lines[] = {
     {"w a x z, drag", "move the picture"},
     {"f", "whole bed"},
     {"n", "select the next grain; escape: none"},
+    {"T, L", "trails of the selected grains; follow the selected grain"},
     {"i, y", "outline its cluster; draw its neighbourhoods"},
     {"B", "bookmark of the frame shown, with a note"},
     {"P, D", "a second view; in it, what changes from the frame shown on"},
@@ -40,10 +42,11 @@ constexpr KeyLine key_lines[] = {
     {"s", "save the state of a run that is computed"},
     {"e", "write the picture to the file named under files"},
     {"u, k", "push the selected grain; drop grains there"},
-    {"R M A F G", "the panels run, map, act, files, grain; tab: from field to field"},
+    {"N, U", "branch: go on from the frame shown; back before the last command"},
+    {"R M A S F G", "the panels run, map, act, select, files, grain; tab: from field to field"},
     {"h", "show or hide the panels"},
     {"l", "show or hide the plots"},
-    {"T", "next theme: light, dark, print"},
+    {"C", "next theme: light, dark, print"},
     {"?", "this list"},
     {"q", "quit"},
 };
@@ -84,7 +87,7 @@ void choose_map(MapLayers& layers, std::size_t k) {
 
 void ask_for_panel(Gui& gui, ImWchar key) {
   gui.model.state.show_controls = true;
-  for (const char* panel : {"run", "map", "act", "files", "grain"})
+  for (const char* panel : {"run", "map", "act", "select", "files", "grain"})
     if (*panel == static_cast<char>(key - 'A' + 'a')) gui.panel_asked = panel;
 }
 
@@ -153,7 +156,7 @@ void change_view(Gui& gui, ImWchar key) {
     case 'y':
       state.show_neighbourhoods = !state.show_neighbourhoods;
       break;
-    case 'T':
+    case 'C':
       state.theme = next_theme(state.theme);
       break;
     case 'h':
@@ -166,7 +169,7 @@ void change_view(Gui& gui, ImWchar key) {
       state.show_help = !state.show_help;
       break;
     case 'n':
-      state.selected = state.selected ? (*state.selected + 1) % gui.model.statics().free_count : 0;
+      gui.model.select(state.selected ? (*state.selected + 1) % gui.model.statics().free_count : 0);
       break;
     default:
       if (key >= '1' && key <= '9') choose_map(state.map.layers, static_cast<std::size_t>(key - '1'));
@@ -209,12 +212,25 @@ void act(Gui& gui, ImWchar key) {
     case 'D':
       show_change_since_here(gui);
       break;
+    case 'N':
+      branch_here(gui);
+      break;
+    case 'U':
+      go_back(gui);
+      break;
     case 'R':
     case 'M':
     case 'A':
+    case 'S':
     case 'F':
     case 'G':
       ask_for_panel(gui, key);
+      break;
+    case 'T':
+      model.state.selecting.trails = !model.state.selecting.trails;
+      break;
+    case 'L':
+      toggle_following(gui);
       break;
     case 'u':
       push_selected(gui);
@@ -257,7 +273,7 @@ void handle_keys(Gui& gui) {
     if (gui.model.state.show_help)
       gui.model.state.show_help = false;
     else
-      gui.model.state.selected.reset();
+      gui.model.select(std::optional<Index>());
   }
 }
 
@@ -273,6 +289,10 @@ void draw_help(Gui& gui) {
     rich_text(line.what);
   }
   ImGui::TextUnformatted("On the map: click a grain, drag to move, wheel to zoom.");
+  ImGui::TextUnformatted(
+      "With shift: click one more grain, drag a box. With ctrl: click a contact, drag a lasso.");
+  ImGui::TextUnformatted(
+      "With ctrl, from a grain of a run that is computed: pull it. With ctrl and shift: always a lasso.");
   note_place(gui, "help", ImGui::GetWindowPos(),
              {ImGui::GetWindowPos().x + ImGui::GetWindowWidth(),
               ImGui::GetWindowPos().y + ImGui::GetWindowHeight()});

@@ -3,8 +3,10 @@
 #include <fmt/core.h>
 
 #include "core/trigonometry.h"
+#include "gui/branching.h"
 #include "gui/panels.h"
 #include "gui/run_actions.h"
+#include "gui/select_tools.h"
 #include "render/layout.h"
 
 namespace talus {
@@ -21,6 +23,11 @@ struct ShownMap {
     const double right = (static_cast<double>(mouse.x - corner.x) - camera.origin_x) / camera.scale;
     const double down = (static_cast<double>(mouse.y - corner.y) - camera.origin_y) / camera.scale;
     return {camera.cosine * right + camera.sine * down, camera.sine * right - camera.cosine * down};
+  }
+  ImVec2 pixel(double x, double y) const {
+    const double right = camera.cosine * x + camera.sine * y, down = camera.sine * x - camera.cosine * y;
+    return {corner.x + static_cast<float>(camera.origin_x + camera.scale * right),
+            corner.y + static_cast<float>(camera.origin_y + camera.scale * down)};
   }
 };
 
@@ -76,6 +83,13 @@ void use_mouse(Gui& gui, const MapPane& pane, const ShownMap& shown) {
   };
   const Point place = shown.bed_place(io.MousePos);
   const Vec2 linked = in_first(place);
+  // The second view is looked at; what is selected, or pulled, is so in the first.
+  const BedPlace bed_place = [&](const ImVec2& px) { return shown.bed_place(px); };
+  const bool first = !pane.beside;
+  if (first &&
+      drag_grain(gui, place.x, place.y, {[&](double x, double y) { return shown.pixel(x, y); }, bed_place}))
+    return;
+  const bool outlining = first && select_by_outline(gui, bed_place);
   if (ImGui::IsItemHovered()) {
     if (io.MouseWheel != 0.0f)
       zoom_about(gui, std::pow(1.25, static_cast<double>(io.MouseWheel)), linked.x, linked.y);
@@ -84,13 +98,15 @@ void use_mouse(Gui& gui, const MapPane& pane, const ShownMap& shown) {
     if (grain && !ImGui::IsMouseDown(0)) tell_grain(gui, pane, place, *grain);
     const bool dragged = io.MouseDragMaxDistanceSqr[0] > 16.0f;
     const bool own = !pane.beside || model.run_beside() == nullptr;  // the inspector tells of the first run
-    if (ImGui::IsMouseReleased(0) && !dragged && own) state.selected = grain;
+    if (ImGui::IsMouseReleased(0) && !dragged && !outlining && own) select_clicked(gui, place.x, place.y);
   }
+  if (outlining) return;
   const bool panning =
       ImGui::IsItemActive() || (ImGui::IsItemHovered() && (io.MouseDown[1] || io.MouseDown[2]));
   if (panning && (io.MouseDelta.x != 0.0f || io.MouseDelta.y != 0.0f)) {
     const Vec2 before =
         in_first(shown.bed_place({io.MousePos.x - io.MouseDelta.x, io.MousePos.y - io.MouseDelta.y}));
+    state.selecting.follow = false;
     state.camera.centre_x -= linked.x - before.x;
     state.camera.centre_y -= linked.y - before.y;
   }

@@ -128,6 +128,20 @@ void OffscreenGui::drag(std::string_view name, float from_x, float from_y, float
   settle();
 }
 
+void OffscreenGui::take(std::string_view name, float share_x, float share_y) {
+  const WidgetPlace at = place(name);
+  move(between(at.x0, at.x1, share_x), between(at.y0, at.y1, share_y));
+  press_key(key_left_control, true);
+  press(0, true);
+  settle();
+}
+
+void OffscreenGui::let_go() {
+  press(0, false);
+  press_key(key_left_control, false);
+  settle();
+}
+
 void OffscreenGui::scroll(std::string_view name, float steps, float share_x, float share_y) {
   const WidgetPlace at = place(name);
   move(between(at.x0, at.x1, share_x), between(at.y0, at.y1, share_y));
@@ -144,6 +158,11 @@ void OffscreenGui::key(int code, bool control) {
     screen_.input().add({InputEvent::Kind::character, 0.0f, 0.0f, code, false});
   press_key(number, false);
   if (control) press_key(key_left_control, false);
+  settle();
+}
+
+void OffscreenGui::hold(int key, bool down) {
+  press_key(key, down);
   settle();
 }
 

@@ -37,10 +37,15 @@ class OffscreenGui {
   void click(std::string_view name, float share_x = 0.5f, float share_y = 0.5f);
   void double_click(std::string_view name, float share_x = 0.5f, float share_y = 0.5f);
   void drag(std::string_view name, float from_x, float from_y, float to_x, float to_y, int button = 0);
+  /// The left button goes down there, with ctrl held, and stays down until let_go.
+  void take(std::string_view name, float share_x, float share_y);
+  void let_go();
   void scroll(std::string_view name, float steps, float share_x = 0.5f, float share_y = 0.5f);
   /// A printable ASCII character, or a number of KeyCode.
   void key(int code, bool control = false);
   void type(std::string_view text);
+  /// A key, as key_left_shift, is held or let go from here on.
+  void hold(int key, bool down);
 
   void resize(int width, int height);
   /// A view as talus render draws it.

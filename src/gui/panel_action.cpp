@@ -1,3 +1,4 @@
+#include "gui/branching.h"
 #include "gui/panels.h"
 #include "gui/run_actions.h"
 
@@ -7,7 +8,10 @@ void draw_action_panel(Gui& gui) {
   LiveRun* live = gui.model.live();
   if (!live) {
     ImGui::TextWrapped(
-        "This is a replay. Open a scenario to push grains, drop them, or change friction and tilt rate.");
+        "This is a replay. A branch goes on from the frame shown: push grains, drop or drag them, change "
+        "friction "
+        "and tilt rate.");
+    draw_branch_button(gui);
     return;
   }
   ViewState& state = gui.model.state;
@@ -32,8 +36,10 @@ void draw_action_panel(Gui& gui) {
     send(gui, {0, CommandKind::tilt_rate, -1, *rate, 0.0});
   ImGui::PopItemWidth();
   ImGui::Separator();
+  ImGui::TextWrapped("ctrl and the mouse drag a grain of the map.");
+  draw_back_button(gui);
   ImGui::TextWrapped("Each of these is a command with a step number; talus replay repeats them.");
-  for (const Command& command : live->commands()) {
+  for (const Command& command : given_commands(live->commands())) {
     const long long step = command.step;
     switch (command.kind) {
       case CommandKind::push:
@@ -44,6 +50,11 @@ void draw_action_panel(Gui& gui) {
         break;
       case CommandKind::friction:
         ImGui::Text("%lld friction %.3g", step, command.x);
+        break;
+      case CommandKind::drag:
+        ImGui::Text("%lld drag grain %d", step, command.grain);
+        break;
+      case CommandKind::release:
         break;
       case CommandKind::tilt_rate:
         ImGui::Text("%lld tilt rate %.3g deg/s", step, command.x);

@@ -23,7 +23,8 @@ const char* status_text(ContactStatus status) {
   return "open";
 }
 
-void draw_contacts(const Inspection& grain, double weight) {
+/// A click on a row selects the contact.
+void draw_contacts(Gui& gui, const Inspection& grain, double weight) {
   const ImGuiTableFlags flags =
       ImGuiTableFlags_RowBg | ImGuiTableFlags_BordersInnerV | ImGuiTableFlags_SizingStretchProp;
   if (!ImGui::BeginTable("contacts", 4, flags)) return;
@@ -31,9 +32,13 @@ void draw_contacts(const Inspection& grain, double weight) {
     ImGui::TableNextColumn();
     rich_text(title);
   }
+  std::optional<ContactKey> chosen;  // selected once all are drawn
   for (const GrainContact& contact : grain.contacts) {
     ImGui::TableNextColumn();
-    ImGui::TextUnformatted(contact.other_name.c_str());
+    const std::string row = fmt::format("{}##{} {} {}", contact.other_name, contact.key.a, contact.key.b,
+                                        static_cast<int>(contact.key.shift));
+    if (ImGui::Selectable(row.c_str(), false, ImGuiSelectableFlags_SpanAllColumns)) chosen = contact.key;
+    note_place(gui, "contact with " + contact.other_name);
     ImGui::TableNextColumn();
     ImGui::Text("%.3g", contact.fn / weight);
     ImGui::TableNextColumn();
@@ -42,6 +47,7 @@ void draw_contacts(const Inspection& grain, double weight) {
     ImGui::TextUnformatted(status_text(contact.status));
   }
   ImGui::EndTable();
+  if (chosen) gui.model.select(*chosen);
 }
 
 /// Mohr's circle of a mean stress p and a deviator q, over p: principal values (1 +- gamma) / 2, and the line
@@ -132,6 +138,7 @@ void draw_frame_values(Gui& gui) {
 }  // namespace
 
 void draw_inspector(Gui& gui) {
+  if (draw_contact_inspector(gui)) return;
   const Inspection* grain = gui.model.inspection();
   if (!grain) {
     draw_frame_values(gui);
@@ -142,7 +149,7 @@ void draw_inspector(Gui& gui) {
   draw_state(*grain, gui.model.mean_diameter(), gui.model.state.map.l_min);
   if (grain->cluster >= 0)
     named_checkbox(gui, "outline", "outline its cluster", gui.model.state.highlight_cluster, "i");
-  if (!grain->contacts.empty()) draw_contacts(*grain, grain->mass * gui.model.statics().gravity);
+  if (!grain->contacts.empty()) draw_contacts(gui, *grain, grain->mass * gui.model.statics().gravity);
   if (!grain->free || std::isnan(grain->gamma)) return;
   draw_mohr_circle(gui, *grain, gui.model.theta_c());
   ImGui::SetNextItemWidth(9.0f * gui.em);

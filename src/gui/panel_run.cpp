@@ -2,6 +2,7 @@
 
 #include "core/errors.h"
 #include "core/trigonometry.h"
+#include "gui/branching.h"
 #include "gui/icons.h"
 #include "gui/panels.h"
 #include "gui/run_actions.h"
@@ -29,6 +30,7 @@ void draw_status(const Palette& colours, const LiveStatus& status, bool theta_c_
 void draw_live(Gui& gui, LiveRun& live) {
   const LiveStatus status = live.status();
   ViewState& state = gui.model.state;
+  draw_branch_origin(gui);
   if (icon_button(gui, "play", status.running ? Icon::pause : Icon::play, "play, pause: space"))
     toggle_playing(gui);
   for (const auto& [name, label, count] :
@@ -49,10 +51,14 @@ void draw_live(Gui& gui, LiveRun& live) {
   ImGui::Separator();
   draw_status(gui.colours, status, gui.model.theta_c_known(), gui.model.theta_c());
   ImGui::Separator();
-  ImGui::SetNextItemWidth(6.0f * gui.em);
-  named_number(gui, "seed", "seed", state.seed, "of the random deposition");
-  ImGui::SameLine();
-  if (named_button(gui, "reset", "Reset", "begin the run anew with this seed: r")) reset(gui);
+  if (gui.model.branch_line()) {
+    if (named_button(gui, "reset", "Reset", "begin the branch anew: r")) reset(gui);
+  } else {
+    ImGui::SetNextItemWidth(6.0f * gui.em);
+    named_number(gui, "seed", "seed", state.seed, "of the random deposition");
+    ImGui::SameLine();
+    if (named_button(gui, "reset", "Reset", "begin the run anew with this seed: r")) reset(gui);
+  }
   ImGui::Separator();
   const std::string output = gui.model.recording().output;
   if (output.empty())
@@ -112,6 +118,7 @@ void draw_replay(Gui& gui) {
     model.go_to(static_cast<std::size_t>(frame));
   note_place(gui, "frame");
   draw_landmarks(gui);
+  draw_branch_button(gui);
   double speed = model.speed();
   ImGui::SetNextItemWidth(8.0f * gui.em);
   if (named_slider(gui, "speed", "deg/s", speed, 0.1, 20.0, "%.1f", "how fast a replay goes", true))

@@ -11,10 +11,14 @@ void draw_run_panel(Gui& gui);
 void draw_map_panel(Gui& gui);
 /// Commands to a run that is computed.
 void draw_action_panel(Gui& gui);
+/// Selecting by a condition; what is selected as a table.
+void draw_select_panel(Gui& gui);
 /// Files: opening, saving, the command line that draws what is shown.
 void draw_file_panel(Gui& gui);
 /// Everything known of the selected grain.
 void draw_inspector(Gui& gui);
+/// The same of the selected contact, with its history; false where none is selected.
+bool draw_contact_inspector(Gui& gui);
 /// The curves.
 void draw_plots(Gui& gui);
 /// The time line: the frames of the run and what happened in it.

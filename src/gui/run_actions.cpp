@@ -48,7 +48,8 @@ void reset(Gui& gui) {
   if (!model.is_live() || !model.may_discard()) return;
   try {
     model.restart(static_cast<std::uint64_t>(std::max(model.state.seed, 0)));
-    model.state.message = fmt::format("A new run, seed {}.", model.seed());
+    model.state.message =
+        model.branch_line() ? "The branch begins anew." : fmt::format("A new run, seed {}.", model.seed());
   } catch (const Error& error) {
     model.state.message = error.what();
   }
@@ -101,6 +102,23 @@ void zoom_about(Gui& gui, double factor, double x, double y) {
   camera.zoom = zoom;
 }
 
-void show_whole_bed(Gui& gui) { gui.model.state.camera.zoom = 1.0; }
+void show_whole_bed(Gui& gui) {
+  gui.model.state.selecting.follow = false;
+  gui.model.state.camera.zoom = 1.0;
+}
+
+void toggle_following(Gui& gui) {
+  ViewState& state = gui.model.state;
+  state.selecting.follow = !state.selecting.follow;
+  if (!state.selecting.follow) return;
+  if (!state.selected) {
+    state.selecting.follow = false;
+    state.message = "Click the grain to follow first.";
+    return;
+  }
+  constexpr double surroundings = 40.0;  // D
+  state.camera.zoom =
+      std::max(state.camera.zoom, gui.model.statics().length / (surroundings * gui.model.mean_diameter()));
+}
 
 }  // namespace talus

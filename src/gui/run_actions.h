@@ -21,5 +21,8 @@ void drop_here(Gui& gui);
 /// Zooms by a factor about a place (m), which keeps its position in the picture.
 void zoom_about(Gui& gui, double factor, double x, double y);
 void show_whole_bed(Gui& gui);
+/// Keeps the selected grain in the middle of the picture, which shows no more than its surroundings, or ends
+/// that.
+void toggle_following(Gui& gui);
 
 }  // namespace talus

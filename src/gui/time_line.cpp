@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/core.h>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -32,12 +33,14 @@ ImU32 event_colour(const Palette& colours, TimelineEvent::Kind kind) {
 struct Track {
   ImVec2 low, high;   ///< corners
   double last = 1.0;  ///< the place at the right end, in frames
+  double left = 0.0;  ///< frames of the run that a branch has left, before its first one
 
   float px(double place) const {
-    return low.x + static_cast<float>(std::clamp(place / last, 0.0, 1.0)) * (high.x - low.x);
+    return low.x + static_cast<float>(std::clamp((place + left) / last, 0.0, 1.0)) * (high.x - low.x);
   }
   double place(float x) const {
-    return std::clamp(static_cast<double>((x - low.x) / (high.x - low.x)), 0.0, 1.0) * last;
+    const double share = std::clamp(static_cast<double>((x - low.x) / (high.x - low.x)), 0.0, 1.0);
+    return std::max(0.0, share * last - left);
   }
 };
 
@@ -188,6 +191,50 @@ void draw_bookmark_note(Gui& gui) {
   ImGui::EndPopup();
 }
 
+/// The angles of a branch, and of the run that it has left beside it, where they ascend together.
+void draw_angles_of_branch(ImDrawList& list, Track track, const BranchLine& run,
+                           const std::vector<double>& tilts, float em, ImU32 ink) {
+  std::vector<double> all(run.tilts.begin(), run.tilts.begin() + static_cast<std::ptrdiff_t>(run.frame));
+  all.insert(all.end(), tilts.begin(), tilts.end());
+  for (std::size_t k = all.size(); k < run.tilts.size() && run.tilts[k] > all.back(); ++k)
+    all.push_back(run.tilts[k]);
+  track.left = 0.0;
+  draw_angles(list, track, all, em, ink);
+}
+
+/// The line of the run that a branch has left; the branch leaves it at its frame.
+void draw_left_run(ImDrawList& list, const Track& track, const BranchLine& run, const Gui& gui) {
+  const float em = gui.em;
+  const ImU32 colour = packed(gui.colours.curves[2]);
+  const auto frames = static_cast<double>(run.tilts.size()) - 1.0;
+  const float y = track.low.y - 0.35f * em, leaves = track.px(0.0);
+  list.AddLine({track.low.x, y}, {track.px(frames - track.left), y}, packed(gui.colours.track), 0.2f * em);
+  list.AddLine({std::max(track.low.x, leaves - 0.8f * em), y}, {leaves, track.high.y}, colour, 0.2f * em);
+  list.AddCircleFilled({std::max(track.low.x, leaves - 0.8f * em), y}, 0.25f * em, colour);
+}
+
+/// The frame of the run that a branch has left, where the mouse is on its line.
+std::optional<std::size_t> left_frame_near(const Track& track, const BranchLine& run) {
+  const ImVec2 mouse = ImGui::GetIO().MousePos;
+  const double frame =
+      (static_cast<double>(mouse.x) - track.low.x) / (track.high.x - track.low.x) * track.last;
+  const bool on_line = mouse.y < track.low.y || mouse.x < track.px(0.0) - 0.5f * ImGui::GetFontSize();
+  if (!on_line || frame < -0.5 || frame > static_cast<double>(run.tilts.size()) - 0.5) return std::nullopt;
+  return static_cast<std::size_t>(std::lround(std::max(0.0, frame)));
+}
+
+/// A click on that line returns to the run.
+bool use_left_run(Gui& gui, const Track& track, const BranchLine& run) {
+  const std::optional<std::size_t> frame = left_frame_near(track, run);
+  if (!frame || !ImGui::IsItemHovered()) return false;
+  ImGui::SetTooltip("%s, %.2f°: a click returns to it", run.run.c_str(), degrees(run.tilts[*frame]));
+  if (ImGui::IsItemActivated()) {
+    gui.requests.open_path = run.run;
+    gui.requests.open_frame = frame;
+  }
+  return true;
+}
+
 /// The buttons at the right end of the line. Returns how wide they are.
 float draw_line_buttons(Gui& gui, const ImVec2& corner, float right) {
   const float em = gui.em;
@@ -225,20 +272,31 @@ void draw_time_line(Gui& gui) {
                  "The time line begins with the tilt.");
     return;
   }
-  const Track track{{corner.x + 1.2f * em, corner.y + 1.2f * em},
-                    {corner.x + width - 1.2f * em, corner.y + 2.0f * em},
-                    std::max(1.0, static_cast<double>(tilts.size()) - 1.0)};
-  list.AddRectFilled(track.low, track.high, packed(gui.colours.track));
+  const std::optional<BranchLine> left = gui.model.branch_line();
+  Track track{{corner.x + 1.2f * em, corner.y + 1.2f * em},
+              {corner.x + width - 1.2f * em, corner.y + 2.0f * em},
+              std::max(1.0, static_cast<double>(tilts.size()) - 1.0)};
+  if (left) {
+    track.left = static_cast<double>(left->frame);
+    track.last = std::max({1.0, static_cast<double>(left->tilts.size()) - 1.0,
+                           track.left + static_cast<double>(tilts.size()) - 1.0});
+  }
+  const float begin = track.px(0.0), end = track.px(static_cast<double>(tilts.size()) - 1.0);
+  list.AddRectFilled({begin, track.low.y}, {end, track.high.y}, packed(gui.colours.track));
   const float now = track.px(static_cast<double>(gui.model.frame_index()));
-  list.AddRectFilled(track.low, {now, track.high.y}, packed(gui.colours.tint));
-  list.AddRect(track.low, track.high, packed(gui.colours.line));
+  list.AddRectFilled({begin, track.low.y}, {now, track.high.y}, packed(gui.colours.tint));
+  list.AddRect({begin, track.low.y}, {end, track.high.y}, packed(gui.colours.line));
+  if (left) draw_left_run(list, track, *left, gui);
   if (gui.model.has_program())
     draw_turns(list, track, tilts, em, packed(gui.colours.ink));
+  else if (left)
+    draw_angles_of_branch(list, track, *left, tilts, em, packed(gui.colours.ink));
   else
     draw_angles(list, track, tilts, em, packed(gui.colours.ink));
   draw_events(gui, list, track);
   list.AddLine({now, track.low.y - 0.3f * em}, {now, track.high.y + 0.3f * em}, packed(gui.colours.accent),
                0.2f * em);
+  if (left && use_left_run(gui, track, *left)) return;
   use_line(gui, track, tilts);
 }
 

@@ -8,10 +8,10 @@
 namespace talus {
 namespace {
 
-const std::string here = "/checkpoint/";
+const std::string checkpoint_group = "/checkpoint/", branch_group = "/branch/";
 
 template <typename World, typename Fields>
-void for_each_field(World& world, Fields fields) {
+void for_each_field(const std::string& here, World& world, Fields fields) {
   fields.scalar(here + "step", world.step);
   fields.scalar(here + "time", world.time);
   fields.scalar(here + "tilt", world.tilt);
@@ -45,7 +45,7 @@ void for_each_field(World& world, Fields fields) {
   fields.array_if_any(here + "contact_moment", contacts.moment);
 }
 
-void check_grains(const hdf5::Reader& reader, const Grains& grains) {
+void check_grains(const hdf5::Reader& reader, const std::string& here, const Grains& grains) {
   if (grains.free_count < 0 || grains.free_count > grains.count())
     reader.refuse(here + "free_count", "is not between 0 and the number of grains");
   const double farthest = grains.radius.empty() ? 0.0 : 1e8 * *std::ranges::max_element(grains.radius);
@@ -53,7 +53,7 @@ void check_grains(const hdf5::Reader& reader, const Grains& grains) {
   reader.check(here + "y", grains.y, -farthest, farthest);
 }
 
-void check_contacts(const hdf5::Reader& reader, const World& world) {
+void check_contacts(const hdf5::Reader& reader, const std::string& here, const World& world) {
   const auto bodies = static_cast<std::size_t>(world.grains.count()) + world.boundary.planes.size();
   const Contacts& c = world.contacts;
   if (!c.moment.empty() && c.moment.size() != c.a.size())
@@ -65,12 +65,12 @@ void check_contacts(const hdf5::Reader& reader, const World& world) {
       reader.refuse(here + "contact_pair", "names a body that does not exist, or one twice");
 }
 
-World read_world(hdf5::Reader& reader) {
+World read_world(hdf5::Reader& reader, const std::string& here) {
   World world;
-  for_each_field(world, FieldReader(reader));
+  for_each_field(here, world, FieldReader(reader));
   if (world.step < 0) reader.refuse(here + "step", "is negative");
-  check_grains(reader, world.grains);
-  check_contacts(reader, world);
+  check_grains(reader, here, world.grains);
+  check_contacts(reader, here, world);
   const std::string stored = reader.read_text(here + "state_hash"), found = hash_text(state_hash(world));
   if (stored != found)
     reader.refuse(here + "state_hash", fmt::format("is {}, the state has {}", stored.substr(0, 16), found));
@@ -105,12 +105,43 @@ void write_results(hdf5::Writer& writer, const Checkpoint& checkpoint) {
   write_named(writer, "/provenance/timing", checkpoint.timing);
 }
 
-void write_checkpoint(hdf5::Writer& writer, const Checkpoint& checkpoint) {
+namespace {
+
+void write_state(hdf5::Writer& writer, const std::string& here, const Checkpoint& checkpoint) {
   writer.write_text(here + "state_hash", hash_text(state_hash(checkpoint.world)));
-  for_each_field(checkpoint.world, FieldWriter(writer));
-  write_named(writer, "/checkpoint/integers", checkpoint.integers);
-  write_named(writer, "/checkpoint/reals", checkpoint.reals);
+  for_each_field(here, checkpoint.world, FieldWriter(writer));
+  write_named(writer, here + "integers", checkpoint.integers);
+  write_named(writer, here + "reals", checkpoint.reals);
+}
+
+void read_state(hdf5::Reader& reader, const std::string& here, Checkpoint& checkpoint) {
+  checkpoint.world = read_world(reader, here);
+  checkpoint.integers = read_named<std::int64_t>(reader, here + "integers");
+  checkpoint.reals = read_named<double>(reader, here + "reals");
+}
+
+}  // namespace
+
+void write_checkpoint(hdf5::Writer& writer, const Checkpoint& checkpoint) {
+  write_state(writer, checkpoint_group, checkpoint);
   write_results(writer, checkpoint);
+}
+
+void write_branch(hdf5::Writer& writer, const BranchOrigin& branch) {
+  writer.write_text(branch_group + "run", branch.run);
+  writer.write_text(branch_group + "run_hash", branch.run_hash);
+  writer.write_scalar(branch_group + "frame", branch.frame);
+  write_state(writer, branch_group, branch.start);
+}
+
+BranchOrigin read_branch(hdf5::Reader& reader) {
+  BranchOrigin branch;
+  branch.run = reader.read_text(branch_group + "run");
+  branch.run_hash = reader.read_text(branch_group + "run_hash");
+  branch.frame = reader.read_scalar<std::int64_t>(branch_group + "frame");
+  if (branch.frame < 0) reader.refuse(branch_group + "frame", "is negative");
+  read_state(reader, branch_group, branch.start);
+  return branch;
 }
 
 Checkpoint read_results(hdf5::Reader& reader) {
@@ -122,9 +153,7 @@ Checkpoint read_results(hdf5::Reader& reader) {
 
 Checkpoint read_checkpoint(hdf5::Reader& reader) {
   Checkpoint checkpoint = read_results(reader);
-  checkpoint.world = read_world(reader);
-  checkpoint.integers = read_named<std::int64_t>(reader, "/checkpoint/integers");
-  checkpoint.reals = read_named<double>(reader, "/checkpoint/reals");
+  read_state(reader, checkpoint_group, checkpoint);
   return checkpoint;
 }
 

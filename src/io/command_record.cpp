@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <fmt/core.h>
 
 #include "io/record_fields.h"
 #include "io/run_records.h"
@@ -34,7 +35,7 @@ std::vector<Command> read_commands(hdf5::Reader& reader) {
       (!commands.empty() && commands.front().step < 0))
     reader.refuse("/commands/step", "does not ascend from 0");
   if (!std::ranges::all_of(commands, is_known, &Command::kind))
-    reader.refuse("/commands/kind", "holds a value other than 0 ... 3");
+    reader.refuse("/commands/kind", fmt::format("holds a value other than 0 ... {}", command_kind_count - 1));
   return commands;
 }
 

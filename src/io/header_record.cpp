@@ -61,12 +61,22 @@ RunStatics read_statics(hdf5::Reader& reader) {
 
 }  // namespace
 
+Sizes with_branch(Sizes sizes, const RunHeader& header) {
+  if (!header.branch) return sizes;
+  const World& start = header.branch->start.world;
+  sizes.insert_or_assign('G', start.grains.radius.size());
+  sizes.insert_or_assign('B', start.contacts.a.size());
+  sizes.insert_or_assign('P', start.boundary.planes.size());
+  return sizes;
+}
+
 void write_header(hdf5::Writer& writer, const RunHeader& header) {
   writer.write_scalar("/parameters/schema_version", run_schema_version);
   writer.write_text("/parameters/scenario_given", header.scenario_given);
   writer.write_text("/parameters/scenario_resolved", header.scenario_resolved);
   write_statics(writer, header.statics);
   writer.write_scalar("/provenance/seed", header.seed);
+  if (header.branch) write_branch(writer, *header.branch);
   for (const auto& [name, fact] : header.provenance) writer.write_text("/provenance/" + name, fact);
 }
 
@@ -86,6 +96,11 @@ RunHeader read_header(hdf5::Reader& reader, const std::function<bool(const std::
   header.scenario_resolved = reader.read_text("/parameters/scenario_resolved");
   header.statics = read_statics(reader);
   header.seed = reader.read_scalar<std::uint64_t>("/provenance/seed");
+  if (reader.has("/branch") && (!keeps || keeps("/branch"))) {
+    header.branch = read_branch(reader);
+    if (header.branch->start.world.grains.radius.size() != header.statics.radius.size())
+      reader.refuse("/branch/radius", "is not that of the grains of the run");
+  }
   for (const std::string& name : reader.names("/provenance")) {
     const std::string path = "/provenance/" + name;
     if (name != "seed" && (!keeps || keeps(path)))

@@ -132,16 +132,16 @@ bool lacks_state(const RunHeader& header, const Checkpoint& checkpoint) {
 
 std::vector<std::byte> packed_bytes(const RunContent& run, const std::function<bool()>& goes_on) try {
   const World& world = run.checkpoint.world;
-  hdf5::Writer writer({{'T', run.frames},
-                       {'N', run.header.statics.radius.size()},
-                       {'M', run.contacts},
-                       {'R', run.observables.size()},
-                       {'S', run.steps.size()},
-                       {'K', run.commands.size()},
-                       {'G', world.grains.radius.size()},
-                       {'C', world.contacts.a.size()},
-                       {'P', world.boundary.planes.size()}},
-                      seal_size);
+  Sizes sizes = {{'T', run.frames},
+                 {'N', run.header.statics.radius.size()},
+                 {'M', run.contacts},
+                 {'R', run.observables.size()},
+                 {'S', run.steps.size()},
+                 {'K', run.commands.size()},
+                 {'G', world.grains.radius.size()},
+                 {'C', world.contacts.a.size()},
+                 {'P', world.boundary.planes.size()}};
+  hdf5::Writer writer(with_branch(std::move(sizes), run.header), seal_size);
   write_header(writer, run.header);
   write_h5md(writer, run.header.statics.periodic);
   write_frames(writer, [&](std::size_t k) {

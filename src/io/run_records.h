@@ -11,6 +11,9 @@
 
 namespace talus {
 
+/// Adds the sizes of the state that a branch begins from, where the run is one.
+Sizes with_branch(Sizes sizes, const RunHeader& header);
+
 /// /parameters, /provenance and the static data sets of /particles. Sizes: N.
 void write_header(hdf5::Writer& writer, const RunHeader& header);
 /// Refuses a file of another version of the schema.
@@ -47,6 +50,9 @@ std::vector<Command> read_commands(hdf5::Reader& reader);
 /// /checkpoint, /results and /provenance/timing. Sizes: G, C, P.
 void write_checkpoint(hdf5::Writer& writer, const Checkpoint& checkpoint);
 Checkpoint read_checkpoint(hdf5::Reader& reader);
+/// /branch, of a run that begins with a frame of another one. Sizes: G, B, P.
+void write_branch(hdf5::Writer& writer, const BranchOrigin& branch);
+BranchOrigin read_branch(hdf5::Reader& reader);
 /// Of a repaired run whose last state is lost: only /results and /provenance/timing.
 void write_results(hdf5::Writer& writer, const Checkpoint& checkpoint);
 Checkpoint read_results(hdf5::Reader& reader);

@@ -170,7 +170,9 @@ class Salvager {
     has_analysis_ = has_analysis_ || reader.has("/analysis");
     const std::set<std::string> whole = whole_groups(reader);
     if (whole.contains("/parameters") && whole.contains("/particles")) {
-      run_.header = read_header(reader, [&](const std::string& path) { return is_as_written(reader, path); });
+      run_.header = read_header(reader, [&](const std::string& path) {
+        return path == "/branch" ? whole.contains(path) : is_as_written(reader, path);
+      });
       has_header_ = true;
     }
     if (whole.contains("/frames")) add_frames(reader);

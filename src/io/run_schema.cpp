@@ -81,17 +81,17 @@ std::vector<DataSetField> command_fields() {
   return {
       {"/commands/step", int64, "K", "1",
        "steps taken when a command was given: it acts from the next step on"},
-      {"/commands/kind", int8, "K", "1", "0 push, 1 drop, 2 friction, 3 tilt rate"},
+      {"/commands/kind", int8, "K", "1", "0 push, 1 drop, 2 friction, 3 tilt rate, 4 drag, 5 release"},
       {"/commands/grain", int32, "K", "1",
-       "push: id of the free grain; drop: how many grains of the free surface, those farthest from x; else "
-       "of no meaning"},
+       "push, drag: id of the free grain; drop: how many grains of the free surface, those farthest from x; "
+       "else of no meaning"},
       {"/commands/x", float64, "K", "by kind",
        "push: velocity added along the bed, m/s; drop: where along the bed, m; friction: the coefficient "
        "between grains, and between grains and floor, from then on; tilt rate: deg/s, as in the scenario, "
-       "from then on"},
+       "from then on; drag: where along the bed the spring is held from then on, m"},
       {"/commands/y", float64, "K", "by kind",
-       "push: velocity added away from the floor, m/s; drop: height above the free surface, m; else of no "
-       "meaning"},
+       "push: velocity added away from the floor, m/s; drop: height above the free surface, m; drag: where "
+       "above the floor the spring is held, m; else of no meaning"},
   };
 }
 
@@ -150,6 +150,23 @@ std::vector<DataSetField> checkpoint_fields() {
   };
 }
 
+/// The state that a branch begins from has the data sets of the last state, in a group of its own.
+std::vector<DataSetField> branch_fields() {
+  std::vector<DataSetField> fields = {
+      {"/branch/run", text, "", "1", "the run that this one is a branch of, as the user named it"},
+      {"/branch/run_hash", text, "", "1", "state hash of the end of that run, as it then was"},
+      {"/branch/frame", int64, "", "1", "frame of that run with which this one begins, from 0"},
+  };
+  const std::string group = "/checkpoint/";
+  for (DataSetField field : checkpoint_fields()) {
+    if (!field.path.starts_with(group)) continue;
+    field.path.replace(0, group.size(), "/branch/");
+    if (field.shape.starts_with('C')) field.shape[0] = 'B';
+    fields.push_back(field);
+  }
+  return fields;
+}
+
 template <typename Fields>
 void append_series(std::vector<DataSetField>& schema, const std::string& group, const char* shape,
                    const Fields& fields) {
@@ -164,6 +181,7 @@ std::vector<DataSetField> make_schema() {
   append_series(schema, "/observables/", "R", observable_fields);
   append_series(schema, "/steps/", "S", step_fields);
   for (const DataSetField& field : command_fields()) schema.push_back(field);
+  for (const DataSetField& field : branch_fields()) schema.push_back(field);
   for (const DataSetField& field : checkpoint_fields()) schema.push_back(field);
   return schema;
 }

@@ -82,7 +82,7 @@ StoredFile store(const std::string& folder, const std::string& name, std::span<c
 }
 
 std::vector<std::byte> header_bytes(const RunHeader& header) {
-  hdf5::Writer writer({{'N', header.statics.radius.size()}});
+  hdf5::Writer writer(with_branch({{'N', header.statics.radius.size()}}, header));
   write_header(writer, header);
   return writer.image();
 }

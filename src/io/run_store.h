@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,23 +14,6 @@
 #include "core/snapshot.h"
 
 namespace talus {
-
-/// What is known when a run begins.
-struct RunHeader {
-  RunStatics statics;
-  std::string scenario_given;     ///< TOML as the user wrote it
-  std::string scenario_resolved;  ///< TOML with every key
-  std::uint64_t seed = 0;
-  Facts provenance;  ///< version, git_hash, compiler, flags, host, threads, argv, start, ...
-};
-
-/// What has happened since the last commit.
-struct Segment {
-  std::vector<Frame> frames;
-  std::vector<ObservableRow> observables;
-  std::vector<StepRow> steps;
-  std::vector<Command> commands;
-};
 
 /// All that is needed to continue with the same bits: the world in doubles, and the state of the schedule as
 /// named values that the session understands. `results` are the figures of the run so far (theta_c, ...),
@@ -40,6 +24,32 @@ struct Checkpoint {
   Figures reals;
   Figures results;
   Figures timing;
+};
+
+/// Of a run that begins with a frame of another one.
+struct BranchOrigin {
+  std::string run;         ///< as the user named it
+  std::int64_t frame = 0;  ///< of that run, from 0
+  std::string run_hash;    ///< the state hash of its end, as it then was
+  Checkpoint start;        ///< from which the branch follows; without results and timing
+};
+
+/// What is known when a run begins.
+struct RunHeader {
+  RunStatics statics;
+  std::string scenario_given;     ///< TOML as the user wrote it
+  std::string scenario_resolved;  ///< TOML with every key
+  std::uint64_t seed = 0;
+  Facts provenance;  ///< version, git_hash, compiler, flags, host, threads, argv, start, ...
+  std::optional<BranchOrigin> branch{};
+};
+
+/// What has happened since the last commit.
+struct Segment {
+  std::vector<Frame> frames;
+  std::vector<ObservableRow> observables;
+  std::vector<StepRow> steps;
+  std::vector<Command> commands;
 };
 
 /// The integer that a run with a programme of the tilt has: steps of the world when the last step of the tilt

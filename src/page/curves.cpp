@@ -8,6 +8,7 @@
 #include "analysis/quantities.h"
 #include "core/trigonometry.h"
 #include "scenario/json.h"
+#include "session/command.h"
 #include "session/event_catalogue.h"
 #include "view/frame_values.h"
 #include "view/timeline.h"
@@ -132,7 +133,7 @@ std::string curves_json(const PageRun& run) {
 }
 
 std::string events_json(const PageRun& run) {
-  const std::vector<Command> commands = run.file.commands();
+  const std::vector<Command> commands = given_commands(run.file.commands());
   const std::vector<ObservableRow> rows = run.file.observables();
   const std::vector<FrameRecord> values =
       run.has_threshold() ? stored_records(run.analysis, 0) : std::vector<FrameRecord>();

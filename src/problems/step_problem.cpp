@@ -9,25 +9,13 @@
 #include "core/errors.h"
 #include "core/trigonometry.h"
 #include "dynamics/form_problem.h"
+#include "session/drag.h"
+#include "session/frame_state.h"
 #include "session/run_header.h"
 #include "session/session.h"
 
 namespace talus {
 namespace {
-
-Contacts memory_of(const FrameContacts& from) {
-  Contacts contacts;
-  contacts.a = from.a;
-  contacts.b = from.b;
-  contacts.shift = from.shift;
-  contacts.nx = from.nx;
-  contacts.ny = from.ny;
-  contacts.gap.assign(from.a.size(), 0.0);
-  contacts.fn = from.fn;
-  contacts.ft = from.ft;
-  contacts.moment = from.moment;
-  return contacts;
-}
 
 /// Gap below which two bodies of a frame may touch: what rounding to single precision does to the distance of
 /// two points in the box.
@@ -52,14 +40,12 @@ double weight(const World& world) {
 struct InForce {
   double friction = 0.0;
   std::optional<double> tilt_rate;  ///< rad/s, where it was changed
+  std::optional<Drag> drag;
 };
 InForce in_force(const RunFile& run, const Scenario& scenario, std::int64_t step) {
-  InForce now{scenario.contact.friction, {}};
-  for (const Command& command : run.commands()) {
-    if (command.step > step) break;
-    if (command.kind == CommandKind::friction) now.friction = command.x;
-    if (command.kind == CommandKind::tilt_rate) now.tilt_rate = radians(command.x);
-  }
+  const Schedule given = set_by_commands(run, step + 1);
+  InForce now{given.friction.value_or(scenario.contact.friction), {}, given.drag};
+  if (given.course) now.tilt_rate = given.course->rate;
   return now;
 }
 
@@ -127,31 +113,11 @@ FrameStart start_at_frame(const RunFile& run, std::size_t k) {
   start.mean_diameter = scenario.grains.mean_diameter;
   if (start.world.step != run.checkpoint().world.step) start.closed_below = gap_resolution(start.world);
   start.next_tilt = next_tilt(run, start.world, scenario, now);
+  if (now.drag) pull(*now.drag, start.mean_diameter, time_step(scenario), start.world);
   return start;
 }
 
 }  // namespace
-
-World world_at_frame(const RunFile& run, std::size_t k) {
-  if (!run.has_state())
-    throw Error(ExitCode::bad_data,
-                "the run was repaired and its last state is lost; without it no step can be formed");
-  World world = run.checkpoint().world;
-  Frame frame = run.frame(k);
-  if (frame.step == world.step) return world;
-  world.grains.x = std::move(frame.x);
-  world.grains.y = std::move(frame.y);
-  world.grains.vx = std::move(frame.vx);
-  world.grains.vy = std::move(frame.vy);
-  world.grains.omega = std::move(frame.omega);
-  world.grains.angle = std::move(frame.angle);
-  world.grains.image = std::move(frame.image);
-  world.contacts = memory_of(frame.contacts);
-  world.tilt = frame.tilt;
-  world.time = frame.time;
-  world.step = frame.step;
-  return world;
-}
 
 StepProblem problem_after_frame(const RunFile& run, std::size_t k) {
   FrameStart start = start_at_frame(run, k);

@@ -32,10 +32,6 @@ struct StepProblem {
   std::optional<StepTolerance> tolerance;  ///< of the run; none where no run asks for one
 };
 
-/// The world at frame k: from the checkpoint, to the last bit, where that is the same step; else from the
-/// single precision of the frame, with the contacts that carried force as memory.
-World world_at_frame(const RunFile& run, std::size_t k);
-
 /// The problem of the step that the run took, or would take, after frame k. Positions of a frame are rounded:
 /// a contact that carried force and is closed to within this rounding is taken as closed, since gaps of that
 /// size would pull the remembered forces apart. Throws Error(bad_data) where the stored scenario or the frame

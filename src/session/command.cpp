@@ -4,8 +4,10 @@
 #include <cmath>
 #include <cstdio>
 #include <fmt/core.h>
+#include <optional>
 
 #include "core/errors.h"
+#include "session/drag.h"
 
 namespace talus {
 namespace {
@@ -16,7 +18,8 @@ constexpr double highest_drop = 100.0;     // D
 constexpr double largest_friction = 10.0;  // 1
 constexpr double fastest_tilt = 100.0;     // deg/s
 
-constexpr std::array<std::string_view, command_kind_count> names = {"push", "drop", "friction", "tilt_rate"};
+constexpr std::array<std::string_view, command_kind_count> names = {"push",      "drop", "friction",
+                                                                    "tilt_rate", "drag", "release"};
 
 [[noreturn]] void refuse(const Command& command, const std::string& found, const std::string& expected) {
   throw Error(ExitCode::usage, fmt::format("{}: {}, expected {}", name_of(command.kind), found, expected));
@@ -28,10 +31,14 @@ void check_range(const Command& command, const char* name, double value, double 
          fmt::format("0 ... {:.4g}{}", highest, unit));
 }
 
-void check_push(const Command& command, const Scenario& scenario, const World& world) {
+void check_grain(const Command& command, const World& world) {
   if (command.grain < 0 || command.grain >= world.grains.free_count)
     refuse(command, fmt::format("grain {}", command.grain),
            fmt::format("a free grain, 0 ... {}", world.grains.free_count - 1));
+}
+
+void check_push(const Command& command, const Scenario& scenario, const World& world) {
+  check_grain(command, world);
   const double limit = fastest_push * std::sqrt(world.gravity * scenario.grains.mean_diameter);
   const double speed = std::sqrt(command.x * command.x + command.y * command.y);
   if (!(speed < limit))
@@ -48,6 +55,16 @@ void check_drop(const Command& command, const Scenario& scenario, const World& w
   check_range(command, "height", command.y, highest_drop * scenario.grains.mean_diameter, " m");
 }
 
+void check_drag(const Command& command, const Scenario& scenario, const World& world) {
+  check_grain(command, world);
+  const double farthest = farthest_drag * scenario.grains.mean_diameter;
+  const Vec2 way = way_of_drag({command.grain, command.x, command.y}, world);
+  const double distance = std::sqrt(way.x * way.x + way.y * way.y);
+  if (!(distance <= farthest))
+    refuse(command, fmt::format("held {:.4g} m from the grain", distance),
+           fmt::format("at most {:g} D = {:.4g} m", farthest_drag, farthest));
+}
+
 }  // namespace
 
 std::string_view name_of(CommandKind kind) { return names.at(static_cast<std::size_t>(kind)); }
@@ -61,6 +78,10 @@ std::string command_text(const Command& command) {
                          command.x, command.y);
     case CommandKind::friction:
       return fmt::format("friction {:.4g}", command.x);
+    case CommandKind::drag:
+      return fmt::format("drag grain {} to ({:.4g}, {:.4g}) m", command.grain, command.x, command.y);
+    case CommandKind::release:
+      return "let go of the grain";
     case CommandKind::tilt_rate:
       break;
   }
@@ -77,7 +98,23 @@ void check_command(const Command& command, const Scenario& scenario, const World
       return check_range(command, "coefficient", command.x, largest_friction, "");
     case CommandKind::tilt_rate:
       return check_range(command, "rate", command.x, fastest_tilt, " deg/s");
+    case CommandKind::drag:
+      return check_drag(command, scenario, world);
+    case CommandKind::release:
+      return;
   }
+}
+
+std::vector<Command> given_commands(std::span<const Command> commands) {
+  std::vector<Command> given;
+  std::optional<Index> dragged;
+  for (const Command& command : commands) {
+    const bool goes_on = command.kind == CommandKind::drag && dragged == command.grain;
+    if (command.kind == CommandKind::drag) dragged = command.grain;
+    if (command.kind == CommandKind::release) dragged.reset();
+    if (!goes_on && command.kind != CommandKind::release) given.push_back(command);
+  }
+  return given;
 }
 
 }  // namespace talus

@@ -1,6 +1,7 @@
 #pragma once
 /// Commands: how they are called, what they may say, and what they do to a world.
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,7 +12,7 @@
 
 namespace talus {
 
-/// "push", "drop", "friction", "tilt_rate".
+/// "push", "drop", "friction", "tilt_rate", "drag", "release".
 std::string_view name_of(CommandKind kind);
 
 /// What a command does, for a reader: "push grain 12 by (0.1, 0) m/s".
@@ -19,8 +20,12 @@ std::string command_text(const Command& command);
 
 /// Throws Error(usage) where a command says what cannot be done to this bed: no such grain, a value that is
 /// not finite or out of range. Speeds are below 100 sqrt(g D), counts 1 ... 1000, heights 0 ... 100 D,
-/// frictions 0 ... 10, rates 0 (the tilt is held) ... 100 deg/s; between walls x lies on the bed.
+/// frictions 0 ... 10, rates 0 (the tilt is held) ... 100 deg/s, and a drag is held within 50 D of its grain;
+/// between walls x of a drop lies on the bed.
 void check_command(const Command& command, const Scenario& scenario, const World& world);
+
+/// The commands that somebody gave: of each drag only its beginning, without what moved and ended it.
+std::vector<Command> given_commands(std::span<const Command> commands);
 
 /// The free grains at the free surface, ascending: those with nothing above their centres.
 std::vector<Index> surface_grains(const World& world, double mean_diameter);

@@ -15,12 +15,6 @@ namespace {
 /// Room between grains of the lattice, as a share of the largest diameter.
 constexpr double room = 0.02;
 
-/// From one place along the bed to another, m; the shortest way around a periodic one.
-double offset_along(const Boundary& boundary, double from, double to) {
-  const double offset = to - from;
-  return boundary.periodic ? std::remainder(offset, boundary.length) : offset;
-}
-
 /// `count` grains at the surface, the farthest from x first; of two as far the one with the smaller id.
 std::vector<Index> farthest_grains(const World& world, Index count, double x, double mean_diameter) {
   std::vector<Index> grains = surface_grains(world, mean_diameter);

@@ -10,12 +10,6 @@
 namespace talus {
 namespace {
 
-/// From one place along the bed to another, m; the shortest way around a periodic one.
-double offset_along(const Boundary& boundary, double from, double to) {
-  const double offset = to - from;
-  return boundary.periodic ? std::remainder(offset, boundary.length) : offset;
-}
-
 double mean_height(const std::vector<double>& heights) {
   double sum = 0.0;
   for (double height : heights) sum += height;

@@ -12,6 +12,8 @@
 #include "core/trigonometry.h"
 #include "scenario/scenario.h"
 #include "scenario/text.h"
+#include "session/drag.h"
+#include "session/frame_state.h"
 #include "session/run_header.h"
 #include "session/session.h"
 
@@ -75,17 +77,20 @@ void check_remaining_steps(const std::vector<StepRow>& rows, Findings& found) {
   if (std::ranges::adjacent_find(rows, later) != rows.end()) found.add("/steps/step", "does not ascend");
 }
 
-void check_steps(const std::vector<StepRow>& rows, const Checkpoint& checkpoint, Findings& found) {
+/// `begun`: the steps taken before the first one of the run, if it is a branch.
+void check_steps(const std::vector<StepRow>& rows, std::int64_t begun, const Checkpoint& checkpoint,
+                 Findings& found) {
   for (std::size_t k = 0; k < rows.size(); ++k) {
-    if (at(rows[k], StepField::step) != static_cast<double>(k + 1)) {
+    const std::int64_t step = begun + static_cast<std::int64_t>(k) + 1;
+    if (at(rows[k], StepField::step) != static_cast<double>(step)) {
       found.add("/steps/step", fmt::format("row {} is of step {}, expected {}", k,
-                                           short_text(at(rows[k], StepField::step)), k + 1));
+                                           short_text(at(rows[k], StepField::step)), step));
       break;
     }
     if (!all_finite(rows[k]))
-      found.add("/steps", fmt::format("step {} has a value that is not finite", k + 1));
+      found.add("/steps", fmt::format("step {} has a value that is not finite", step));
   }
-  if (checkpoint.world.step != static_cast<std::int64_t>(rows.size()))
+  if (checkpoint.world.step != begun + static_cast<std::int64_t>(rows.size()))
     found.add("/checkpoint/step",
               fmt::format("{}, but /steps has {} rows", checkpoint.world.step, rows.size()));
 }
@@ -262,6 +267,16 @@ double imbalance_allowed(const Scenario& scenario) {
   return std::max(imbalance_limit, 4.0 * scenario.deposition.rest_velocity);
 }
 
+/// Adds the force of the spring that drags a grain.
+void add_drag(const RunFile& run, const Scenario& scenario, std::size_t k, std::int64_t step, Loads& loads) {
+  const std::optional<Drag> drag = set_by_commands(run, step).drag;
+  if (!drag) return;
+  const Vec2 pulled =
+      drag_acceleration(*drag, scenario.grains.mean_diameter, time_step(scenario), world_at_frame(run, k));
+  loads.force[static_cast<std::size_t>(drag->grain)] +=
+      run.header().statics.mass[static_cast<std::size_t>(drag->grain)] * Vector2{pulled.x, pulled.y};
+}
+
 /// Newton's law of a bed at rest: forces carry the weight.
 void check_balance(const BedFrame& bed, const Loads& loads, double imbalance_allowed, const std::string& name,
                    Findings& found) {
@@ -335,12 +350,13 @@ RunCheck check_run(const RunFile& run, const std::function<void(std::size_t)>& p
   check.steps = steps.size();
   check.commands = run.commands().size();
   const bool lacks = !run.lost().empty();
+  const std::int64_t begun = run.header().branch ? run.header().branch->start.world.step : 0;
   const std::int64_t last_step =
-      lacks ? std::numeric_limits<std::int64_t>::max() : static_cast<std::int64_t>(steps.size());
+      lacks ? std::numeric_limits<std::int64_t>::max() : begun + static_cast<std::int64_t>(steps.size());
   if (lacks)
     check_remaining_steps(steps, found);
   else
-    check_steps(steps, run.checkpoint(), found);
+    check_steps(steps, begun, run.checkpoint(), found);
   check_observables(rows, static_cast<double>(last_step), lacks, found);
   const Scenario scenario = stored_scenario(run.header(), "/parameters/scenario_resolved");
   check_parameters(run.header(), scenario, found);
@@ -348,6 +364,11 @@ RunCheck check_run(const RunFile& run, const std::function<void(std::size_t)>& p
     check_grains(statics, run.checkpoint().world, found);
     check_results(scenario, run.checkpoint(), found);
   }
+  const bool is_dragged =
+      run.has_state() &&
+      (std::ranges::any_of(
+           run.commands(), [](CommandKind kind) { return kind == CommandKind::drag; }, &Command::kind) ||
+       (run.header().branch && find_value(run.header().branch->start.integers, "drag_grain")));
   std::int64_t before = -1;
   for (std::size_t k = 0; k < run.all_frame_tilts().size(); ++k, ++check.frames) {
     const std::string name = frame_name(k);
@@ -362,8 +383,9 @@ RunCheck check_run(const RunFile& run, const std::function<void(std::size_t)>& p
       if (check_values(bed, name, found)) {
         check_contacts(bed, frictions_of(run, scenario, k, frame), overlap_allowed(scenario), name, found);
         check_rolling(bed, scenario.contact.rolling_friction, name, found);
-        const Loads loads = loads_of(bed);
+        Loads loads = loads_of(bed);
         check_moments(frame, loads, name, found);
+        if (is_dragged) add_drag(run, scenario, k, frame.step, loads);
         if (at_rest(rows, frame.step)) check_balance(bed, loads, imbalance_allowed(scenario), name, found);
       }
     } catch (const Error& error) {

@@ -6,6 +6,7 @@
 #include <fmt/core.h>
 
 #include "core/version.h"
+#include "session/frame_state.h"
 
 namespace talus {
 namespace {
@@ -42,7 +43,16 @@ RunHeader run_header(const Session& session, const RunOrigin& origin) {
                        {"start", utc_now()},
                        {"command", origin.command_line},
                        {"scenario_file", origin.scenario_file}};
+  header.branch = origin.branch;
   return header;
+}
+
+Session session_at_start(const RunHeader& header, const std::string& name) {
+  const Scenario scenario = stored_scenario(header, name);
+  if (!header.branch) return Session(scenario);
+  Session session(scenario, start_of(*header.branch), name + ", its /branch");
+  session.record_start();
+  return session;
 }
 
 Scenario stored_scenario(const RunHeader& header, const std::string& name) {

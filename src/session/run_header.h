@@ -1,6 +1,7 @@
 #pragma once
 /// What is known of a run when it begins.
 
+#include <optional>
 #include <string>
 
 #include "session/session.h"
@@ -13,6 +14,7 @@ struct RunOrigin {
   std::string scenario_file;
   std::string command_line;
   int threads = 1;
+  std::optional<BranchOrigin> branch{};
 };
 
 /// The header of a run that this program begins now, on this host.
@@ -20,6 +22,9 @@ RunHeader run_header(const Session& session, const RunOrigin& origin);
 
 /// The scenario of a stored run, from its header; `name` is what messages call it.
 Scenario stored_scenario(const RunHeader& header, const std::string& name);
+
+/// The session of a stored run before its first step; of a branch, with what it records of its start.
+Session session_at_start(const RunHeader& header, const std::string& name);
 
 /// The version that computed a run, with its git hash, from its provenance: "0.1.0 (abc)".
 std::string version_of(const Facts& provenance);

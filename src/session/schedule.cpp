@@ -28,7 +28,7 @@ enum class Kept {
 };
 
 /// A value of the schedule (no value is stored as NaN), or a result as a number of its own.
-using Value = std::variant<Phase*, std::int64_t*, bool*, double*, std::optional<double>*, double>;
+using Value = std::variant<Phase*, std::int64_t*, Index*, bool*, double*, std::optional<double>*, double>;
 
 struct ScheduleField {
   CheckpointGroup place;
@@ -73,6 +73,11 @@ std::vector<ScheduleField> fields(Schedule& s, bool follows) {
     all.push_back({reals, "tilt_rate", &s.course->rate});
     all.push_back({reals, "tilt_from", &s.course->from});
     all.push_back({integers, "tilt_since", &s.course->since});
+  }
+  if (s.drag) {
+    all.push_back({integers, "drag_grain", &s.drag->grain});
+    all.push_back({reals, "drag_x", &s.drag->x});
+    all.push_back({reals, "drag_y", &s.drag->y});
   }
   if (s.last_tilt_step) all.push_back({integers, last_tilt_step_name, &*s.last_tilt_step});
   all.push_back({integers, "unconverged_in_a_row", &s.unconverged_in_a_row, where_not_zero});
@@ -126,7 +131,8 @@ std::optional<double> find(const ScheduleField& field, const Checkpoint& checkpo
 }
 
 /// Sets the value of a field, or refuses what it cannot be.
-void take(double number, const ScheduleField& field, const std::string& origin) {
+void take(double number, const ScheduleField& field, const Checkpoint& checkpoint,
+          const std::string& origin) {
   const auto check = [&](double most, const char* expected) {
     if (!(number >= 0.0 && number <= most))
       refuse(field, origin, fmt::format("is {}, expected {}", short_text(number), expected));
@@ -137,6 +143,9 @@ void take(double number, const ScheduleField& field, const std::string& origin) 
   } else if (std::int64_t* const* steps = std::get_if<std::int64_t*>(&field.value)) {
     check(most_steps, "a number of steps");
     **steps = static_cast<std::int64_t>(number);
+  } else if (Index* const* grain = std::get_if<Index*>(&field.value)) {
+    check(static_cast<double>(checkpoint.world.grains.free_count) - 1.0, "a free grain");
+    **grain = static_cast<Index>(number);
   } else if (bool* const* flag = std::get_if<bool*>(&field.value)) {
     **flag = number != 0.0;
   } else if (double* const* real = std::get_if<double*>(&field.value)) {
@@ -167,11 +176,12 @@ Schedule stored_schedule(const Checkpoint& checkpoint, bool follows, const std::
   Schedule schedule;
   if (find_value(checkpoint.reals, "friction")) schedule.friction.emplace();
   if (find_value(checkpoint.reals, "tilt_rate")) schedule.course.emplace();
+  if (find_value(checkpoint.integers, "drag_grain")) schedule.drag.emplace();
   if (find_value(checkpoint.integers, last_tilt_step_name)) schedule.last_tilt_step.emplace();
   for (const ScheduleField& field : fields(schedule, follows)) {
     if (field.kept == Kept::as_result) continue;
     if (const std::optional<double> number = find(field, checkpoint))
-      take(*number, field, origin);
+      take(*number, field, checkpoint, origin);
     else if (field.kept == Kept::always && field.place != CheckpointGroup::timing)
       refuse(field, origin, "is missing; without it the run cannot go on");
   }

@@ -33,6 +33,12 @@ struct TiltCourse {
   std::int64_t since = 0;  ///< steps of the tilt taken by then
 };
 
+/// A grain that is pulled by a spring to a place, m (session/drag.h).
+struct Drag {
+  Index grain = -1;
+  double x = 0.0, y = 0.0;
+};
+
 /// Wall time, s; never enters the state.
 struct RunSeconds {
   double deposition = 0.0;
@@ -54,6 +60,7 @@ struct Schedule {
   double residual_since_row = 0.0;    ///< worst eta since the last row
   std::optional<double> friction;     ///< set by a command
   std::optional<TiltCourse> course;   ///< set by a command
+  std::optional<Drag> drag;           ///< begun by a command, and not ended
   /// With a programme of the tilt: steps of the world when the last step of the tilt was taken. What is
   /// recorded up to it is of the tilt, however far this went up and down; what comes later is of the flow.
   std::optional<std::int64_t> last_tilt_step;

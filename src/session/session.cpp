@@ -6,6 +6,7 @@
 
 #include "core/errors.h"
 #include "core/trigonometry.h"
+#include "session/drag.h"
 #include "stress/free_surface.h"
 
 namespace talus {
@@ -74,6 +75,13 @@ RunStatics run_statics(const Scenario& scenario, const World& world) {
   return statics;
 }
 
+double scheduled_tilt(const Scenario& scenario, const TiltProgram& program, const Schedule& schedule) {
+  if (!program.empty() && !schedule.course) return program.tilt(schedule.tilt_steps);
+  if (!schedule.course) return static_cast<double>(schedule.tilt_steps) * radians(scenario.tilt.step);
+  return schedule.course->from + static_cast<double>(schedule.tilt_steps - schedule.course->since) *
+                                     schedule.course->rate * time_step(scenario);
+}
+
 Session::Session(const Scenario& scenario)
     : scenario_(scenario),
       program_(scenario),
@@ -131,9 +139,21 @@ void Session::apply(Command command) {
         throw Error(ExitCode::usage,
                     "tilt_rate: the slope has failed; its tilt now follows tilt.after_failure");
       schedule_.course = TiltCourse{radians(command.x), scheduled_tilt(), schedule_.tilt_steps};
+      break;
+    case CommandKind::drag:
+      schedule_.drag = Drag{command.grain, command.x, command.y};
+      break;
+    case CommandKind::release:
+      if (!schedule_.drag) throw Error(ExitCode::usage, "release: no grain is being dragged");
+      schedule_.drag.reset();
   }
   command.step = world_.step;
   segment_.commands.push_back(command);
+}
+
+void Session::record_start() {
+  record_row();
+  segment_.frames.push_back(make_frame(world_, law()));
 }
 
 const StepReport& Session::advance() {
@@ -175,16 +195,10 @@ void Session::begin_tilt() {
   schedule_.phase = Phase::tilt;
   schedule_.baseline = measure_baseline(world_, scenario_.grains.mean_diameter);
   if (!program_.empty()) schedule_.last_tilt_step = world_.step;
-  record_row();
-  segment_.frames.push_back(make_frame(world_, law()));
+  record_start();
 }
 
-double Session::scheduled_tilt() const {
-  if (follows_program()) return program_.tilt(schedule_.tilt_steps);
-  if (!schedule_.course) return static_cast<double>(schedule_.tilt_steps) * radians(scenario_.tilt.step);
-  return schedule_.course->from + static_cast<double>(schedule_.tilt_steps - schedule_.course->since) *
-                                      schedule_.course->rate * time_step(scenario_);
-}
+double Session::scheduled_tilt() const { return talus::scheduled_tilt(scenario_, program_, schedule_); }
 
 bool Session::tilt_is_over() const {
   if (follows_program()) return schedule_.flow.failed || schedule_.tilt_steps >= program_.steps();
@@ -247,6 +261,7 @@ void Session::record(bool row, bool frame) {
 }
 
 void Session::take_step() {
+  if (schedule_.drag) pull(*schedule_.drag, scenario_.grains.mean_diameter, time_step(scenario_), world_);
   report_ = step(world_, settings(), workspace_);
   schedule_.quiet_steps = is_quiet() && have_all_arrived() ? schedule_.quiet_steps + 1 : 0;
   const bool tilting = schedule_.phase == Phase::tilt;

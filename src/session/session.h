@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "dynamics/step.h"
@@ -27,6 +28,9 @@ class Session {
   /// what messages call the file.
   Session(const Scenario& scenario, Checkpoint checkpoint, const std::string& origin = "the checkpoint");
 
+  /// Records a row and a frame of the state as it is: those with which a branch of another run begins.
+  void record_start();
+
   /// Takes one step; what it records goes to segment(). Does nothing once done.
   /// Throws Error(bad_data) when the bed does not come to rest within deposition.max_time, and
   /// Error(internal) where the step before has broken a guard of the scenario whose action is to stop: its
@@ -36,9 +40,10 @@ class Session {
   /// Does a command before the next step, and records it with the number of steps taken. Friction holds from
   /// then on, in a deposition for what is left of it as well; a rate of the tilt set in a deposition is that
   /// with which the tilt begins. A rate of the tilt also ends a programme (tilt.program): from then on the
-  /// tilt grows at that rate until the slope fails, or is held. Throws Error(usage), with nothing changed,
-  /// where check_command or drop_grains refuses it, once the run is done, and for a rate of the tilt after
-  /// failure.
+  /// tilt grows at that rate until the slope fails, or is held. A drag goes on until the next one, or until
+  /// it is ended. Throws Error(usage), with nothing changed, where check_command or drop_grains refuses it,
+  /// once the run is done, and for a rate of the tilt after failure and the end of a drag where there is
+  /// none.
   void apply(Command command);
 
   /// Threads of the solver; the result does not depend on them.
@@ -68,6 +73,8 @@ class Session {
   /// What was recorded since the last call of clear_segment.
   const Segment& segment() const { return segment_; }
   void clear_segment() { segment_ = {}; }
+  /// Puts back what had been recorded of a run that goes back to a state it had.
+  void put_back(Segment segment) { segment_ = std::move(segment); }
 
   /// All that a resumed run needs. `seconds_writing` goes to the timing.
   Checkpoint checkpoint(double seconds_writing) const;
@@ -112,6 +119,9 @@ StepSettings step_settings(const Scenario& scenario);
 
 /// The next step of a world in the tilt, on one thread: with the tolerance that its velocity asks for.
 StepSettings step_settings(const Scenario& scenario, const World& world);
+
+/// rad, after the steps of the tilt taken so far.
+double scheduled_tilt(const Scenario& scenario, const TiltProgram& program, const Schedule& schedule);
 
 /// What does not change during the run: of all grains, those included that have not arrived yet.
 RunStatics run_statics(const Scenario& scenario, const World& world);

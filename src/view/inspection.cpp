@@ -16,11 +16,6 @@ std::string plane_name(double nx) {
   return nx > 0.5 ? "right wall" : "floor";
 }
 
-std::string body_name(const BedFrame& bed, Index body, double nx) {
-  if (body >= bed.frame.grain_count()) return plane_name(nx);
-  return fmt::format("{} {}", body < bed.statics.free_count ? "grain" : "floor grain", body);
-}
-
 /// The normal turns where the grain is the second of its contact, and so does the force: its components along
 /// normal and tangent stay.
 std::vector<GrainContact> contacts_of(const BedFrame& bed, Index grain) {
@@ -31,6 +26,7 @@ std::vector<GrainContact> contacts_of(const BedFrame& bed, Index grain) {
     const bool first = all.a[c] == grain;
     const double sign = first ? 1.0 : -1.0;
     GrainContact contact;
+    contact.key = key_of(all, c);
     contact.other = first ? all.b[c] : all.a[c];
     contact.nx = sign * all.nx[c];
     contact.ny = sign * all.ny[c];
@@ -59,6 +55,11 @@ double gamma_at(const NeighbourhoodCurve& curve, double l) {
 }
 
 }  // namespace
+
+std::string body_name(const BedFrame& bed, Index body, double nx) {
+  if (body >= bed.frame.grain_count()) return plane_name(nx);
+  return fmt::format("{} {}", body < bed.statics.free_count ? "grain" : "floor grain", body);
+}
 
 Inspection inspect(const BedFrame& bed, const Clusters& clusters, const InspectionRule& rule, Index grain) {
   const auto i = static_cast<std::size_t>(grain);

@@ -9,11 +9,13 @@
 #include "analysis/coarse_graining.h"
 #include "core/bed_frame.h"
 #include "stress/stress_state.h"
+#include "view/selection.h"
 
 namespace talus {
 
 /// A contact of the selected grain.
 struct GrainContact {
+  ContactKey key;
   Index other = -1;           ///< grain, or a plane
   std::string other_name;     ///< "grain 431", "floor grain 8012", "left wall"
   double fn = 0.0, ft = 0.0;  ///< N (per metre of thickness)
@@ -39,6 +41,10 @@ struct Inspection {
       coarse_graining_length;        ///< m; none where it is not overloaded; the cut where it is cut off
   double neighbourhood_gamma = 0.0;  ///< gamma_l at ViewState::neighbourhood
 };
+
+/// "grain 431", "floor grain 8012"; of a plane where it is seen from the grain, from which the normal (of x
+/// component nx) points to it: "left wall".
+std::string body_name(const BedFrame& bed, Index body, double nx);
 
 /// What it depends on beside the frame.
 struct InspectionRule {

@@ -40,10 +40,24 @@ bool is_reached(const Goal& goal, const Session& session) {
          (goal.end_of_deposition && session.phase() != Phase::deposition);
 }
 
-/// How much of the session's segment the history has.
+/// How much of the session's segment the history has, or what of the history there was.
 struct Taken {
   std::size_t observables = 0, frames = 0, commands = 0, steps = 0;
 };
+
+constexpr std::size_t most_marks = 64;  // some megabytes each in a bed of 8000 grains
+
+/// A run before a command.
+struct Mark {
+  Checkpoint state;
+  Taken history;
+};
+
+/// Whether a command begins something, and does not just go on with a drag, or end it.
+bool begins(const Command& command, const std::optional<Drag>& drag) {
+  if (command.kind == CommandKind::drag) return !drag || drag->grain != command.grain;
+  return command.kind != CommandKind::release;
+}
 
 /// The window needs a core of its own; where there are two, this is the other.
 int solver_threads() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency()) - 1); }
@@ -65,7 +79,9 @@ struct LiveRun::State {
   std::optional<Recorder> recorder;
   bool is_recorded = false;  ///< also after it has been packed
   Taken taken;
-  Clock::time_point show_at;  ///< the next frame
+  std::vector<StepRow> steps;  ///< all since the beginning
+  std::vector<Mark> marks;     ///< before each command that was given, the last ones
+  Clock::time_point show_at;   ///< the next frame
   Clock::time_point speed_since;
   std::int64_t speed_step = 0;
 
@@ -83,7 +99,11 @@ struct LiveRun::State {
   std::jthread solver;  ///< last: ends before what it uses
 
   State(const Scenario& scenario, RunOrigin from)
-      : session(scenario), statics(run_statics(scenario, session.world())), origin(std::move(from)) {}
+      : session(from.branch ? Session(scenario, from.branch->start) : Session(scenario)),
+        statics(run_statics(scenario, session.world())),
+        origin(std::move(from)) {
+    if (origin.branch) session.record_start();
+  }
 
   void play_to(const Goal& next);
   void ask(std::function<void()> next);
@@ -92,6 +112,8 @@ struct LiveRun::State {
   bool goes_on();
   void answer();
   void apply(const Command& command);
+  void back(const std::string& output);
+  Segment recorded_until(const Taken& end) const;
   void record(const std::string& output, bool overwrite);
   void take_step();
   void keep(const std::function<void()>& store_something);
@@ -173,10 +195,63 @@ void LiveRun::State::answer() {
 }
 
 void LiveRun::State::apply(const Command& command) {
-  session.apply(command);
+  if (begins(command, session.schedule().drag)) {
+    const Taken now = {history.observables.size(), history.frames.size(), history.commands.size(),
+                       steps.size()};  // only this thread changes it
+    Mark mark{session.checkpoint(0.0), now};
+    session.apply(command);
+    if (marks.size() == most_marks) marks.erase(marks.begin());
+    marks.push_back(std::move(mark));
+  } else {
+    session.apply(command);
+  }
   take_in();
   const std::lock_guard lock(mutex);
   describe();
+}
+
+/// What was recorded from the beginning up to there.
+Segment LiveRun::State::recorded_until(const Taken& end) const {
+  const auto first = [](const auto& of, std::size_t count) { return std::span(of).first(count); };
+  Segment segment;
+  for (const auto& one : first(history.frames, end.frames)) segment.frames.push_back(*one);
+  for (const auto& row : first(history.observables, end.observables)) segment.observables.push_back(row);
+  for (const Command& command : first(history.commands, end.commands)) segment.commands.push_back(command);
+  for (const StepRow& row : first(steps, end.steps)) segment.steps.push_back(row);
+  return segment;
+}
+
+void LiveRun::State::back(const std::string& output) {
+  if (marks.empty()) throw Error(ExitCode::usage, "no command has been given that could be taken back");
+  Mark& mark = marks.back();
+  Session before(session.scenario(), mark.state, "the state before the command");
+  before.use_threads(origin.threads);
+  Segment segment = recorded_until(mark.history);
+  const Taken whole = {segment.observables.size(), segment.frames.size(), segment.commands.size(),
+                       segment.steps.size()};
+  if (is_recorded) {
+    RunStore next = RunStore::create(output, run_header(before, origin), false);
+    end();
+    store.emplace(std::move(next));
+    recorder.emplace(session, *store);
+  }
+  before.put_back(std::move(segment));
+  session = std::move(before);
+  taken = whole;
+  steps.resize(whole.steps);
+  {
+    const std::lock_guard lock(mutex);
+    goal.reset();
+    status.error.clear();
+    history.frames.resize(whole.frames);
+    history.observables.resize(whole.observables);
+    history.commands.resize(whole.commands);
+    history.steps.clear();
+    history.stride = 1;
+    add_steps(steps, history);
+  }
+  marks.pop_back();
+  if (recorder) keep([this] { recorder->commit(); });
 }
 
 /// Records all that the session has done since it began, and what comes.
@@ -232,6 +307,7 @@ void LiveRun::State::take_in() {
   append(history.frames, frames, 0);
   append(history.observables, segment.observables, taken.observables);
   append(history.commands, segment.commands, taken.commands);
+  append(steps, segment.steps, taken.steps);
   add_steps(std::span(segment.steps).subspan(taken.steps), history);
   taken = {segment.observables.size(), segment.frames.size(), segment.commands.size(), segment.steps.size()};
 }
@@ -247,6 +323,9 @@ void LiveRun::State::describe() {
   status.theta_c = session.angle_of_repose();
   status.tilt_rate = degrees(session.tilt_rate());
   status.friction = session.law().friction;
+  status.dragged.reset();
+  if (session.schedule().drag) status.dragged = session.schedule().drag->grain;
+  status.commands_given = marks.size();
   const std::chrono::duration<double> elapsed = Clock::now() - speed_since;
   if (elapsed < speed_interval) return;
   status.steps_per_second = static_cast<double>(world.step - speed_step) / elapsed.count();
@@ -303,10 +382,11 @@ void LiveRun::State::fail(const std::exception& error) {
 // --- the interface ---
 
 LiveRun::LiveRun(const Scenario& scenario, const std::string& scenario_text, const std::string& output,
-                 bool overwrite, const std::string& command_line)
-    : state_(
-          std::make_unique<State>(scenario, RunOrigin{scenario_text, {}, command_line, solver_threads()})) {
+                 bool overwrite, const std::string& command_line, const std::optional<BranchOrigin>& branch)
+    : state_(std::make_unique<State>(scenario,
+                                     RunOrigin{scenario_text, {}, command_line, solver_threads(), branch})) {
   state_->session.use_threads(state_->origin.threads);
+  state_->take_in();
   if (!output.empty()) state_->record(output, overwrite);
   state_->show_pause();
   state_->solver = std::jthread([state = state_.get()](const std::stop_token& stop) { state->work(stop); });
@@ -339,6 +419,10 @@ void LiveRun::halt() {
 
 void LiveRun::apply(Command command) {
   state_->ask([state = state_.get(), command] { state->apply(command); });
+}
+
+void LiveRun::back(const std::string& output) {
+  state_->ask([state = state_.get(), &output] { state->back(output); });
 }
 
 void LiveRun::record(const std::string& output, bool overwrite) {

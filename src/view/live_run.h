@@ -11,6 +11,7 @@
 #include "core/errors.h"
 #include "core/observables.h"
 #include "core/snapshot.h"
+#include "io/run_store.h"
 #include "scenario/scenario.h"
 #include "session/command.h"
 
@@ -22,14 +23,16 @@ struct LiveStatus {
   double time = 0.0;  ///< s
   double tilt = 0.0;  ///< rad
   bool depositing = false;
-  bool running = false;           ///< false: waiting for play or step
-  bool done = false;              ///< the run has ended: failed, or at its end angle
-  std::optional<double> theta_c;  ///< rad
-  double steps_per_second = 0.0;  ///< over the last second or so
-  double tilt_rate = 0.0;         ///< deg/s, as it is now
-  double friction = 0.0;          ///< between grains, as it is now
-  std::string state_hash;         ///< of the state after `step` steps; empty while running
-  std::string error;              ///< what went wrong, as one line; play, step and run_to try again
+  bool running = false;            ///< false: waiting for play or step
+  bool done = false;               ///< the run has ended: failed, or at its end angle
+  std::optional<double> theta_c;   ///< rad
+  double steps_per_second = 0.0;   ///< over the last second or so
+  double tilt_rate = 0.0;          ///< deg/s, as it is now
+  double friction = 0.0;           ///< between grains, as it is now
+  std::optional<Index> dragged;    ///< the grain that is being dragged
+  std::size_t commands_given = 0;  ///< before which the run can go back, see back
+  std::string state_hash;          ///< of the state after `step` steps; empty while running
+  std::string error;               ///< what went wrong, as one line; play, step and run_to try again
   ExitCode error_code = ExitCode::internal;  ///< of `error`
 };
 
@@ -38,10 +41,10 @@ struct LiveStatus {
 class LiveRun {
  public:
   /// Begins the run of a scenario, paused before its first step. With an `output`, it is recorded as `talus
-  /// run` records it, with its commands; `overwrite` as there. Without, all of it is kept in memory. Throws
-  /// as RunStore::create.
+  /// run` records it, with its commands; `overwrite` as there. Without, all of it is kept in memory. With a
+  /// `branch` it begins with that frame. Throws as RunStore::create.
   LiveRun(const Scenario& scenario, const std::string& scenario_text, const std::string& output,
-          bool overwrite, const std::string& command_line);
+          bool overwrite, const std::string& command_line, const std::optional<BranchOrigin>& branch = {});
   /// Finishes the step under way, commits what there is, and ends. A run that is done is packed.
   ~LiveRun();
   LiveRun(const LiveRun&) = delete;
@@ -58,6 +61,12 @@ class LiveRun {
   /// Throws as Session::apply: Error(usage) for no such grain, a value that is not finite or out of range, a
   /// run that is done.
   void apply(Command command);
+  /// Pauses, and takes back the last command that was given, with all that came after it: the state is that
+  /// before it, to the last bit; of a drag, that before it was begun. Up to 64 commands can be taken back,
+  /// one after another. What a run has recorded stays in its file as it was; the run goes on in `output`,
+  /// from its beginning, where nothing is taken for one that is not recorded. Throws Error(usage) where there
+  /// is no such command, and as RunStore::create.
+  void back(const std::string& output);
   /// Records a run that is not recorded yet, from its beginning, and returns when that is on disk. Throws as
   /// RunStore::create, and Error(usage) where it is recorded already.
   void record(const std::string& output, bool overwrite);

@@ -7,17 +7,16 @@
 #include "analysis/free_grains.h"
 #include "analysis/links.h"
 #include "core/errors.h"
-#include "core/trigonometry.h"
 #include "pictures/bed_view.h"
 #include "pictures/change_map.h"
 #include "pictures/texts.h"
+#include "view/rings.h"
 
 namespace talus {
 namespace {
 
-constexpr Colour selection_colour{0, 90, 220}, length_colour{220, 50, 0}, circle_colour{70, 110, 170};
+constexpr Colour length_colour{220, 50, 0}, circle_colour{70, 110, 170};
 constexpr Colour cluster_colour{240, 130, 0}, light_wall{190, 196, 206};
-constexpr int circle_lines = 64;
 
 void add_grains(FrameView& view, const FrameView& map) {
   view.discs.reserve(map.discs.size());
@@ -45,21 +44,6 @@ void add_outline(FrameView& view, const BedFrame& bed, const Clusters& clusters,
              {static_cast<float>(x + reach * ux - half * uy), static_cast<float>(y + reach * uy + half * ux),
               static_cast<float>(x + reach * ux + half * uy), static_cast<float>(y + reach * uy - half * ux),
               static_cast<float>(0.07 * statics.mean_diameter), cluster_colour},
-             statics);
-  }
-}
-
-void add_circle(FrameView& view, Vec2 centre, double radius, double half_width, const Colour& colour,
-                const RunStatics& statics) {
-  const auto corner = [&](int k) {
-    const double angle = 2.0 * pi * k / circle_lines;
-    return Vec2{centre.x + radius * std::cos(angle), centre.y + radius * std::sin(angle)};
-  };
-  for (int k = 0; k < circle_lines; ++k) {
-    const Vec2 from = corner(k), to = corner(k + 1);
-    add_line(view,
-             {static_cast<float>(from.x), static_cast<float>(from.y), static_cast<float>(to.x),
-              static_cast<float>(to.y), static_cast<float>(half_width), colour},
              statics);
   }
 }

@@ -36,6 +36,7 @@ void ViewModel::Data::open_replay() {
 }
 
 void ViewModel::Data::begin_series() {
+  history.reset();
   series.reset();
   if (replay) {
     series =
@@ -49,8 +50,10 @@ void ViewModel::Data::begin_series() {
 }
 
 void ViewModel::Data::start_live(const std::string& next_output, bool overwrite) {
-  auto next = std::make_unique<LiveRun>(scenario, scenario_text, next_output, overwrite, command_line);
+  auto next =
+      std::make_unique<LiveRun>(scenario, scenario_text, next_output, overwrite, command_line, branch);
   output = next_output;
+  history.reset();
   series.reset();
   pictures.met = {};
   pictures.has_program = !scenario.tilt.program.empty();
@@ -73,9 +76,9 @@ void ViewModel::Data::start_live(const std::string& next_output, bool overwrite)
   bookmarks.clear();
   bookmarks_unread.clear();
   dilation.reset();
+  first_frame.reset();
   show(newest);
-  recorded = std::make_shared<RecordedFrames>();
-  begin_series();
+  take_all_recorded();
 }
 
 void ViewModel::Data::plot_rows() { plot_observables(rows, statics(), abscissa(), plots); }
@@ -170,7 +173,8 @@ void ViewModel::Data::find_events() {
   source.times = frame_times();
   source.rows = rows;
   source.values = series->values();
-  source.commands = commands;
+  const std::vector<Command> given = given_commands(commands);
+  source.commands = given;
   if (analysis) source.rearrangements = analysis->events;
   source.bookmarks = bookmarks;
   source.all_times = all_frame_times();

@@ -1,13 +1,17 @@
 #pragma once
 /// What the view model holds, for the files it is made of.
 
+#include <map>
 #include <mutex>
+#include <string_view>
 
 #include "view/frame_series.h"
 #include "view/ghost.h"
+#include "view/history.h"
 #include "view/replay.h"
 #include "view/run_clock.h"
 #include "view/scene.h"
+#include "view/selection_scene.h"
 #include "view/timeline.h"
 #include "view/view_model.h"
 
@@ -75,7 +79,10 @@ struct ViewModel::Data {
   Scenario scenario;
   std::vector<std::string> scenario_settings;
   std::string scenario_text, command_line;
-  std::string first_output, output;  ///< asked for at first; of this run: empty, it is not recorded
+  std::string first_output, output;      ///< asked for at first; of this run: empty, it is not recorded
+  std::optional<BranchOrigin> branch;    ///< where it began, if it is a branch
+  std::vector<double> parent_tilts;      ///< rad, of the frames of the run that it left
+  std::optional<double> parent_theta_c;  ///< rad; assumed of the branch until it has failed
   std::unique_ptr<LiveRun> live;
   std::shared_ptr<RecordedFrames> recorded;
   std::shared_ptr<const Frame> newest;  ///< of the run as it is now
@@ -89,6 +96,7 @@ struct ViewModel::Data {
   std::string bookmarks_unread;  ///< why those beside the run could not be read, and must not be replaced
 
   std::unique_ptr<FrameSeries> series;
+  std::unique_ptr<HistorySeries> history;  ///< null where nothing is asked for
 
   // What was made last of the frame shown, and what else from.
   struct {
@@ -106,14 +114,25 @@ struct ViewModel::Data {
   struct {
     std::shared_ptr<const Frame> stored, mapped;
     double l_min = 0.0;
-  } reference;          ///< what a frame is shown minus
-  double aspect = 0.0;  ///< of the picture asked for last; 0: none was
+  } reference;  ///< what a frame is shown minus
+  struct {
+    std::shared_ptr<const Frame> frame;
+    OverloadRule rule;
+    std::map<std::string_view, std::vector<double>> of;
+  } grain_values;
+  std::shared_ptr<const Frame> first_frame;      ///< of the run; null where it has not been asked for
+  std::shared_ptr<const Frame> condition_frame;  ///< in which the condition has selected last
+  double aspect = 0.0;                           ///< of the picture asked for last; 0: none was
 
   // view_data.cpp: what is shown, and how it goes on.
   void open_replay();
   /// Begins the run of `scenario`, and shows it instead of what was shown.
   void start_live(const std::string& output, bool overwrite);
   void begin_series();
+  // view_branch.cpp
+  void start_branch(std::size_t k);
+  /// Takes over what a live run has recorded, from its beginning.
+  void take_all_recorded();
   /// Frame k of a replay; null, with the reason in `error`, where it cannot be read.
   std::shared_ptr<const Frame> read(std::size_t k);
   /// Shows the frame that a replay is at; where it cannot be read, the one before stays and playing ends.
@@ -163,6 +182,15 @@ struct ViewModel::Data {
   MapSettings map_settings(const ViewState& asked) const;
   const Clusters& shown_clusters(const MapSettings& settings);
   const Inspection* inspect_selected(const ViewState& asked);
+  /// view_selection.cpp: what conditions and tables of grains go by.
+  GrainSource grain_source(const MapSettings& settings);
+  SelectionMarks selection_marks(const ViewState& asked) const;
+  const std::vector<double>& values_of_grains(const GrainQuantity& quantity, const ViewState& asked);
+  /// mu between grains at a step, as commands have set it.
+  double friction_at(std::int64_t step) const;
+  /// Reads what trails and the selected contact need; true where something has come in.
+  bool follow_history(const ViewState& asked);
+  std::vector<std::vector<Vec2>> shown_trails(const ViewState& asked) const;
   MapExtent part(const ViewState& asked, double aspect) const;
   /// Which of the frames of the run the one shown is, or would be if it were one of them.
   std::size_t shown_index() const;

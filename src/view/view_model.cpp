@@ -10,12 +10,10 @@
 #include "io/run_file.h"
 #include "pictures/frame_choice.h"
 #include "view/camera.h"
+#include "view/next_output.h"
 #include "view/view_data.h"
 
 namespace talus {
-namespace {
-
-/// "slope-2.h5" after "slope.h5": the first that is not there yet.
 std::string next_output(const std::string& first) {
   const std::filesystem::path path(first);
   for (int k = 2;; ++k) {
@@ -24,8 +22,6 @@ std::string next_output(const std::string& first) {
     if (run_presence(next) == RunPresence::none) return next;
   }
 }
-
-}  // namespace
 
 ViewModel ViewModel::open(const std::string& path, const std::vector<std::string>& settings,
                           const std::string& output, bool overwrite, const std::string& command_line) {
@@ -63,9 +59,9 @@ std::uint64_t ViewModel::seed() const { return data_->pictures.run.seed; }
 void ViewModel::restart(std::uint64_t seed) {
   if (!is_live()) return;
   data_->live->halt();
-  data_->scenario.seed = seed;
+  if (!data_->branch) data_->scenario.seed = seed;
   data_->start_live(data_->output.empty() ? "" : next_output(data_->first_output), false);
-  state.selected.reset();
+  select(std::optional<Index>());
   state.announcement.clear();
 }
 
@@ -77,7 +73,9 @@ void ViewModel::record(const std::string& output) {
 }
 
 bool ViewModel::may_discard() {
-  const bool saved = !is_live() || !data_->output.empty() || data_->live->status().step == 0;
+  const std::int64_t first = data_->branch ? data_->branch->start.world.step : 0;
+  const bool saved = !is_live() || !data_->output.empty() ||
+                     (data_->live->status().step == first && data_->commands.empty());
   if (saved || std::exchange(state.discard_asked, false)) return true;
   state.discard_asked = true;
   state.message = "This run is not saved. Press again to discard it, or s to save it.";
@@ -93,7 +91,8 @@ void ViewModel::hold() {
 }
 
 Recording ViewModel::recording() const {
-  return {data_->pictures.path, data_->scenario_settings, data_->output, data_->pictures.run.seed};
+  return {data_->branch ? "" : data_->pictures.path, data_->scenario_settings, data_->output,
+          data_->pictures.run.seed};
 }
 
 // --- replay ---
@@ -152,6 +151,9 @@ bool ViewModel::update(double seconds) {
   }
   changed = data.read_with(std::clamp(state.map.l_min, 0.0, 100.0)) || changed;
   changed = data.follow_frames(data.map_settings(state)) || changed;
+  if (state.selecting.in_each_frame && data.condition_frame != data.frame) select_by_condition();
+  changed = data.follow_history(state) || changed;
+  follow_grain();
   state.camera = centred(clamped(state.camera, data.bed, mean_diameter()), data.part(state, data.aspect));
   changed = data.follow_beside(state, seconds) || changed;
   if (const std::string end = data.take_end(); !end.empty()) state.announcement = end;

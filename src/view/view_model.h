@@ -10,7 +10,9 @@
 #include <vector>
 
 #include "render/frame_view.h"
+#include "view/contact_inspection.h"
 #include "view/ghost.h"
+#include "view/grain_quantities.h"
 #include "view/inspection.h"
 #include "view/landmarks.h"
 #include "view/live_run.h"
@@ -23,10 +25,17 @@ namespace talus {
 
 /// Where a live run comes from, and where it is recorded.
 struct Recording {
-  std::string scenario;
+  std::string scenario;  ///< empty: of a branch, which is in its file
   std::vector<std::string> settings;
   std::string output;  ///< empty: nowhere
   std::uint64_t seed = 0;
+};
+
+/// The run that a branch has left, for the time line.
+struct BranchLine {
+  std::string run;
+  std::size_t frame = 0;      ///< of it, at which the branch begins
+  std::vector<double> tilts;  ///< rad, of its frames
 };
 
 class ViewModel {
@@ -49,6 +58,14 @@ class ViewModel {
   /// LiveRun; then the run before is still there.
   void restart(std::uint64_t seed);
   std::uint64_t seed() const;
+  /// A replay goes on from the frame shown, as a live run that is not recorded. A branch is reset to that
+  /// frame, whatever the seed. Nothing in a live run. Throws as checkpoint_at_frame; then the replay is still
+  /// there.
+  void branch();
+  std::optional<BranchLine> branch_line() const;  ///< where the live run is a branch
+  /// A live run goes back before its last command, paused; one that is recorded goes on in a file beside it.
+  /// Throws as LiveRun::back.
+  void back();
   /// Records a live run that was not, from its beginning. Throws as LiveRun::record.
   void record(const std::string& output);
   Recording recording() const;
@@ -137,6 +154,40 @@ class ViewModel {
   /// The numbers that the map of a view gives its free grains; made when they are first asked for of a frame.
   const GrainValues& values() const;
   const GrainValues& values_beside() const;
+  // Selecting: state.selected is the grain that is looked at, state.selecting what is selected beside it.
+  /// One grain, or none, and nothing else.
+  void select(std::optional<Index> grain);
+  /// These grains, by ascending ids; a single one as above. The one that is looked at stays if it is among
+  /// them.
+  void select(std::vector<Index> grains);
+  void select(const ContactKey& contact);
+  /// What is selected now, combined with grains that were found, as state.selecting.mode has it; a condition
+  /// selects no longer in each frame.
+  void select_found(const std::vector<Index>& found);
+  /// The same for the grains of which state.selecting.condition holds in the frame shown; an empty one finds
+  /// none. With in_each_frame they take the place of those before. What is wrong with it is put into
+  /// state.selecting.error, and changes nothing.
+  void select_by_condition();
+  /// All that are selected and there in the frame shown, by ascending ids.
+  std::vector<Index> selected_grains() const;
+  /// grains_within, in the frame shown.
+  std::vector<Index> grains_within(std::span<const Vec2> outline) const;
+  /// find_contact, in the frame shown.
+  std::optional<ContactKey> contact_at(double x, double y, double reach) const;
+  /// Of all grains of the frame shown, by their ids. Made once for a frame and an overload rule.
+  const std::vector<double>& grain_values(const GrainQuantity& quantity) const;
+
+  /// Of the selected contact in the frame shown; none where none is selected.
+  std::optional<ContactInspection> contact_inspection() const;
+  /// contact_plots of it, over the axis of all plots; frames come in as they are read.
+  std::vector<Plot> contact_history() const;
+  /// Of how many grains trails are drawn at most; where more are selected, of every second, third, ... of
+  /// them.
+  static constexpr std::size_t most_trails = 500;
+
+  /// Writes all quantities of the selected grains as grains_table to a file that is not there yet, and says
+  /// so in state.message, or what stands in the way.
+  void write_selected(const std::string& path);
 
   /// Of state.selected in the frame shown; none where nothing is selected. Made once for a frame and a
   /// selection.
@@ -167,6 +218,9 @@ class ViewModel {
   std::string render_command() const;
 
  private:
+  /// Moves the camera to the grain that is looked at, where that is asked for.
+  void follow_grain();
+
   struct Data;
   explicit ViewModel(std::unique_ptr<Data> data);
   std::unique_ptr<Data> data_;

@@ -40,7 +40,9 @@ std::size_t ViewModel::Data::shown_index() const {
   return static_cast<std::size_t>(after - all.begin());
 }
 
-double ViewModel::Data::shown_theta_c() const { return theta_c.value_or(radians(assumed_theta_c)); }
+double ViewModel::Data::shown_theta_c() const {
+  return theta_c.value_or(parent_theta_c.value_or(radians(assumed_theta_c)));
+}
 
 MapSettings ViewModel::Data::map_settings(const ViewState& asked) const {
   MapSettings settings = asked.map;
@@ -170,8 +172,10 @@ FrameView ViewModel::Data::picture(const ViewState& asked, const MapExtent& show
       overlay.critical_length = of->coarse_graining_length;
     }
   }
-  return shown_map(whole_map(asked, shown, cache), shown, {*frame, statics()}, overlay,
-                   shown_clusters(map_settings(asked)));
+  FrameView view = shown_map(whole_map(asked, shown, cache), shown, {*frame, statics()}, overlay,
+                             shown_clusters(map_settings(asked)));
+  add_selection(view, {*frame, statics()}, selection_marks(asked));
+  return view;
 }
 
 FrameView ViewModel::Data::furnished(const ViewState& shown, MapCache& cache) {

@@ -5,11 +5,13 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/types.h"
 #include "pictures/maps.h"
 #include "view/bar_range.h"
 #include "view/plots.h"
+#include "view/selection.h"
 #include "view/theme.h"
 
 namespace talus {
@@ -36,6 +38,28 @@ struct PlotLook {
   std::optional<bool> log_y;                    ///< instead of what the plot has
 };
 
+/// What is selected beside a single grain, and how.
+struct SelectingState {
+  Selection selection;                           ///< two grains or more, or a contact; empty: neither
+  SelectionMode mode = SelectionMode::anew;      ///< of a box, a lasso or a condition
+  std::string condition;                         ///< that is written, or was
+  std::string error;                             ///< why it selects nothing
+  bool in_each_frame = false;                    ///< the condition selects anew in each frame
+  std::string quantity = "gamma_neighbourhood";  ///< whose histogram is shown
+  std::string table_path = "selected.csv";       ///< to be written
+  bool trails = false;          ///< where the selected grains have been, up to the frame shown
+  bool follow = false;          ///< the picture keeps the grain that is looked at in its middle
+  std::vector<Vec2> outline;    ///< that is being drawn, px of the window; empty: none
+  bool outline_is_box = false;  ///< between its first place and its last
+};
+
+/// A grain that the mouse holds.
+struct GrainDrag {
+  Index grain = -1;
+  double x = 0.0, y = 0.0;  ///< m, where the mouse was when that was last told to the run
+  std::int64_t step = 0;    ///< of the run then
+};
+
 struct ViewState {
   MapSettings map;  ///< layers, colours, threshold, length, turned, ...
   ViewCamera camera;
@@ -44,10 +68,12 @@ struct ViewState {
   Theme theme = Theme::light;
   double scale = 0.0;             ///< of text and widgets; 0: that of the display
   std::optional<double> since;    ///< rad: motion and strain since that tilt; without: per degree
-  std::optional<Index> selected;  ///< grain
+  std::optional<Index> selected;  ///< the grain that is looked at, and that commands act on
+  SelectingState selecting;       ///< more grains than that one, or a contact
   double neighbourhood = 10.0;    ///< D: diameter of the neighbourhood drawn about the selected grain
   bool show_neighbourhoods = true;
   bool highlight_cluster = false;
+  std::string panel_asked;  ///< to be opened with the next picture
   bool show_help = false;
   bool show_controls = true, show_inspector = true, show_plots = true;
   HeldBar held_bar;                            ///< of the legend
@@ -61,6 +87,8 @@ struct ViewState {
   std::string bookmark_note;    ///< what is being written
   std::string announcement;     ///< of a run that has failed or ended, until it is clicked away
   std::string message;          ///< last thing worth telling: a file written, an error
+
+  std::optional<GrainDrag> drag;
 
   // What the action widgets hold.
   double push_speed = 1.0;  ///< sqrt(g D)

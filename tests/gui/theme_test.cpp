@@ -70,18 +70,18 @@ double share_below(const Image& image, double limit) {
 
 TEST_F(Replay, all_of_the_window_follows_the_theme) {
   EXPECT_LT(share_below(gui_.frame(), 80.0), 0.2);
-  gui_.key('T');
+  gui_.key('C');
   EXPECT_EQ(model_.state.theme, Theme::dark);
   EXPECT_GT(share_below(gui_.frame(), 80.0), 0.7);
   const Image saved = gui_.draw_image(model_.furnished_map(), 800);
   EXPECT_GT(saved.pixels[0], 250) << "a picture that is saved is that of talus render";
-  gui_.key('T');
+  gui_.key('C');
   const Image print = gui_.frame();
   const WidgetPlace play = gui_.place("play");
   const auto x = static_cast<std::size_t>(play.x0 + 3.0f),
              y = static_cast<std::size_t>(0.5f * (play.y0 + play.y1));
   EXPECT_EQ(print.pixels[3 * (y * 1400 + x)], 255) << "a button";
-  gui_.key('T');
+  gui_.key('C');
   EXPECT_EQ(model_.state.theme, Theme::light);
 }
 

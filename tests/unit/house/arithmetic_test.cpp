@@ -27,6 +27,8 @@ const std::vector<std::string> of_a_run = {
     "src/session/command",
     "src/session/deposition",
     "src/session/drop",
+    "src/session/drag",
+    "src/session/frame_state",
     "src/session/guards",
     "src/session/measure",
     "src/session/perturbation.",

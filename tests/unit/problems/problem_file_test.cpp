@@ -8,6 +8,7 @@
 
 #include "core/errors.h"
 #include "problems/fclib_file.h"
+#include "session/frame_state.h"
 #include "session/run.h"
 #include "solver/local_law.h"
 #include "support/scenes.h"

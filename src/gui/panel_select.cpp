@@ -1,0 +1,198 @@
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/core.h>
+#include <numeric>
+
+#include "gui/panels.h"
+#include "gui/plot_widget.h"
+#include "gui/run_actions.h"
+#include "view/selection_table.h"
+
+namespace talus {
+namespace {
+
+/// Names that a condition may have, with what they mean; a chosen one is added to it.
+void offer_names(Gui& gui) {
+  SelectingState& selecting = gui.model.state.selecting;
+  ImGui::SetNextItemWidth(5.5f * gui.em);
+  const bool open = ImGui::BeginCombo("##names", "names", ImGuiComboFlags_HeightLarge);
+  note_place(gui, "names");
+  if (!open) return;
+  for (const GrainQuantity& quantity : grain_quantities()) {
+    const std::string name(quantity.name);
+    if (ImGui::Selectable(head_of(quantity).c_str())) {
+      const bool apart = !selecting.condition.empty() && !selecting.condition.ends_with(' ');
+      selecting.condition += (apart ? " " : "") + name;
+    }
+    note_place(gui, "name " + name);
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", std::string(quantity.definition).c_str());
+  }
+  if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false)) ImGui::CloseCurrentPopup();
+  ImGui::EndCombo();
+}
+
+void choose_mode(Gui& gui) {
+  SelectionMode& mode = gui.model.state.selecting.mode;
+  int chosen = static_cast<int>(mode);
+  ImGui::SetNextItemWidth(-1.0f);
+  if (named_choice(gui, "mode", "", {"select anew", "add", "take away", "only of these"}, chosen))
+    mode = static_cast<SelectionMode>(chosen);
+}
+
+void write_condition(Gui& gui) {
+  SelectingState& selecting = gui.model.state.selecting;
+  ImGui::SetNextItemWidth(-1.0f);
+  const bool entered = ImGui::InputTextWithHint("##condition", "gamma > 0.7 && y > 30", &selecting.condition,
+                                                ImGuiInputTextFlags_EnterReturnsTrue);
+  note_place(gui, "condition");
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("selects the free grains of which it holds: enter");
+  const bool pressed = named_button(gui, "select", "Select", "enter");
+  ImGui::SameLine();
+  offer_names(gui);
+  ImGui::SameLine();
+  choose_mode(gui);
+  if (entered || pressed) gui.model.select_by_condition();
+  if (named_checkbox(gui, "in each frame", "anew in each frame", selecting.in_each_frame) &&
+      selecting.in_each_frame)
+    gui.model.select_by_condition();
+  named_checkbox(gui, "trails", "trails", selecting.trails, "where the selected grains have been: T");
+  ImGui::SameLine();
+  bool follow = selecting.follow;
+  if (named_checkbox(gui, "follow grain", "follow the grain", follow,
+                     "keeps the grain that is looked at in the middle: L"))
+    toggle_following(gui);
+  if (selecting.error.empty()) return;
+  ImGui::PushStyleColor(ImGuiCol_Text, packed(gui.colours.warning));
+  ImGui::TextWrapped("%s", selecting.error.c_str());
+  ImGui::PopStyleColor();
+}
+
+void choose_quantity(Gui& gui) {
+  std::string& name = gui.model.state.selecting.quantity;
+  std::vector<std::string> heads;
+  int chosen = 0;
+  for (const GrainQuantity& quantity : grain_quantities()) {
+    if (quantity.name == name) chosen = static_cast<int>(heads.size());
+    heads.push_back(head_of(quantity));
+  }
+  ImGui::SetNextItemWidth(-1.0f);
+  if (named_choice(gui, "quantity", "", heads, chosen))
+    name = grain_quantities()[static_cast<std::size_t>(chosen)].name;
+}
+
+void draw_histogram(Gui& gui, const std::vector<Index>& grains) {
+  choose_quantity(gui);
+  const GrainQuantity& quantity = grain_quantity(gui.model.state.selecting.quantity);
+  const std::vector<double>& values = gui.model.grain_values(quantity);
+  const GrainStatistics of = statistics_of(grains, values);
+  if (of.count > 0) {
+    fact("mean", std::isnan(of.deviation) ? fmt::format("{:.4g}", of.mean)
+                                          : fmt::format("{:.4g} ± {:.3g}", of.mean, of.deviation));
+    fact("from, to", fmt::format("{:.4g}, {:.4g}", of.least, of.largest));
+  }
+  if (of.count < grains.size()) fact("without a value", fmt::format("{}", grains.size() - of.count));
+  std::vector<Index> all(static_cast<std::size_t>(gui.model.statics().free_count));
+  std::iota(all.begin(), all.end(), 0);
+  const Plot plot = histogram_of(quantity, grains, all, values);
+  if (!plot.series.empty()) draw_plot(gui, plot, {ImGui::GetContentRegionAvail().x, 10.0f * gui.em}, {});
+}
+
+std::string cell_text(const GrainQuantity& quantity, double value) {
+  if (std::isnan(value)) return "–";
+  return quantity.whole ? fmt::format("{:.0f}", value) : fmt::format("{:.4g}", value);
+}
+
+/// The columns that are shown: the quantity of the histogram, and what is mostly wanted.
+std::vector<const GrainQuantity*> shown_columns(const std::string& chosen) {
+  std::vector<const GrainQuantity*> columns = {&grain_quantity("id")};
+  for (const std::string_view name : {std::string_view(chosen), std::string_view("x"), std::string_view("y"),
+                                      std::string_view("gamma"), std::string_view("coordination")})
+    if (std::ranges::find(columns, name, &GrainQuantity::name) == columns.end())
+      columns.push_back(&grain_quantity(name));
+  return columns;
+}
+
+/// A click on a row shows its grain in the inspector; what is selected stays.
+void draw_rows(Gui& gui, const std::vector<Index>& grains, const std::vector<const GrainQuantity*>& columns) {
+  ViewState& state = gui.model.state;
+  ImGuiListClipper clipper;
+  clipper.Begin(static_cast<int>(grains.size()));
+  while (clipper.Step())
+    for (int row = clipper.DisplayStart; row < clipper.DisplayEnd; ++row) {
+      const Index grain = grains[static_cast<std::size_t>(row)];
+      ImGui::TableNextRow();
+      for (const GrainQuantity* quantity : columns) {
+        ImGui::TableNextColumn();
+        const std::string text =
+            cell_text(*quantity, gui.model.grain_values(*quantity)[static_cast<std::size_t>(grain)]);
+        if (quantity != columns.front()) {
+          ImGui::TextUnformatted(text.c_str());
+          continue;
+        }
+        if (ImGui::Selectable(text.c_str(), state.selected == grain, ImGuiSelectableFlags_SpanAllColumns))
+          state.selected = grain;
+        note_place(gui, fmt::format("row {}", row));
+      }
+    }
+}
+
+void draw_table(Gui& gui, const std::vector<Index>& grains) {
+  const auto columns = shown_columns(gui.model.state.selecting.quantity);
+  const ImGuiTableFlags flags = ImGuiTableFlags_RowBg | ImGuiTableFlags_BordersInnerV |
+                                ImGuiTableFlags_Sortable | ImGuiTableFlags_ScrollX | ImGuiTableFlags_ScrollY |
+                                ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_NoSavedSettings;
+  const float height = std::max(ImGui::GetContentRegionAvail().y, 12.0f * gui.em);
+  if (!ImGui::BeginTable("selected grains", static_cast<int>(columns.size()), flags, {0.0f, height})) return;
+  ImGui::TableSetupScrollFreeze(1, 1);
+  for (const GrainQuantity* quantity : columns)  // its own id, so that a sorting stays with its quantity
+    ImGui::TableSetupColumn(head_of(*quantity).c_str());
+  ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
+  for (int k = 0; k < static_cast<int>(columns.size()); ++k) {
+    ImGui::TableSetColumnIndex(k);
+    ImGui::TableHeader(ImGui::TableGetColumnName(k));
+    note_place(gui, "sort by " + std::string(columns[static_cast<std::size_t>(k)]->name));
+  }
+  std::vector<Index> rows = grains;
+  const ImGuiTableSortSpecs* sorting = ImGui::TableGetSortSpecs();
+  if (sorting != nullptr && sorting->SpecsCount > 0) {
+    const GrainQuantity& by = *columns[static_cast<std::size_t>(sorting->Specs[0].ColumnIndex)];
+    rows = sorted_by(rows, gui.model.grain_values(by),
+                     sorting->Specs[0].SortDirection == ImGuiSortDirection_Descending);
+  }
+  draw_rows(gui, rows, columns);
+  ImGui::EndTable();
+}
+
+void draw_selected(Gui& gui, const std::vector<Index>& grains) {
+  SelectingState& selecting = gui.model.state.selecting;
+  const auto free = static_cast<std::size_t>(gui.model.statics().free_count);
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(fmt::format("{} of {} grains", grains.size(), free).c_str());
+  ImGui::SameLine();
+  if (named_button(gui, "select none", "None", "escape")) return gui.model.select(std::optional<Index>());
+  draw_histogram(gui, grains);
+  ImGui::SetNextItemWidth(-5.0f * gui.em);
+  named_text(gui, "table path", "", selecting.table_path, "CSV file to write");
+  ImGui::SameLine();
+  if (named_button(gui, "write table", "Write", "all quantities of the selected grains, as CSV"))
+    gui.model.write_selected(selecting.table_path);
+  draw_table(gui, grains);
+}
+
+}  // namespace
+
+void draw_select_panel(Gui& gui) {
+  write_condition(gui);
+  ImGui::Separator();
+  const std::vector<Index> grains = gui.model.selected_grains();
+  if (!grains.empty()) return draw_selected(gui, grains);
+  ImGui::TextWrapped(
+      "No grains are selected. Write a condition, click a grain, or drag on the map: with shift a box, with "
+      "ctrl a "
+      "lasso.");
+}
+
+}  // namespace talus

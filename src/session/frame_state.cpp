@@ -1,0 +1,203 @@
+#include "session/frame_state.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/core.h>
+#include <utility>
+
+#include "core/errors.h"
+#include "core/trigonometry.h"
+#include "dynamics/failure.h"
+#include "scenario/tilt_program.h"
+#include "session/run_header.h"
+#include "session/session.h"
+
+namespace talus {
+namespace {
+
+Contacts memory_of(const FrameContacts& from) {
+  Contacts contacts;
+  contacts.a = from.a;
+  contacts.b = from.b;
+  contacts.shift = from.shift;
+  contacts.nx = from.nx;
+  contacts.ny = from.ny;
+  contacts.gap.assign(from.a.size(), 0.0);
+  contacts.fn = from.fn;
+  contacts.ft = from.ft;
+  contacts.moment = from.moment;
+  return contacts;
+}
+
+/// What a run knows of its course, and so how it stood at a step.
+class RunCourse {
+ public:
+  explicit RunCourse(const RunFile& run)
+      : run_(run),
+        scenario_(stored_scenario(run.header(), "/parameters/scenario_resolved")),
+        program_(scenario_),
+        end_(stored_schedule(run.checkpoint(), follows_failure(), "the run")),
+        steps_(run.steps()),
+        rows_(run.all_observables()) {}
+
+  bool follows_failure() const { return scenario_.tilt.after_failure != AfterFailure::stop; }
+
+  Schedule commanded(std::int64_t step) const {
+    Schedule schedule = before_commands();
+    for (const Command& command : run_.commands()) {
+      if (command.step >= step) break;
+      schedule.tilt_steps = tilt_steps(command.step);
+      if (command.kind == CommandKind::friction) schedule.friction = command.x;
+      if (command.kind == CommandKind::tilt_rate)
+        schedule.course = TiltCourse{radians(command.x), scheduled_tilt(scenario_, program_, schedule),
+                                     schedule.tilt_steps};
+      if (command.kind == CommandKind::drag) schedule.drag = Drag{command.grain, command.x, command.y};
+      if (command.kind == CommandKind::release) schedule.drag.reset();
+    }
+    return schedule;
+  }
+
+  Schedule at_step(std::int64_t step, const World& world) const {
+    Schedule schedule = commanded(step);
+    const auto next = first_after(step);
+    schedule.phase = next == steps_.end() ? end_.phase : static_cast<Phase>(at(*next, StepField::phase));
+    schedule.tilt_steps = tilt_steps(step);
+    schedule.flow_steps = end_.flow_steps - taken_after(step, Phase::flow);
+    schedule.baseline = end_.baseline;
+    if (end_.last_tilt_step) schedule.last_tilt_step = std::min(step, *end_.last_tilt_step);
+    const double rest_velocity =
+        scenario_.deposition.rest_velocity * run_.header().statics.gravity * time_step(scenario_);
+    schedule.quiet_steps = rows_in_a_row(step, [rest_velocity](const StepRow& row) {
+      return at(row, StepField::rms_velocity) <= rest_velocity;
+    });
+    schedule.unconverged_in_a_row =
+        rows_in_a_row(step, [](const StepRow& row) { return at(row, StepField::converged) == 0.0; });
+    if (const auto row = row_at(step); row != rows_.end())
+      schedule.surface_displacement = at(*row, Observable::surface_displacement);
+    schedule.flow = flow_at(step, world, schedule.phase);
+    return schedule;
+  }
+
+ private:
+  /// What had been set before a branch began, and nothing else.
+  Schedule before_commands() const {
+    Schedule schedule;
+    if (!run_.header().branch) return schedule;
+    const Schedule start = stored_schedule(start_of(*run_.header().branch), follows_failure(), "/branch");
+    schedule.friction = start.friction;
+    schedule.course = start.course;
+    schedule.drag = start.drag;
+    return schedule;
+  }
+
+  std::vector<StepRow>::const_iterator first_after(std::int64_t step) const {
+    return std::ranges::upper_bound(steps_, static_cast<double>(step), {},
+                                    [](const StepRow& row) { return at(row, StepField::step); });
+  }
+
+  std::int64_t taken_after(std::int64_t step, Phase phase) const {
+    return std::count_if(first_after(step), steps_.end(), [phase](const StepRow& row) {
+      return at(row, StepField::phase) == static_cast<double>(phase);
+    });
+  }
+
+  std::int64_t tilt_steps(std::int64_t step) const {
+    return end_.tilt_steps - taken_after(step, Phase::tilt);
+  }
+
+  template <typename Holds>
+  std::int64_t rows_in_a_row(std::int64_t step, const Holds& holds) const {
+    std::int64_t count = 0;
+    for (auto row = first_after(step); row != steps_.begin() && holds(*(row - 1)); --row) ++count;
+    return count;
+  }
+
+  /// The last row not after a step.
+  std::vector<ObservableRow>::const_iterator row_at(std::int64_t step) const {
+    const auto after =
+        std::ranges::upper_bound(rows_, static_cast<double>(step), {},
+                                 [](const ObservableRow& row) { return at(row, Observable::step); });
+    return after == rows_.begin() ? rows_.end() : after - 1;
+  }
+
+  /// A flow that failed the slope later, or had failed it: how far it had come by the rows.
+  SurfaceFlow flow_at(std::int64_t step, const World& world, Phase phase) const {
+    if (!end_.flow.failed || std::abs(world.tilt) < end_.flow.onset_tilt) return {};
+    if (phase == Phase::flow) return end_.flow;
+    auto row = row_at(step);
+    if (row == rows_.end()) return {};
+    const double now = at(*row, Observable::surface_displacement);
+    while (row != rows_.begin() && std::abs(at(*row, Observable::tilt)) > end_.flow.onset_tilt) --row;
+    SurfaceFlow flow{.flowing = true, .onset_tilt = end_.flow.onset_tilt};
+    flow.displacement = std::abs(now - at(*row, Observable::surface_displacement));
+    const RunStatics& statics = run_.header().statics;
+    flow.failed =
+        flow.displacement >= flow_rule(statics.mean_diameter, statics.gravity, world.boundary).distance;
+    return flow;
+  }
+
+  const RunFile& run_;
+  Scenario scenario_;
+  TiltProgram program_;
+  Schedule end_;
+  std::vector<StepRow> steps_;
+  std::vector<ObservableRow> rows_;
+};
+
+/// In single precision the period itself can be reached.
+void wrap_rounded(World& world) {
+  Grains& grains = world.grains;
+  for (Index i = 0; i < grains.free_count && world.boundary.periodic; ++i)
+    if (grains.x[i] >= world.boundary.length) {
+      grains.x[i] -= world.boundary.length;
+      ++grains.image[i];
+    }
+}
+
+}  // namespace
+
+World world_at_frame(const RunFile& run, std::size_t k) {
+  if (!run.has_state())
+    throw Error(ExitCode::bad_data,
+                "the run was repaired and its last state is lost; without it no step can be formed");
+  World world = run.checkpoint().world;
+  Frame frame = run.frame(k);
+  if (frame.step == world.step) return world;
+  world.grains.x = std::move(frame.x);
+  world.grains.y = std::move(frame.y);
+  world.grains.vx = std::move(frame.vx);
+  world.grains.vy = std::move(frame.vy);
+  world.grains.omega = std::move(frame.omega);
+  world.grains.angle = std::move(frame.angle);
+  world.grains.image = std::move(frame.image);
+  world.contacts = memory_of(frame.contacts);
+  world.tilt = frame.tilt;
+  world.time = frame.time;
+  world.step = frame.step;
+  return world;
+}
+
+Schedule set_by_commands(const RunFile& run, std::int64_t step) { return RunCourse(run).commanded(step); }
+
+Checkpoint start_of(const BranchOrigin& branch) {
+  Checkpoint none, start = branch.start;
+  store_schedule({}, true, none);
+  start.results = none.results;
+  return start;
+}
+
+Checkpoint checkpoint_at_frame(const RunFile& run, std::size_t k) {
+  Checkpoint checkpoint;
+  checkpoint.world = world_at_frame(run, k);
+  wrap_rounded(checkpoint.world);
+  const RunCourse course(run);
+  const Schedule schedule = course.at_step(checkpoint.world.step, checkpoint.world);
+  if (schedule.phase == Phase::done)
+    throw Error(ExitCode::usage,
+                fmt::format("the run ends with its frame at {:.3f} deg: a branch begins at an earlier one",
+                            degrees(checkpoint.world.tilt)));
+  store_schedule(schedule, course.follows_failure(), checkpoint);
+  return checkpoint;
+}
+
+}  // namespace talus

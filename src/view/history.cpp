@@ -1,0 +1,87 @@
+#include "view/history.h"
+
+#include <algorithm>
+#include <exception>
+#include <iterator>
+#include <utility>
+
+namespace talus {
+
+HistoryInstant instant_of(const Frame& frame, const HistoryQuestion& question) {
+  HistoryInstant instant;
+  instant.step = frame.step;
+  instant.time = frame.time;
+  instant.tilt = frame.tilt;
+  for (const Index grain : question.grains) {
+    const auto i = static_cast<std::size_t>(grain);
+    const bool there = i < frame.x.size();
+    instant.places.push_back(there ? GrainPlace{frame.x[i], frame.y[i], frame.image[i]}
+                                   : GrainPlace{not_known, not_known, 0});
+  }
+  if (!question.contact) return instant;
+  instant.fn = instant.ft = 0.0;
+  if (const auto found = contact_of_key(frame.contacts, *question.contact)) {
+    const auto c = static_cast<std::size_t>(*found);
+    instant.fn = frame.contacts.fn[c];
+    instant.ft = frame.contacts.ft[c];
+    instant.status = frame.contacts.status[c];
+  }
+  return instant;
+}
+
+HistorySeries::HistorySeries(ReadFrame read)
+    : read_(std::move(read)), thread_([this](const std::stop_token& stop) { work(stop); }) {}
+
+void HistorySeries::ask(const HistoryQuestion& question, std::size_t frames) {
+  const std::scoped_lock lock(shared_.mutex);
+  if (!(question == question_) || shared_.turn == 0) {
+    question_ = question;
+    instants_.clear();
+    ++shared_.turn;
+    shared_.question = question;
+    shared_.ready.clear();
+  }
+  if (shared_.frames != frames || instants_.empty()) shared_.changed.notify_all();
+  shared_.frames = frames;
+}
+
+bool HistorySeries::take_in() {
+  const std::scoped_lock lock(shared_.mutex);
+  if (shared_.ready.empty()) return false;
+  std::ranges::move(shared_.ready, std::back_inserter(instants_));
+  shared_.ready.clear();
+  return true;
+}
+
+void HistorySeries::work(const std::stop_token& stop) {
+  int turn = 0;
+  std::size_t next = 0;
+  bool failed = false;
+  HistoryQuestion question;
+  std::unique_lock lock(shared_.mutex);
+  for (;;) {
+    const bool anything = shared_.changed.wait(
+        lock, stop, [&] { return shared_.turn != turn || (turn > 0 && !failed && next < shared_.frames); });
+    if (!anything || stop.stop_requested()) return;
+    if (shared_.turn != turn) {
+      turn = shared_.turn;
+      question = shared_.question;
+      next = 0;
+      failed = false;
+      continue;
+    }
+    lock.unlock();
+    HistoryInstant instant;
+    try {
+      instant = instant_of(*read_(next), question);
+    } catch (const std::exception&) {
+      failed = true;  // the series of frames meets it too, and says why
+    }
+    lock.lock();
+    if (shared_.turn != turn || failed) continue;
+    shared_.ready.push_back(std::move(instant));
+    ++next;
+  }
+}
+
+}  // namespace talus

@@ -1,0 +1,84 @@
+#pragma once
+/// What single grains and a contact went through: read from all frames of a run, while the view is used.
+
+#include <condition_variable>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "core/snapshot.h"
+#include "view/selection.h"
+
+namespace talus {
+
+/// What is read.
+struct HistoryQuestion {
+  std::vector<Index> grains;
+  std::optional<ContactKey> contact;
+  bool operator==(const HistoryQuestion&) const = default;
+};
+
+/// A grain in a frame.
+struct GrainPlace {
+  double x = 0.0, y = 0.0;  ///< m; NaN where it has not arrived yet
+  Index image = 0;          ///< how often it left through the right periodic edge
+};
+
+/// One frame.
+struct HistoryInstant {
+  std::int64_t step = 0;
+  double time = 0.0;               ///< s
+  double tilt = 0.0;               ///< rad
+  std::vector<GrainPlace> places;  ///< of the grains asked for, in their order
+  double fn = not_known,
+         ft = not_known;  ///< N per metre of thickness; NaN without a contact, 0 where it is open
+  ContactStatus status = ContactStatus::open;
+};
+
+HistoryInstant instant_of(const Frame& frame, const HistoryQuestion& question);
+
+/// Reads in a thread of its own. All members are for one other thread.
+class HistorySeries {
+ public:
+  /// Frame k; called by the thread of the series.
+  using ReadFrame = std::function<std::shared_ptr<const Frame>(std::size_t k)>;
+
+  explicit HistorySeries(ReadFrame read);
+  /// Finishes the frame under way.
+  ~HistorySeries() = default;
+  HistorySeries(const HistorySeries&) = delete;
+  HistorySeries& operator=(const HistorySeries&) = delete;
+
+  /// From the first of `frames` frames on, where the question is another one; else only those to come.
+  void ask(const HistoryQuestion& question, std::size_t frames);
+  /// Takes in what has been read; true where there was something.
+  bool take_in();
+
+  const HistoryQuestion& question() const { return question_; }
+  /// Of the first frames, as far as they have been read. A frame that cannot be read ends them.
+  const std::vector<HistoryInstant>& instants() const { return instants_; }
+
+ private:
+  struct Shared {
+    std::mutex mutex;
+    std::condition_variable_any changed;
+    int turn = 0;  ///< counts the questions
+    HistoryQuestion question;
+    std::size_t frames = 0;
+    std::vector<HistoryInstant> ready;
+  };
+
+  void work(const std::stop_token& stop);
+
+  ReadFrame read_;
+  HistoryQuestion question_;
+  std::vector<HistoryInstant> instants_;
+  Shared shared_;
+  std::jthread thread_;  ///< the last: it is joined before the rest goes
+};
+
+}  // namespace talus

@@ -1,0 +1,108 @@
+#include "view/selection.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <tuple>
+
+#include "analysis/free_grains.h"
+
+namespace talus {
+namespace {
+
+/// Whether a ray from the place in the direction of x crosses the line an odd number of times.
+bool is_within(std::span<const Vec2> outline, double x, double y) {
+  bool within = false;
+  for (std::size_t k = 0; k < outline.size(); ++k) {
+    const Vec2 from = outline[k], to = outline[(k + 1) % outline.size()];
+    if ((from.y > y) == (to.y > y)) continue;
+    if (x < from.x + (to.x - from.x) * (y - from.y) / (to.y - from.y)) within = !within;
+  }
+  return within;
+}
+
+}  // namespace
+
+std::vector<Index> combined(const std::vector<Index>& before, const std::vector<Index>& found,
+                            SelectionMode mode) {
+  std::vector<Index> grains;
+  const auto into = std::back_inserter(grains);
+  switch (mode) {
+    case SelectionMode::anew:
+      return found;
+    case SelectionMode::add:
+      std::ranges::set_union(before, found, into);
+      break;
+    case SelectionMode::remove:
+      std::ranges::set_difference(before, found, into);
+      break;
+    case SelectionMode::common:
+      std::ranges::set_intersection(before, found, into);
+      break;
+  }
+  return grains;
+}
+
+std::vector<Index> toggled(const std::vector<Index>& grains, Index grain) {
+  const bool there = std::ranges::binary_search(grains, grain);
+  return combined(grains, {grain}, there ? SelectionMode::remove : SelectionMode::add);
+}
+
+std::vector<Index> thinned(const std::vector<Index>& grains, std::size_t most) {
+  const std::size_t stride = std::max<std::size_t>(1, (grains.size() + most - 1) / most);
+  std::vector<Index> some;
+  for (std::size_t k = 0; k < grains.size(); k += stride) some.push_back(grains[k]);
+  return some;
+}
+
+std::vector<Index> grains_within(const BedFrame& bed, std::span<const Vec2> outline) {
+  std::vector<Index> grains;
+  if (outline.size() < 3) return grains;
+  const double period = period_of(bed.statics);
+  for (Index i = 0; i < bed.statics.free_count; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    const double x = bed.frame.x[k], y = bed.frame.y[k];
+    const bool image =
+        period > 0.0 && (is_within(outline, x - period, y) || is_within(outline, x + period, y));
+    if (image || is_within(outline, x, y)) grains.push_back(i);
+  }
+  return grains;
+}
+
+std::optional<Index> find_contact(const BedFrame& bed, double x, double y, double reach) {
+  const FrameContacts& contacts = bed.frame.contacts;
+  const double period = period_of(bed.statics);
+  std::optional<Index> nearest;
+  double least = reach;
+  for (Index c = 0; c < contacts.count(); ++c) {
+    const auto k = static_cast<std::size_t>(c);
+    double dx = contacts.px[k] - x;
+    if (period > 0.0) dx -= period * std::round(dx / period);
+    const double distance = std::hypot(dx, contacts.py[k] - y);
+    if (distance > least) continue;
+    least = distance;
+    nearest = c;
+  }
+  return nearest;
+}
+
+ContactKey key_of(const FrameContacts& contacts, Index c) {
+  const auto k = static_cast<std::size_t>(c);
+  return {contacts.a[k], contacts.b[k], contacts.shift[k]};
+}
+
+std::optional<Index> contact_of_key(const FrameContacts& contacts, const ContactKey& key) {
+  Index low = 0, high = contacts.count();  // contacts come in the order of their keys
+  const auto before = [&](Index c) {
+    const ContactKey of = key_of(contacts, c);
+    return std::tie(of.a, of.b, of.shift) < std::tie(key.a, key.b, key.shift);
+  };
+  while (low < high) {
+    const Index middle = low + (high - low) / 2;
+    (before(middle) ? low : high) = before(middle) ? middle + 1 : middle;
+  }
+  if (low == contacts.count() || !(key_of(contacts, low) == key)) return std::nullopt;
+  return low;
+}
+
+}  // namespace talus

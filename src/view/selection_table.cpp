@@ -1,0 +1,114 @@
+#include "view/selection_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <fmt/core.h>
+
+#include "analysis/histogram.h"
+#include "core/trigonometry.h"
+
+namespace talus {
+namespace {
+
+constexpr int histogram_bins = 24;
+
+double value_of(std::span<const double> values, Index grain) {
+  return values[static_cast<std::size_t>(grain)];
+}
+
+PlotSeries stairs_of(const std::string& name, std::span<const Index> grains, std::span<const double> values,
+                     double low, double high) {
+  Histogram histogram(low, high, histogram_bins);
+  for (const Index grain : grains) histogram.add(value_of(values, grain));
+  const std::vector<double> density = histogram.density();
+  PlotSeries stairs;
+  stairs.name = name;
+  const auto add = [&stairs](double x, double y) {
+    stairs.x.push_back(x);
+    stairs.y.push_back(y);
+  };
+  add(low, 0.0);
+  for (std::size_t bin = 0; bin < density.size(); ++bin) {
+    add(histogram.edges[bin], density[bin]);
+    add(histogram.edges[bin + 1], density[bin]);
+  }
+  add(high, 0.0);
+  return stairs;
+}
+
+}  // namespace
+
+GrainStatistics statistics_of(std::span<const Index> grains, std::span<const double> values) {
+  GrainStatistics of;
+  double sum = 0.0;
+  for (const Index grain : grains) {
+    const double value = value_of(values, grain);
+    if (std::isnan(value)) continue;
+    of.least = of.count == 0 ? value : std::min(of.least, value);
+    of.largest = of.count == 0 ? value : std::max(of.largest, value);
+    sum += value;
+    ++of.count;
+  }
+  if (of.count == 0) return of;
+  of.mean = sum / static_cast<double>(of.count);
+  if (of.count < 2) return of;
+  double squares = 0.0;
+  for (const Index grain : grains) {
+    const double value = value_of(values, grain);
+    if (!std::isnan(value)) squares += (value - of.mean) * (value - of.mean);
+  }
+  of.deviation = std::sqrt(squares / static_cast<double>(of.count - 1));
+  return of;
+}
+
+std::vector<Index> sorted_by(std::vector<Index> grains, std::span<const double> values, bool descending) {
+  std::ranges::sort(grains, [&](Index one, Index other) {
+    const double a = value_of(values, one), b = value_of(values, other);
+    if (std::isnan(a) != std::isnan(b)) return std::isnan(b);
+    if (a != b && !std::isnan(a)) return descending ? a > b : a < b;
+    return one < other;
+  });
+  return grains;
+}
+
+Plot histogram_of(const GrainQuantity& quantity, std::span<const Index> selected, std::span<const Index> all,
+                  std::span<const double> values) {
+  Plot plot;
+  plot.name = fmt::format("histogram of {}", quantity.name);
+  plot.title = "Density";
+  plot.x_title = fmt::format("{}{}{}", quantity.name, quantity.unit == "1" ? "" : " in ",
+                             quantity.unit == "1" ? "" : quantity.unit);
+  std::ranges::replace(plot.x_title, '_', ' ');  // which would set a subscript
+  plot.along_run = false;
+  const GrainStatistics of = statistics_of(all, values);
+  if (of.count == 0) return plot;
+  const double room = of.largest > of.least ? 0.0 : of.least == 0.0 ? 0.5 : 0.5 * std::abs(of.least);
+  const double low = of.least - room, high = of.largest + room;
+  if (!std::isfinite(low) || !std::isfinite(high)) return plot;
+  plot.series.push_back(stairs_of("selected", selected, values, low, high));
+  plot.series.push_back(stairs_of("all", all, values, low, high));
+  return plot;
+}
+
+std::string grains_table(const Frame& frame, std::span<const Index> grains,
+                         std::span<const GrainColumn> columns) {
+  std::string text = "time (s),tilt (deg)";
+  for (const GrainColumn& column : columns) text.append(1, ',').append(head_of(column.quantity));
+  text += '\n';
+  const std::string instant = fmt::format("{},{}", frame.time, degrees(frame.tilt));
+  for (const Index grain : grains) {
+    text += instant;
+    for (const GrainColumn& column : columns) {
+      const double value = value_of(column.values, grain);
+      text += ',';
+      if (std::isnan(value)) continue;
+      text += column.quantity.whole ? fmt::format("{}", static_cast<std::int64_t>(value))
+                                    : fmt::format("{}", value);
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+}  // namespace talus

@@ -1,0 +1,44 @@
+#pragma once
+/// Selected grains as a table, for the window and for files.
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "view/grain_quantities.h"
+#include "view/plots.h"
+
+namespace talus {
+
+/// Of the values of some grains; those that are NaN do not count.
+struct GrainStatistics {
+  std::size_t count = 0;
+  double mean = not_known, deviation = not_known;  ///< standard deviation, over count - 1; NaN below two
+  double least = not_known, largest = not_known;
+};
+
+/// `values` of all grains, by their ids.
+GrainStatistics statistics_of(std::span<const Index> grains, std::span<const double> values);
+
+/// The grains by ascending values, or descending ones; those without a value come last, and equal ones by
+/// their ids.
+std::vector<Index> sorted_by(std::vector<Index> grains, std::span<const double> values, bool descending);
+
+/// "histogram of NAME": the probability densities of a quantity over the selected grains and over `all`, in
+/// equal bins between the least and the largest value of all; curves are stairs. Empty where there are no
+/// values.
+Plot histogram_of(const GrainQuantity& quantity, std::span<const Index> selected, std::span<const Index> all,
+                  std::span<const double> values);
+
+/// A quantity with its values of all grains, by their ids.
+struct GrainColumn {
+  const GrainQuantity& quantity;
+  std::span<const double> values;
+};
+
+/// A table of the grains in CSV: time, tilt, and the columns, whose heads have the units. An empty field
+/// where there is no value.
+std::string grains_table(const Frame& frame, std::span<const Index> grains,
+                         std::span<const GrainColumn> columns);
+
+}  // namespace talus

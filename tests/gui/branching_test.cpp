@@ -1,0 +1,161 @@
+/// Branches in the window: going on from a frame, back before a command, grains that are dragged.
+
+#include <gtest/gtest.h>
+
+#include "core/hash.h"
+#include "gui/offscreen_fixture.h"
+#include "io/run_file.h"
+
+namespace talus {
+namespace {
+
+/// A replay of which a branch is made, in a window without a display.
+class Branching : public test::Replay {
+ protected:
+  bool wait_until(const std::function<bool()>& so) {
+    for (int wait = 0; wait < 1000; ++wait) {
+      gui_.frame();
+      if (so()) return true;
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    return false;
+  }
+  LiveStatus status() { return model_.live()->status(); }
+  std::string hash() {
+    EXPECT_TRUE(wait_until([&] { return !status().running; }));
+    return status().state_hash;
+  }
+  /// So many tens of steps.
+  void step_tens(int count) {
+    for (int k = 0; k < count; ++k) {
+      gui_.click("step 10");
+      hash();
+    }
+  }
+};
+
+TEST_F(Branching, a_replay_goes_on_from_the_frame_shown) {
+  model_.go_to(std::size_t{2});
+  gui_.settle();
+  const std::int64_t step = model_.frame().step;
+  gui_.click("branch here");
+  ASSERT_TRUE(model_.is_live());
+  EXPECT_EQ(status().step, step);
+  gui_.click("play");
+  ASSERT_TRUE(wait_until([&] { return model_.frame_count() > 1; })) << "a frame later";
+  gui_.click("play");
+  ASSERT_FALSE(hash().empty());
+  // Five frames of the run fill the line, and the branch begins at the third of them.
+  gui_.click("time line", 0.51f, 0.6f);
+  EXPECT_EQ(model_.frame_index(), 0u);
+  EXPECT_TRUE(gui_.requests().open_path.empty());
+  gui_.click("time line", 0.25f, 0.6f);
+  EXPECT_EQ(gui_.requests().open_path, folder_.path("bed.h5")) << "the run that it left";
+}
+
+TEST_F(Branching, N_and_U_are_its_keys) {
+  gui_.key('N');
+  ASSERT_TRUE(model_.is_live());
+  const std::string before = hash();
+  model_.state.selected = 3;
+  gui_.key('u');
+  gui_.key(key_right);
+  EXPECT_NE(hash(), before);
+  gui_.key('U');
+  EXPECT_EQ(hash(), before);
+  gui_.key('U');
+  EXPECT_NE(model_.state.message.find("no command"), std::string::npos) << model_.state.message;
+}
+
+TEST_F(Branching, the_last_frame_of_a_run_that_has_ended_is_refused) {
+  gui_.key(key_end);
+  gui_.click("branch here");
+  EXPECT_FALSE(model_.is_live());
+  EXPECT_NE(model_.state.message.find("the run ends"), std::string::npos) << model_.state.message;
+}
+
+TEST_F(Branching, the_same_push_again_gives_the_same_state) {
+  gui_.click("branch here");
+  model_.state.selected = 5;
+  gui_.click("tab act");
+  EXPECT_TRUE(gui_.has("push"));
+  std::string first;
+  for (int time = 0; time < 3; ++time) {
+    gui_.click("tab act");
+    gui_.click("push");
+    gui_.click("tab run");
+    step_tens(2);
+    if (time == 0) first = hash();
+    EXPECT_EQ(hash(), first);
+    gui_.click("tab act");
+    gui_.click("back");
+    EXPECT_TRUE(model_.live()->commands().empty());
+  }
+}
+
+TEST_F(Branching, ctrl_and_the_mouse_drag_a_grain_and_the_saved_branch_is_replayed) {
+  gui_.click("branch here");
+  const Index grain = 30;
+  const auto [x, y] = share_of(grain);
+  const auto shown = model_.shown_region(1.0);
+  const double before_x = model_.frame().x[grain];
+  const WidgetPlace map = gui_.place("map");
+  gui_.take("map", x, y);
+  EXPECT_FALSE(status().dragged) << "a click is for a contact";
+  gui_.move(map.x0 + x * (map.x1 - map.x0), map.y0 + y * (map.y1 - map.y0) - 6.0f);
+  EXPECT_EQ(model_.state.selected, grain);
+  EXPECT_EQ(status().dragged, grain);
+  for (int k = 1; k <= 5; ++k) {
+    model_.live()->step(3);
+    hash();
+    gui_.move(map.x0 + (x + 0.01f * static_cast<float>(k)) * (map.x1 - map.x0), map.y0 + 0.05f);
+  }
+  EXPECT_NE(model_.state.message.find("m g"), std::string::npos) << model_.state.message;
+  model_.live()->step(3);
+  hash();
+  gui_.let_go();
+  EXPECT_FALSE(status().dragged);
+  EXPECT_NEAR(model_.shown_region(1.0)[0], shown[0], 1e-4) << "the picture stays";
+  EXPECT_NEAR(model_.shown_region(1.0)[3], shown[3], 1e-4);
+  EXPECT_NE(model_.frame().x[grain], before_x);
+  const std::vector<Command> commands = model_.live()->commands();
+  ASSERT_GE(commands.size(), 4u);
+  EXPECT_EQ(commands.front().kind, CommandKind::drag);
+  EXPECT_EQ(commands.back().kind, CommandKind::release);
+  EXPECT_EQ(status().commands_given, 1u);
+  const std::string end = hash();
+  gui_.key('s');
+  { const ViewModel ended = std::move(model_); }
+  const test::Outcome replay = test::run_talus({"replay", "bed-branch-1.h5"}, folder_.path());
+  EXPECT_EQ(replay.exit_code, 0) << replay.err;
+  EXPECT_NE(replay.out.find("recomputed  " + end), std::string::npos) << replay.out;
+  const test::Outcome info = test::run_talus({"info", "bed-branch-1.h5"}, folder_.path());
+  EXPECT_NE(info.out.find("branch of"), std::string::npos) << info.out;
+  EXPECT_NE(info.out.find("drag grain 30"), std::string::npos) << info.out;
+  EXPECT_EQ(test::run_talus({"check", "bed-branch-1.h5"}, folder_.path()).exit_code, 0);
+}
+
+TEST_F(Branching, ctrl_selects_contacts_and_draws_lassos_too) {
+  gui_.click("branch here");
+  const auto [x, y] = share_of(30);
+  gui_.take("map", x, y);
+  gui_.let_go();
+  EXPECT_TRUE(model_.state.selecting.selection.contact);
+  gui_.hold(key_left_shift, true);
+  gui_.take("map", x, y);
+  gui_.move(gui_.place("map").x0 + 5.0f, gui_.place("map").y0 + 5.0f);
+  EXPECT_EQ(model_.state.selecting.outline.size(), 2u) << "with shift a lasso begins on a grain, too";
+  EXPECT_FALSE(model_.state.selecting.outline_is_box);
+  gui_.let_go();
+  gui_.hold(key_left_shift, false);
+  gui_.take("map", 0.005f, 0.005f);
+  const WidgetPlace map = gui_.place("map");
+  for (const auto& [to_x, to_y] : {std::pair(0.995f, 0.005f), {0.995f, 0.995f}, {0.005f, 0.995f}})
+    gui_.move(map.x0 + to_x * (map.x1 - map.x0), map.y0 + to_y * (map.y1 - map.y0));
+  gui_.let_go();
+  EXPECT_GT(model_.selected_grains().size(), 10u);
+  EXPECT_TRUE(model_.live()->commands().empty());
+}
+
+}  // namespace
+}  // namespace talus

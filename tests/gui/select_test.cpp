@@ -1,0 +1,145 @@
+/// Selecting in the window without a display: clicks and drags with shift and ctrl, conditions, the table,
+/// the inspector of contacts.
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <thread>
+
+#include "gui/offscreen_fixture.h"
+
+namespace talus {
+namespace {
+
+using test::Replay;
+
+TEST_F(Replay, shift_selects_more_grains) {
+  const auto click = [&](Index grain) {
+    const auto [x, y] = share_of(grain);
+    gui_.click("map", x, y);
+  };
+  click(7);
+  gui_.hold(key_left_shift, true);
+  click(31);
+  click(12);
+  EXPECT_EQ(model_.selected_grains(), (std::vector<Index>{7, 12, 31}));
+  click(31);
+  EXPECT_EQ(model_.selected_grains(), (std::vector<Index>{7, 12})) << "the second click takes it away";
+  gui_.hold(key_left_shift, false);
+  click(31);
+  EXPECT_EQ(model_.selected_grains(), (std::vector<Index>{31})) << "a plain click is for one";
+}
+
+TEST_F(Replay, a_box_selects_and_moves_nothing) {
+  gui_.scroll("map", 2.0f);  // where dragging would move the picture
+  const std::vector<WidgetPlace> before = gui_.places();
+  const ViewCamera camera = model_.state.camera;
+  gui_.hold(key_left_shift, true);
+  gui_.drag("map", 0.0f, 0.0f, 0.5f, 1.0f);
+  gui_.hold(key_left_shift, false);
+  const std::vector<Index> selected = model_.selected_grains();
+  std::vector<Index> left;
+  const WidgetPlace map = gui_.place("map");
+  const double aspect = static_cast<double>(map.x1 - map.x0) / static_cast<double>(map.y1 - map.y0);
+  const auto [x_min, x_max, y_min, y_max] = model_.shown_region(aspect);
+  for (Index i = 0; i < model_.statics().free_count; ++i) {
+    const double x = model_.frame().x[static_cast<std::size_t>(i)],
+                 y = model_.frame().y[static_cast<std::size_t>(i)];
+    if (x > x_min && x < 0.5 * (x_min + x_max) && y > y_min && y < y_max) left.push_back(i);
+  }
+  EXPECT_GT(left.size(), 2u);
+  EXPECT_EQ(selected, left);
+  EXPECT_EQ(model_.state.camera.centre_x, camera.centre_x);
+  for (const WidgetPlace& place : before) {
+    const WidgetPlace now = gui_.place(place.name);
+    EXPECT_TRUE(now.x0 == place.x0 && now.y0 == place.y0 && now.x1 == place.x1 && now.y1 == place.y1)
+        << place.name;
+  }
+}
+
+TEST_F(Replay, ctrl_draws_a_lasso_and_picks_contacts) {
+  gui_.hold(key_left_control, true);
+  gui_.drag("map", 0.2f, 0.2f, 0.8f, 0.8f);
+  EXPECT_TRUE(model_.selected_grains().empty()) << "a straight line holds nothing";
+  const auto [x, y] = share_of(7);
+  gui_.click("map", x, y);
+  gui_.hold(key_left_control, false);
+  const auto contact = model_.state.selecting.selection.contact;
+  ASSERT_TRUE(contact);
+  EXPECT_TRUE(contact->a == 7 || contact->b == 7);
+  EXPECT_FALSE(model_.state.selected);
+  gui_.key(key_escape);
+  EXPECT_FALSE(model_.state.selecting.selection.contact);
+}
+
+TEST_F(Replay, a_condition_is_written) {
+  gui_.key('S');
+  gui_.click("condition");
+  gui_.type("y > 1 && id < 20");
+  gui_.key(key_enter);
+  EXPECT_GT(model_.selected_grains().size(), 1u);
+  for (const Index grain : model_.selected_grains()) EXPECT_LT(grain, 20);
+  gui_.click("condition");
+  gui_.type(" &");
+  gui_.click("select");
+  EXPECT_NE(model_.state.selecting.error.find("'&&'"), std::string::npos) << model_.state.selecting.error;
+  EXPECT_GT(model_.selected_grains().size(), 1u);
+  gui_.click("select none");
+  EXPECT_TRUE(model_.selected_grains().empty());
+}
+
+TEST_F(Replay, selected_grains_are_a_table) {
+  model_.select(std::vector<Index>{3, 9, 14, 30});
+  gui_.key('S');
+  gui_.click("row 2");
+  EXPECT_EQ(model_.state.selected, std::optional<Index>(14)) << "by their ids at first";
+  EXPECT_EQ(model_.selected_grains().size(), 4u) << "what is selected stays";
+  gui_.click("sort by id");
+  gui_.click("row 0");
+  EXPECT_EQ(model_.state.selected, std::optional<Index>(30));
+  model_.state.selecting.table_path = folder_.path("selected.csv");
+  gui_.click("write table");
+  EXPECT_NE(model_.state.message.find("4 grains"), std::string::npos) << model_.state.message;
+  gui_.click("write table");
+  EXPECT_NE(model_.state.message.find("exists"), std::string::npos)
+      << "it is not replaced: " << model_.state.message;
+  gui_.click("select none");
+  EXPECT_FALSE(gui_.has("row 0"));
+}
+
+TEST_F(Replay, contacts_and_grains_lead_to_each_other) {
+  model_.select(std::optional<Index>(12));
+  gui_.settle();
+  const std::vector<GrainContact> contacts = model_.inspection()->contacts;
+  ASSERT_FALSE(contacts.empty());
+  gui_.click("contact with " + contacts[0].other_name);
+  ASSERT_EQ(model_.state.selecting.selection.contact, std::optional(contacts[0].key));
+  EXPECT_DOUBLE_EQ(model_.contact_inspection()->fn, contacts[0].fn);
+  EXPECT_TRUE(gui_.has("cone"));
+  for (int wait = 0; wait < 500 && !gui_.has("plot mobilisation"); ++wait) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    gui_.frame();
+  }
+  gui_.settle();
+  gui_.click("plot contact forces", 0.95f, 0.5f);
+  EXPECT_EQ(model_.frame_index(), 4u) << "the frame there";
+  gui_.click(contacts[0].key.a == 12 ? "first body" : "second body");
+  EXPECT_EQ(model_.state.selected, std::optional<Index>(12));
+  EXPECT_FALSE(gui_.has("cone"));
+}
+
+TEST_F(Replay, the_picture_follows_a_grain_until_it_is_moved) {
+  gui_.key('L');
+  EXPECT_FALSE(model_.state.selecting.follow) << "there is none to follow";
+  gui_.key('n');
+  gui_.key('T');
+  EXPECT_TRUE(model_.state.selecting.trails);
+  gui_.scroll("map", 4.0f);
+  gui_.key('L');
+  EXPECT_TRUE(model_.state.selecting.follow);
+  gui_.drag("map", 0.5f, 0.5f, 0.3f, 0.5f);
+  EXPECT_FALSE(model_.state.selecting.follow);
+}
+
+}  // namespace
+}  // namespace talus

@@ -1,0 +1,256 @@
+/// A run that begins with a frame of another one, and grains that are dragged.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/errors.h"
+#include "core/hash.h"
+#include "core/trigonometry.h"
+#include "io/run_file.h"
+#include "session/drag.h"
+#include "session/frame_state.h"
+#include "session/run.h"
+#include "session/run_check.h"
+#include "session/run_header.h"
+#include "support/exit_code.h"
+#include "support/small_bed.h"
+#include "support/temporary_folder.h"
+
+namespace talus {
+namespace {
+
+constexpr std::int64_t to_the_end = 1'000'000;
+
+void record(Session& session, const RunOrigin& origin, const std::string& path,
+            std::span<const Command> commands = {}) {
+  RunStore store = RunStore::create(path, run_header(session, origin), false);
+  ASSERT_EQ(replay(session, &store, commands, to_the_end, {}), RunEnd::complete);
+}
+
+/// A run with a change of friction and a rate of the tilt on its way.
+void record_run(const std::string& path, std::span<const Command> commands = {}) {
+  Session session(test::small_tilted_bed(3.0));
+  record(session, {}, path, commands);
+}
+
+BranchOrigin origin_at(const RunFile& run, const std::string& path, std::size_t k) {
+  return {path, static_cast<std::int64_t>(k), hash_text(state_hash(run.checkpoint().world)),
+          checkpoint_at_frame(run, k)};
+}
+
+Session begun(const BranchOrigin& branch) {
+  Session session(test::small_tilted_bed(3.0), branch.start);
+  session.record_start();
+  return session;
+}
+
+std::vector<Command> some_commands(std::int64_t step) {
+  return {{step, CommandKind::push, 3, 0.2, 0.1},       {step + 2, CommandKind::drag, 7, 0.05, 0.06},
+          {step + 5, CommandKind::drag, 7, 0.06, 0.06}, {step + 9, CommandKind::release},
+          {step + 10, CommandKind::friction, -1, 0.3},  {step + 11, CommandKind::tilt_rate, -1, 10.0}};
+}
+
+TEST(Branch, is_replayed_from_its_own_file_with_any_number_of_threads) {
+  const test::TemporaryFolder folder;
+  const std::string parent = folder.path("run.h5"), path = folder.path("branch.h5");
+  record_run(parent);
+  const RunFile run = RunFile::open(parent);
+  const BranchOrigin origin = origin_at(run, parent, 2);
+  Session session = begun(origin);
+  const std::vector<Command> commands = some_commands(origin.start.world.step);
+  record(session, {"", "", "", 1, origin}, path, commands);
+  const RunFile branch = RunFile::open(path);
+  ASSERT_TRUE(branch.header().branch);
+  EXPECT_EQ(branch.header().branch->run, parent);
+  EXPECT_EQ(branch.header().branch->frame, 2);
+  EXPECT_EQ(branch.header().branch->run_hash, origin.run_hash);
+  EXPECT_EQ(state_hash(branch.header().branch->start.world), state_hash(origin.start.world));
+  EXPECT_EQ(branch.commands().size(), 6u);
+  for (const int threads : {1, 3}) {
+    Session again = session_at_start(branch.header(), path);
+    again.use_threads(threads);
+    replay(again, nullptr, branch.commands(), branch.checkpoint().world.step, {});
+    EXPECT_EQ(state_hash(again.world()), state_hash(branch.checkpoint().world)) << threads;
+    EXPECT_EQ(schedule_hash(again.schedule()), schedule_hash(session.schedule()));
+  }
+  const RunCheck check = check_run(branch, {});
+  EXPECT_TRUE(check.faults.empty()) << check.faults.front();
+}
+
+TEST(Branch, begins_with_the_frame_and_goes_on_as_the_run_did) {
+  const test::TemporaryFolder folder;
+  const std::string parent = folder.path("run.h5");
+  record_run(parent);
+  const RunFile run = RunFile::open(parent);
+  Session session = begun(origin_at(run, parent, 2));
+  const Frame first = session.segment().frames.front(), left = run.frame(2);
+  EXPECT_EQ(first.step, left.step);
+  EXPECT_EQ(first.tilt, left.tilt);
+  EXPECT_EQ(first.contacts.fn, left.contacts.fn);
+  for (std::size_t i = 0; i < first.x.size(); ++i) EXPECT_NEAR(first.x[i], left.x[i], 1e-8) << i;
+  while (session.phase() != Phase::done) session.advance();
+  EXPECT_EQ(session.world().step, run.checkpoint().world.step) << "the steps of the tilt are counted on";
+  EXPECT_EQ(session.world().tilt, run.checkpoint().world.tilt);
+  const World& end = run.checkpoint().world;
+  for (Index i = 0; i < end.grains.free_count; ++i)
+    EXPECT_NEAR(session.world().grains.y[i], end.grains.y[i], 1e-4) << "a hundredth of D";
+  const ObservableRow& row = session.segment().observables.back();
+  EXPECT_NEAR(at(row, Observable::volume_strain), at(run.all_observables().back(), Observable::volume_strain),
+              1e-3)
+      << "strains are counted from where the run counted them";
+}
+
+/// At each frame the schedule is that which a session has there.
+TEST(Branch, knows_how_the_run_stood_at_each_frame) {
+  const test::TemporaryFolder folder;
+  Session session(test::small_tilted_bed(3.0));
+  while (session.phase() != Phase::tilt) session.advance();
+  const std::int64_t step = session.world().step;
+  const std::vector<Command> commands = {{step + 5, CommandKind::friction, -1, 0.4},
+                                         {step + 12, CommandKind::tilt_rate, -1, 25.0},
+                                         {step + 30, CommandKind::drag, 5, 0.04, 0.05},
+                                         {step + 60, CommandKind::tilt_rate, -1, 12.0},
+                                         {step + 70, CommandKind::release}};
+  record_run(folder.path("run.h5"), commands);
+  const RunFile run = RunFile::open(folder.path("run.h5"));
+  Session again(test::small_tilted_bed(3.0));
+  std::size_t compared = 0;
+  auto next = commands.begin();
+  for (std::size_t k = 0; k + 1 < run.all_frame_tilts().size(); ++k) {
+    const std::int64_t at = run.frame(k).step;
+    while (again.world().step < at) {
+      for (; next != commands.end() && next->step == again.world().step; ++next) again.apply(*next);
+      again.advance();
+    }
+    const Schedule expected = again.schedule();
+    const Schedule found = stored_schedule(checkpoint_at_frame(run, k), false, "the frame");
+    EXPECT_EQ(found.phase, expected.phase) << k;
+    EXPECT_EQ(found.tilt_steps, expected.tilt_steps) << k;
+    EXPECT_EQ(found.quiet_steps, expected.quiet_steps) << k;
+    EXPECT_EQ(found.friction, expected.friction) << k;
+    EXPECT_EQ(found.course.has_value(), expected.course.has_value()) << k;
+    if (found.course && expected.course) {
+      EXPECT_EQ(found.course->from, expected.course->from) << k;
+      EXPECT_EQ(found.course->since, expected.course->since) << k;
+    }
+    EXPECT_EQ(found.drag.has_value(), expected.drag.has_value()) << k;
+    EXPECT_EQ(found.baseline.volume, expected.baseline.volume) << k;
+    ++compared;
+  }
+  EXPECT_GE(compared, 4u);
+}
+
+TEST(Branch, of_the_last_frame_is_refused_with_a_reason) {
+  const test::TemporaryFolder folder;
+  record_run(folder.path("run.h5"));
+  const RunFile run = RunFile::open(folder.path("run.h5"));
+  const std::size_t last = run.all_frame_tilts().size() - 1;
+  EXPECT_EQ(test::exit_code_of([&] { checkpoint_at_frame(run, last); }), ExitCode::usage);
+}
+
+TEST(Branch, of_a_branch_goes_on) {
+  const test::TemporaryFolder folder;
+  const std::string parent = folder.path("run.h5"), path = folder.path("branch.h5");
+  record_run(parent);
+  const RunFile run = RunFile::open(parent);
+  const BranchOrigin origin = origin_at(run, parent, 1);
+  Session session = begun(origin);
+  const std::vector<Command> commands = {{origin.start.world.step, CommandKind::friction, -1, 0.9}};
+  record(session, {"", "", "", 1, origin}, path, commands);
+  const RunFile branch = RunFile::open(path);
+  const Schedule schedule = stored_schedule(checkpoint_at_frame(branch, 2), false, "the branch");
+  EXPECT_EQ(schedule.friction, 0.9);
+  EXPECT_EQ(schedule.tilt_steps,
+            static_cast<std::int64_t>(std::lround(degrees(branch.frame(2).tilt) / 0.02)));
+}
+
+constexpr double diameter = 0.01, step_length = 1e-3;
+
+World one_grain() {
+  World world;
+  world.boundary.periodic = true;
+  world.boundary.length = 20 * diameter;
+  add_disk(world.grains, {diameter, 5 * diameter}, 0.5 * diameter, 2500.0, false);
+  return world;
+}
+
+/// A free grain comes to where gravity and spring balance, a tenth of D below, without swinging past it.
+TEST(Drag, brings_a_grain_to_where_it_is_held) {
+  World world = one_grain();
+  const Drag drag{0, 19 * diameter, 8 * diameter};  // two D to the left, across the edge
+  double lowest = world.grains.x[0], highest = world.grains.y[0];
+  for (int k = 0; k < 400; ++k) {
+    pull(drag, diameter, step_length, world);
+    world.grains.vy[0] -= world.gravity * step_length;
+    world.grains.x[0] += step_length * world.grains.vx[0];
+    world.grains.y[0] += step_length * world.grains.vy[0];
+    lowest = std::min(lowest, world.grains.x[0]);
+    highest = std::max(highest, world.grains.y[0]);
+  }
+  EXPECT_NEAR(world.grains.x[0], -diameter, 1e-6);
+  EXPECT_NEAR(world.grains.y[0], 7.9 * diameter, 1e-6);
+  EXPECT_GT(lowest, -1.01 * diameter) << "critically damped";
+  EXPECT_LT(highest, 7.93 * diameter);
+}
+
+TEST(Drag, pulls_with_ten_weights_for_each_diameter) {
+  const World world = one_grain();
+  const Vec2 pulled = drag_acceleration({0, 3 * diameter, 5 * diameter}, diameter, step_length, world);
+  EXPECT_NEAR(pulled.x, 2 * 10 * world.gravity, 1e-9);
+  EXPECT_EQ(pulled.y, 0.0);
+}
+
+TEST(Drag, stays_stable_in_long_steps) {
+  World world = one_grain();
+  const double h = 0.1;
+  for (int k = 0; k < 200; ++k) {
+    pull({0, 3 * diameter, 8 * diameter}, diameter, h, world);
+    world.grains.x[0] += h * world.grains.vx[0];
+    world.grains.y[0] += h * world.grains.vy[0];
+  }
+  EXPECT_NEAR(world.grains.x[0], 3 * diameter, 1e-6);
+}
+
+TEST(Drag, goes_on_until_it_is_ended_also_in_a_session_that_is_resumed) {
+  Session session(test::small_bed());
+  for (int k = 0; k < 5; ++k) session.advance();
+  const Grains& grains = session.world().grains;
+  session.apply({0, CommandKind::drag, 4, grains.x[4], grains.y[4] + 5 * diameter});
+  session.advance();
+  Session resumed(test::small_bed(), session.checkpoint(0.0));
+  for (int k = 0; k < 30; ++k) {
+    session.advance();
+    resumed.advance();
+  }
+  EXPECT_EQ(state_hash(resumed.world()), state_hash(session.world()));
+  session.apply({0, CommandKind::release});
+  EXPECT_FALSE(session.schedule().drag);
+  session.advance();
+  resumed.advance();
+  EXPECT_NE(state_hash(resumed.world()), state_hash(session.world()));
+}
+
+TEST(Drag, refuses_what_cannot_be_done) {
+  Session session(test::small_bed());
+  const auto refused = [&](const Command& command) {
+    return test::exit_code_of([&] { session.apply(command); }) == ExitCode::usage;
+  };
+  EXPECT_TRUE(refused({0, CommandKind::release}));
+  EXPECT_TRUE(refused({0, CommandKind::drag, -1, 0.0, 0.0}));
+  EXPECT_TRUE(refused({0, CommandKind::drag, 1000, 0.0, 0.0}));
+  EXPECT_TRUE(refused({0, CommandKind::drag, 0, std::nan(""), 0.0}));
+  EXPECT_TRUE(refused({0, CommandKind::drag, 0, 0.05, 51 * diameter + session.world().grains.y[0]}));
+  EXPECT_TRUE(session.segment().commands.empty());
+  EXPECT_FALSE(session.schedule().drag);
+}
+
+TEST(Drag, is_told_once_however_often_it_was_moved) {
+  const std::vector<Command> commands = some_commands(10);
+  const std::vector<Command> given = given_commands(commands);
+  ASSERT_EQ(given.size(), 4u);
+  EXPECT_EQ(command_text(given[1]), "drag grain 7 to (0.05, 0.06) m");
+}
+
+}  // namespace
+}  // namespace talus

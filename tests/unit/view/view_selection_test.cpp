@@ -1,0 +1,126 @@
+/// What is selected in the view of a run made by hand.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "support/temporary_folder.h"
+#include "unit/view/example_bed.h"
+#include "unit/view/opened_view.h"
+#include "view/rings.h"
+
+namespace talus {
+namespace {
+
+class SelectionInRun : public testing::Test {
+ protected:
+  SelectionInRun() {
+    example::write_bed_run(folder_.path("run.h5"), 20.0);
+    model_.emplace(example::opened(folder_.path("run.h5")));
+  }
+  void select_where(const std::string& condition) {
+    model_->state.selecting.condition = condition;
+    model_->select_by_condition();
+  }
+  std::vector<Index> selected() { return model_->selected_grains(); }
+  std::size_t lines() { return model_->map(2.0).lines.size(); }
+
+  test::TemporaryFolder folder_;
+  std::optional<ViewModel> model_;
+};
+
+TEST_F(SelectionInRun, a_condition_selects_in_the_frame_shown) {
+  model_->go_to(2);
+  select_where("gamma > 0.7");
+  EXPECT_EQ(selected(), (std::vector<Index>{0, 10}));
+  EXPECT_FALSE(model_->state.selected) << "none of them is looked at";
+  model_->go_to(3);
+  model_->update(0.0);
+  EXPECT_EQ(selected(), (std::vector<Index>{0, 10})) << "the same grains, in all frames";
+  select_where("gamma > 0.7 && y > 3");
+  EXPECT_EQ(model_->state.selected, std::optional<Index>(30)) << "a single one is looked at";
+  EXPECT_TRUE(model_->state.selecting.selection.grains.empty());
+}
+
+TEST_F(SelectionInRun, a_condition_selects_anew_in_each_frame) {
+  model_->go_to(2);
+  model_->state.selecting.in_each_frame = true;
+  model_->state.selecting.mode = SelectionMode::add;
+  select_where("gamma > 0.7");
+  model_->go_to(3);
+  model_->update(0.0);
+  EXPECT_EQ(selected(), (std::vector<Index>{0, 10, 20, 30}));
+  model_->go_to(2);
+  model_->update(0.0);
+  EXPECT_EQ(selected(), (std::vector<Index>{0, 10})) << "anew, whatever boxes do";
+  model_->select_found({5});
+  model_->go_to(3);
+  model_->update(0.0);
+  EXPECT_EQ(selected(), (std::vector<Index>{0, 5, 10})) << "by hand: that ends it";
+}
+
+TEST_F(SelectionInRun, a_wrong_condition_changes_nothing) {
+  model_->go_to(2);
+  select_where("gamma > 0.7");
+  select_where("gamma > ");
+  EXPECT_NE(model_->state.selecting.error.find("column 9"), std::string::npos)
+      << model_->state.selecting.error;
+  EXPECT_EQ(selected(), (std::vector<Index>{0, 10}));
+  select_where(" ");
+  EXPECT_TRUE(model_->state.selecting.error.empty());
+  EXPECT_TRUE(selected().empty());
+}
+
+TEST_F(SelectionInRun, modes_go_by_what_is_selected) {
+  model_->select(std::vector<Index>{1, 2, 3});
+  model_->state.selecting.mode = SelectionMode::remove;
+  model_->select_found({2, 9});
+  EXPECT_EQ(selected(), (std::vector<Index>{1, 3}));
+  model_->state.selecting.mode = SelectionMode::common;
+  model_->select_found({3, 9});
+  EXPECT_EQ(model_->state.selected, std::optional<Index>(3));
+  model_->state.selecting.mode = SelectionMode::add;
+  model_->select_found({9});
+  EXPECT_EQ(selected(), (std::vector<Index>{3, 9}));
+  EXPECT_EQ(model_->state.selected, std::optional<Index>(3)) << "it is still looked at";
+}
+
+TEST_F(SelectionInRun, it_is_grains_or_a_contact) {
+  model_->select(std::vector<Index>{1, 2, 3});
+  const auto contact = model_->contact_at(3.5, 2.0, 0.2);
+  ASSERT_TRUE(contact);
+  model_->select(*contact);
+  EXPECT_TRUE(selected().empty());
+  EXPECT_EQ(model_->state.selecting.selection.contact, contact);
+  model_->select(std::vector<Index>{1, 2});
+  EXPECT_FALSE(model_->state.selecting.selection.contact);
+  model_->select(std::optional<Index>(7));
+  EXPECT_EQ(selected(), (std::vector<Index>{7}));
+}
+
+TEST_F(SelectionInRun, it_is_drawn_by_lines_alone) {
+  const std::size_t discs = model_->map(2.0).discs.size(), before = lines();
+  model_->select(std::vector<Index>{11, 12, 13});
+  EXPECT_EQ(lines(), before + 3 * 32) << "a ring for each";
+  EXPECT_EQ(model_->map(2.0).discs.size(), discs);
+  for (const Line& line : model_->map(2.0).lines)
+    if (line.colour == selection_colour) {
+      EXPECT_LE(line.half_width, 0.051f) << "thin";
+    }
+  model_->select(*model_->contact_at(3.5, 2.0, 0.2));
+  EXPECT_GT(lines(), before);
+  model_->select(std::optional<Index>());
+  EXPECT_EQ(lines(), before);
+}
+
+TEST_F(SelectionInRun, what_is_not_there_is_not_drawn) {
+  const std::size_t before = lines();
+  model_->select(std::vector<Index>{5000, 6000});
+  EXPECT_EQ(lines(), before);
+  EXPECT_TRUE(selected().empty());
+  model_->select(ContactKey{3, 39, 0});
+  EXPECT_EQ(lines(), before);
+}
+
+}  // namespace
+}  // namespace talus
