@@ -92,7 +92,8 @@ std::string gnuplot_text(const Figure& figure, double width) {
       figure.title, figure.name, short_text(width), short_text(width * figure.height_over_width));
   for (const auto& [name, value] : figure.variables) text += fmt::format("{} = {}\n", name, value);
   return fmt::format("{}\n{}\n{}\nunset output\npass = pass + 1\nif (pass <= 3) reread\n", text,
-                     figure_script("style"), figure_script(figure.script.empty() ? figure.name : figure.script));
+                     figure_script("style"),
+                     figure_script(figure.script.empty() ? figure.name : figure.script));
 }
 
 }  // namespace talus
