@@ -64,8 +64,7 @@ struct ViewState {
   MapSettings map;  ///< layers, colours, threshold, length, turned, ...
   ViewCamera camera;
   BesideState beside;
-  std::optional<double> minus;  ///< rad, of a view that shows a frame minus that at this tilt
-  Theme theme = Theme::light;
+  std::optional<double> minus;    ///< rad, of a view that shows a frame minus that at this tilt
   double scale = 0.0;             ///< of text and widgets; 0: that of the display
   std::optional<double> since;    ///< rad: motion and strain since that tilt; without: per degree
   std::optional<Index> selected;  ///< the grain that is looked at, and that commands act on
@@ -73,33 +72,34 @@ struct ViewState {
   double neighbourhood = 10.0;    ///< D: diameter of the neighbourhood drawn about the selected grain
   bool show_neighbourhoods = true;
   bool highlight_cluster = false;
-  std::string panel_asked;  ///< to be opened with the next picture
   bool show_help = false;
   bool show_controls = true, show_inspector = true, show_plots = true;
+  bool bookmark_asked = false;                 ///< a key has asked for the note of a bookmark
+  bool discard_asked = false;                  ///< whether a run that is not saved may be given up
+  std::string panel_asked;                     ///< to be opened with the next picture
   HeldBar held_bar;                            ///< of the legend
   std::map<std::string, PlotLook> plot_looks;  ///< by the names of plots
   std::string quantity_filter;                 ///< part of the names of quantities offered for plots
   std::string enlarged_plot;                   ///< its name; empty: all are shown
   std::string behind_path;                     ///< of a run or an ensemble to put behind the curves
   std::string plots_folder = "talus-plots";    ///< where plots are written
-  float picture_share = 0.0f;   ///< of the height, for the map; 0: as high as the bed, the plots get the rest
-  bool bookmark_asked = false;  ///< a key has asked for the note of a bookmark
-  std::string bookmark_note;    ///< what is being written
-  std::string announcement;     ///< of a run that has failed or ended, until it is clicked away
-  std::string message;          ///< last thing worth telling: a file written, an error
+  float picture_share = 0.0f;  ///< of the height, for the map; 0: as high as the bed, the plots get the rest
+  Theme theme = Theme::light;
+  std::string bookmark_note;  ///< what is being written
+  std::string announcement;   ///< of a run that has failed or ended, until it is clicked away
+  std::string message;        ///< last thing worth telling: a file written, an error
 
   std::optional<GrainDrag> drag;
 
   // What the action widgets hold.
-  double push_speed = 1.0;  ///< sqrt(g D)
-  double push_angle = 0.0;  ///< deg to the bed
-  int drop_count = 5;
+  double push_speed = 1.0;    ///< sqrt(g D)
+  double push_angle = 0.0;    ///< deg to the bed
   double drop_height = 5.0;   ///< D
   double run_to_tilt = 10.0;  ///< deg
-  int seed = 1;               ///< of the next reset
-  std::string folder;         ///< that the list of files shows; empty: where the program was started
+  int drop_count = 5;
+  int seed = 1;        ///< of the next reset
+  std::string folder;  ///< that the list of files shows; empty: where the program was started
   std::string picture_path = "talus.png";
-  bool discard_asked = false;         ///< whether a run that is not saved may be given up
   std::string run_path = "talus.h5";  ///< where a run is saved that was not recorded
 };
 
