@@ -69,28 +69,6 @@ void part(const char* name, const ImVec2& place, const ImVec2& size, ImGuiWindow
   ImGui::End();
 }
 
-void draw_tabs(Gui& gui, bool with_inspector) {
-  if (!ImGui::BeginTabBar("panels")) return;
-  const auto tab = [&](const char* name, void (*draw)(Gui&)) {
-    const bool asked = gui.panel_asked == name;
-    const bool open =
-        ImGui::BeginTabItem(name, nullptr, asked ? ImGuiTabItemFlags_SetSelected : ImGuiTabItemFlags_None);
-    note_place(gui, std::string("tab ").append(name));
-    if (!open) return;
-    ImGui::BeginChild("panel");
-    draw(gui);
-    ImGui::EndChild();
-    ImGui::EndTabItem();
-  };
-  tab("run", draw_run_panel);
-  tab("map", draw_map_panel);
-  tab("act", draw_action_panel);
-  tab("select", draw_select_panel);
-  tab("files", draw_file_panel);
-  if (with_inspector) tab("grain", draw_inspector);
-  ImGui::EndTabBar();
-}
-
 /// An announcement stays until it is clicked, which shows the last frame before failure.
 void draw_message(Gui& gui) {
   ViewState& state = gui.model.state;
@@ -129,7 +107,7 @@ GuiRequests draw_gui(ViewModel& model, const DrawMap& draw_map, std::vector<Widg
   const float height = size.y - line - time_line;
   const Places at = lay_out_window(model, {size.x, height}, gui.em);
   const float middle = size.x - at.left - at.right;
-  part("controls", {0.0f, 0.0f}, {at.left, height}, 0, [&] { draw_tabs(gui, at.right == 0.0f); });
+  part("controls", {0.0f, 0.0f}, {at.left, height}, 0, [&] { draw_column(gui, at.right == 0.0f); });
   part("grain", {size.x - at.right, 0.0f}, {at.right, height}, ImGuiWindowFlags_None, [&] {
     ImGui::BeginChild("inspector");
     draw_inspector(gui);

@@ -14,7 +14,7 @@ namespace talus {
 /// The place of a widget in the last picture, px of the window, so that tests and scripts can
 /// click on it.
 struct WidgetPlace {
-  std::string name;  ///< "play", "map", "tab maps"
+  std::string name;  ///< "play", "map", "group map"
   float x0 = 0.0f, y0 = 0.0f, x1 = 0.0f, y1 = 0.0f;
 };
 

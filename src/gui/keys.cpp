@@ -43,8 +43,8 @@ constexpr KeyLine key_lines[] = {
     {"e", "write the picture to the file named under files"},
     {"u, k", "push the selected grain; drop grains there"},
     {"N, U", "branch: go on from the frame shown; back before the last command"},
-    {"R M A S F G", "the panels run, map, act, select, files, grain; tab: from field to field"},
-    {"h", "show or hide the panels"},
+    {"R M A S F G", "unfold run, map, act, select, files, grain; tab: from field to field"},
+    {"h", "show or hide the columns"},
     {"l", "show or hide the plots"},
     {"C", "next theme: light, dark, print"},
     {"?", "this list"},
@@ -87,8 +87,7 @@ void choose_map(MapLayers& layers, std::size_t k) {
 
 void ask_for_panel(Gui& gui, ImWchar key) {
   gui.model.state.show_controls = true;
-  for (const char* panel : {"run", "map", "act", "select", "files", "grain"})
-    if (*panel == static_cast<char>(key - 'A' + 'a')) gui.panel_asked = panel;
+  gui.panel_asked = group_of_key(key);
 }
 
 void change_view(Gui& gui, ImWchar key) {

@@ -9,21 +9,19 @@ void draw_action_panel(Gui& gui) {
   if (!live) {
     ImGui::TextWrapped(
         "This is a replay. A branch goes on from the frame shown: push grains, drop or drag them, change "
-        "friction "
-        "and tilt rate.");
+        "friction and tilt rate.");
     draw_branch_button(gui);
     return;
   }
   ViewState& state = gui.model.state;
-  ImGui::PushItemWidth(8.0f * gui.em);
-  named_number(gui, "push speed", "speed, √(gD)", state.push_speed, "%.3g",
+  named_number(gui, "push speed", "speed", state.push_speed, "%.3g √(gD)",
                "speed that the push adds to the grain");
-  named_number(gui, "push angle", "direction, °", state.push_angle, "%.0f",
+  named_number(gui, "push angle", "direction", state.push_angle, "%.0f°",
                "its direction: 0 downslope along the bed, 90 away from the floor");
   if (named_button(gui, "push", "Push the grain", "the selected one")) push_selected(gui);
   ImGui::Separator();
   named_number(gui, "drop count", "grains", state.drop_count, "lifted from the surface farthest away");
-  named_number(gui, "drop height", "height, D", state.drop_height, "%.1f", "above the free surface");
+  named_number(gui, "drop height", "height", state.drop_height, "%.1f D", "above the free surface");
   if (named_button(gui, "drop", "Drop them", "at the selected grain, or in the middle of the picture"))
     drop_here(gui);
   ImGui::Separator();
@@ -31,10 +29,9 @@ void draw_action_panel(Gui& gui) {
   if (const auto friction = named_slider_when_done(gui, "friction", "friction μ", status.friction, 0.0, 1.5,
                                                    "%.2f", "between grains, and with the floor"))
     send(gui, {0, CommandKind::friction, -1, *friction, 0.0});
-  if (const auto rate = named_slider_when_done(gui, "tilt rate", "tilt rate, °/s", status.tilt_rate, 0.0,
-                                               10.0, "%.2f", "0 holds the tilt"))
+  if (const auto rate = named_slider_when_done(gui, "tilt rate", "tilt rate", status.tilt_rate, 0.0, 10.0,
+                                               "%.2f°/s", "0 holds the tilt"))
     send(gui, {0, CommandKind::tilt_rate, -1, *rate, 0.0});
-  ImGui::PopItemWidth();
   ImGui::Separator();
   ImGui::TextWrapped("ctrl and the mouse drag a grain of the map.");
   draw_back_button(gui);

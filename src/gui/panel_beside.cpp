@@ -32,7 +32,8 @@ void choose_minus(Gui& gui) {
     beside.minus = minus ? std::optional(gui.model.frame().tilt) : std::nullopt;
   if (!beside.minus) return;
   double angle = degrees(*beside.minus);
-  if (named_slider(gui, "beside minus angle", "deg", angle, 0.0, 60.0, "%.2f")) beside.minus = radians(angle);
+  if (named_slider(gui, "beside minus angle", "since", angle, 0.0, 60.0, "%.2f°"))
+    beside.minus = radians(angle);
 }
 
 void choose_run_beside(Gui& gui) {

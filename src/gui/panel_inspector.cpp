@@ -27,7 +27,11 @@ const char* status_text(ContactStatus status) {
 void draw_contacts(Gui& gui, const Inspection& grain, double weight) {
   const ImGuiTableFlags flags =
       ImGuiTableFlags_RowBg | ImGuiTableFlags_BordersInnerV | ImGuiTableFlags_SizingStretchProp;
-  if (!ImGui::BeginTable("contacts", 4, flags)) return;
+  // As high as most grains need, so that what is below stays in its place from frame to frame.
+  constexpr float usual_rows = 7.0f;
+  const float row_height = ImGui::GetTextLineHeight() + 2.0f * ImGui::GetStyle().CellPadding.y;
+  const ImVec2 least{0.0f, usual_rows * row_height};
+  if (!ImGui::BeginTable("contacts", 4, flags, least)) return;
   for (const char* title : {"with", "f_n/mg", "f_t/mg", ""}) {
     ImGui::TableNextColumn();
     rich_text(title);
@@ -64,8 +68,9 @@ void draw_mohr_circle(Gui& gui, const Inspection& grain, double theta_c) {
   const ImVec2 origin{corner.x + 0.05f * width, corner.y + 1.6f * em + 0.37f * width};
   list.AddLine({corner.x, origin.y}, {corner.x + size.x, origin.y}, ink);
   list.AddLine({origin.x, corner.y + em}, {origin.x, corner.y + size.y}, ink);
-  list.AddCircle({origin.x + 0.5f * scale, origin.y},
-                 std::max(1.0f, static_cast<float>(0.5 * grain.state.ratio) * scale), ink, 64, 0.1f * em);
+  if (std::isfinite(grain.state.ratio))
+    list.AddCircle({origin.x + 0.5f * scale, origin.y},
+                   std::max(1.0f, static_cast<float>(0.5 * grain.state.ratio) * scale), ink, 64, 0.1f * em);
   const auto slope = static_cast<float>(std::tan(theta_c));
   for (const float side : {-1.0f, 1.0f}) {
     const float reach = std::min(0.9f * width, 0.37f * width / slope);
@@ -94,6 +99,11 @@ void draw_curve(Gui& gui, const Inspection& grain) {
   draw_plot(gui, plot, {ImGui::GetContentRegionAvail().x, 12.0f * gui.em}, marks);
 }
 
+std::string ratio_text(double ratio, const char* remark) {
+  return std::isfinite(ratio) ? fmt::format("{:.3f}{}", ratio, remark) : "carries nothing";
+}
+
+/// The same rows for all free grains, so that none moves from frame to frame.
 void draw_state(const Inspection& grain, double diameter, double l_min) {
   fact("radius", fmt::format("{:.3f} D", grain.radius / diameter));
   fact("place", fmt::format("{:.2f}, {:.2f} D", grain.x / diameter, grain.y / diameter));
@@ -102,20 +112,16 @@ void draw_state(const Inspection& grain, double diameter, double l_min) {
   if (!grain.free) return;
   fact("M_x_x, M_y_y", fmt::format("{:.3g}, {:.3g} J/m", grain.internal_moment.xx, grain.internal_moment.yy));
   fact("M_x_y, M_y_x", fmt::format("{:.3g}, {:.3g} J/m", grain.internal_moment.xy, grain.internal_moment.yx));
-  if (std::isnan(grain.gamma)) {
-    fact("γ", "carries nothing");
-    return;
-  }
   fact("p = s_1 + s_2", fmt::format("{:.3g} J/m", grain.state.mean));
   fact("q = s_1 − s_2", fmt::format("{:.3g} J/m", grain.state.deviator));
   const char* overloaded = grain.overloaded ? ", overloaded" : "";
-  fact("γ = q/p", fmt::format("{:.3f}{}", grain.state.ratio, l_min > 0.0 ? "" : overloaded));
-  if (l_min > 0.0)
-    fact(fmt::format("γ, ℓ = {:g} D", l_min), fmt::format("{:.3f}{}", grain.gamma, overloaded));
-  fact("major axis", fmt::format("{:.1f}° to the bed", grain.state.axis * 180.0 / pi));
-  if (grain.cluster >= 0) fact("cluster", fmt::format("{} grains", grain.cluster_size));
-  if (grain.coarse_graining_length)
-    fact("ℓ_c", fmt::format("{:.2f} D", *grain.coarse_graining_length / diameter));
+  fact("γ = q/p", ratio_text(grain.state.ratio, l_min > 0.0 ? "" : overloaded));
+  if (l_min > 0.0) fact(fmt::format("γ, ℓ = {:g} D", l_min), ratio_text(grain.gamma, overloaded));
+  const bool stressed = std::isfinite(grain.state.ratio);
+  fact("major axis", stressed ? fmt::format("{:.1f}° to the bed", grain.state.axis * 180.0 / pi) : "–");
+  fact("cluster", grain.cluster >= 0 ? fmt::format("{} grains", grain.cluster_size) : "–");
+  const auto& length = grain.coarse_graining_length;
+  fact("ℓ_c", length ? fmt::format("{:.2f} D", *length / diameter) : "–");
 }
 
 /// What the curves say of the frame shown, while no grain is selected.
@@ -147,15 +153,16 @@ void draw_inspector(Gui& gui) {
   ImGui::Text("%s %d", grain->free ? "grain" : "floor grain", grain->grain);
   ImGui::Separator();
   draw_state(*grain, gui.model.mean_diameter(), gui.model.state.map.l_min);
-  if (grain->cluster >= 0)
-    named_checkbox(gui, "outline", "outline its cluster", gui.model.state.highlight_cluster, "i");
-  if (!grain->contacts.empty()) draw_contacts(gui, *grain, grain->mass * gui.model.statics().gravity);
-  if (!grain->free || std::isnan(grain->gamma)) return;
+  named_checkbox(gui, "outline", "outline its cluster", gui.model.state.highlight_cluster, "i");
+  if (grain->free)
+    named_checkbox(gui, "neighbourhoods", "draw its neighbourhoods", gui.model.state.show_neighbourhoods,
+                   "y");
+  draw_contacts(gui, *grain, grain->mass * gui.model.statics().gravity);
+  if (!grain->free) return;
   draw_mohr_circle(gui, *grain, gui.model.theta_c());
-  ImGui::SetNextItemWidth(9.0f * gui.em);
-  named_slider(gui, "neighbourhood", "D", gui.model.state.neighbourhood, 1.0, 40.0, "l = %.1f",
+  named_slider(gui, "neighbourhood", "ℓ drawn", gui.model.state.neighbourhood, 1.0, 40.0, "%.1f D",
                "the neighbourhood drawn: ; and '");
-  fact("γ_ℓ there", fmt::format("{:.3f}", grain->neighbourhood_gamma));
+  fact("γ_ℓ there", ratio_text(grain->neighbourhood_gamma, ""));
   draw_curve(gui, *grain);
 }
 

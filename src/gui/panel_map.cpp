@@ -53,11 +53,14 @@ void choose_range(Gui& gui) {
   if (!has_bar(map.layers)) return;
   bool own = map.range_low || map.range_high;
   if (named_checkbox(gui, "range", "range", own, "the ends of the bar, instead of the map's own")) {
+    const FrameView shown = gui.model.annotated_map();
     map.range_low.reset();
     map.range_high.reset();
-    if (own) {
-      map.range_low = 0.0;
-      map.range_high = 1.0;
+    const auto with_bar =
+        std::ranges::find_if(shown.legends, [](const Legend& legend) { return !legend.bars.empty(); });
+    if (own && with_bar != shown.legends.end()) {  // begins with what is shown
+      map.range_low = with_bar->bars.front().low;
+      map.range_high = with_bar->bars.front().high;
     }
   }
   if (!map.range_low || !map.range_high) return;
@@ -77,14 +80,13 @@ void choose_reference(Gui& gui) {
     state.since = since ? std::optional(gui.model.frame().tilt) : std::nullopt;
   if (!state.since) return;
   double angle = degrees(*state.since);
-  if (named_slider(gui, "since angle", "deg", angle, 0.0, 60.0, "%.2f")) state.since = radians(angle);
+  if (named_slider(gui, "since angle", "since", angle, 0.0, 60.0, "%.2f°")) state.since = radians(angle);
 }
 
 }  // namespace
 
 void draw_map_panel(Gui& gui) {
   ViewState& state = gui.model.state;
-  ImGui::PushItemWidth(9.0f * gui.em);
   choose_layers(gui);
   choose_colours(gui);
   choose_range(gui);
@@ -92,25 +94,19 @@ void draw_map_panel(Gui& gui) {
   named_slider(
       gui, "l_min", "γ within ℓ", state.map.l_min, 0.0, 10.0, "%.1f D",
       "diameter of the neighbourhood whose γ a grain has: 3, its first neighbours; 0, the grain alone");
-  named_slider(gui, "threshold", "threshold in Γ_c", state.map.threshold_factor, 0.1, 4.0, "%.2f",
+  named_slider(gui, "threshold", "overloaded", state.map.threshold_factor, 0.1, 4.0, "γ ≥ %.2f Γc",
                "grains are overloaded from this multiple of Γc on: [ and ]");
-  named_slider(gui, "length", "ℓ of coarse maps", state.map.length, 1.0, 40.0, "%.1f D",
+  named_slider(gui, "length", "coarse over ℓ", state.map.length, 1.0, 40.0, "%.1f D",
                "what coarse, density, stress, shear_rate and temperature average over, a diameter: , and .");
   choose_reference(gui);
-  ImGui::Separator();
   choose_beside(gui);
-  ImGui::Separator();
   named_checkbox(gui, "turned", "turned to the slope", state.map.turned, "t");
   named_checkbox(
       gui, "neighbours", "clusters of neighbours", state.map.joined_by_neighbours,
       "clusters join grains closer than 1.1 times the sum of their radii, instead of those that touch");
-  named_checkbox(gui, "cluster", "outline the grain's cluster", state.highlight_cluster);
-  named_checkbox(gui, "neighbourhoods", "draw its neighbourhoods", state.show_neighbourhoods);
-  ImGui::Separator();
   if (named_button(gui, "whole bed", "Whole bed", "f")) show_whole_bed(gui);
   ImGui::SameLine();
   ImGui::Text("zoom %.1f", state.camera.zoom);
-  ImGui::PopItemWidth();
 }
 
 }  // namespace talus

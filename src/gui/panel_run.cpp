@@ -1,3 +1,4 @@
+#include <cfloat>
 #include <fmt/core.h>
 
 #include "core/errors.h"
@@ -10,21 +11,20 @@
 namespace talus {
 namespace {
 
-/// The state of a live run, in lines.
+/// The state of a live run, in lines that stay where they are while it goes on.
 void draw_status(const Palette& colours, const LiveStatus& status, bool theta_c_known, double theta_c) {
-  if (!status.error.empty()) {
-    ImGui::PushStyleColor(ImGuiCol_Text, packed(colours.warning));
-    ImGui::TextWrapped("%s", status.error.c_str());
-    ImGui::PopStyleColor();
-  }
   fact("phase", status.done ? "ended" : status.depositing ? "deposition" : "tilt");
   fact("θ", fmt::format("{:.3f}°", degrees(status.tilt)));
   fact("step", std::to_string(status.step));
   fact("time", fmt::format("{:.3f} s", status.time));
   fact("speed",
        status.running ? fmt::format("{:.0f} steps/s", status.steps_per_second) : std::string("paused"));
-  if (theta_c_known) fact("θ_c", fmt::format("{:.2f}°", degrees(theta_c)));
-  if (!status.state_hash.empty()) fact("state", status.state_hash);
+  fact("θ_c", theta_c_known ? fmt::format("{:.2f}°", degrees(theta_c)) : "not yet known");
+  fact("state", status.state_hash.empty() ? "–" : status.state_hash);
+  if (status.error.empty()) return;
+  ImGui::PushStyleColor(ImGuiCol_Text, packed(colours.warning));
+  ImGui::TextWrapped("%s", status.error.c_str());
+  ImGui::PopStyleColor();
 }
 
 void draw_live(Gui& gui, LiveRun& live) {
@@ -39,25 +39,29 @@ void draw_live(Gui& gui, LiveRun& live) {
     if (named_button(gui, name, label, "steps: right arrow; with shift 10, with ctrl 100"))
       advance(gui, count);
   }
-  if (status.depositing) {
-    if (named_button(gui, "deposit", "Deposit the bed", "compute until the bed rests and the tilt begins: b"))
-      live.finish_deposition();
-  }
-  ImGui::SetNextItemWidth(6.0f * gui.em);
-  named_number(gui, "run to angle", "deg", state.run_to_tilt, "%.2f", "the tilt to run to");
-  ImGui::SameLine();
   if (named_button(gui, "run to", "Run to", "compute until the tilt is reached, then pause: g"))
     live.run_to(radians(state.run_to_tilt));
+  ImGui::SameLine();
+  ImGui::SetNextItemWidth(5.0f * gui.em);
+  named_number(gui, "run to angle", "", state.run_to_tilt, "%.2f°", "the tilt to run to");
+  if (status.depositing) {  // the last of its row: where it goes nothing moves
+    ImGui::SameLine();
+    if (named_button(gui, "deposit", "Deposit", "compute until the bed rests and the tilt begins: b"))
+      live.finish_deposition();
+  }
   ImGui::Separator();
   draw_status(gui.colours, status, gui.model.theta_c_known(), gui.model.theta_c());
   ImGui::Separator();
   if (gui.model.branch_line()) {
     if (named_button(gui, "reset", "Reset", "begin the branch anew: r")) reset(gui);
   } else {
-    ImGui::SetNextItemWidth(6.0f * gui.em);
-    named_number(gui, "seed", "seed", state.seed, "of the random deposition");
-    ImGui::SameLine();
     if (named_button(gui, "reset", "Reset", "begin the run anew with this seed: r")) reset(gui);
+    ImGui::SameLine();
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted("with seed");
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(-FLT_MIN);
+    named_number(gui, "seed", "", state.seed, "of the random deposition");
   }
   ImGui::Separator();
   const std::string output = gui.model.recording().output;
@@ -120,15 +124,14 @@ void draw_replay(Gui& gui) {
   draw_landmarks(gui);
   draw_branch_button(gui);
   double speed = model.speed();
-  ImGui::SetNextItemWidth(8.0f * gui.em);
-  if (named_slider(gui, "speed", "deg/s", speed, 0.1, 20.0, "%.1f", "how fast a replay goes", true))
+  if (named_slider(gui, "speed", "speed", speed, 0.1, 20.0, "%.1f°/s", "how fast a replay goes: < and >",
+                   true))
     model.set_speed(speed);
   ImGui::Separator();
   fact("θ", fmt::format("{:.3f}°", degrees(model.frame().tilt)));
-  if (model.theta_c_known()) {
-    fact("θ_c", fmt::format("{:.2f}°", degrees(model.theta_c())));
-    fact("θ_c − θ", fmt::format("{:.2f}°", degrees(model.theta_c() - model.frame().tilt)));
-  }
+  const bool failed = model.theta_c_known();
+  fact("θ_c", failed ? fmt::format("{:.2f}°", degrees(model.theta_c())) : "–");
+  fact("θ_c − θ", failed ? fmt::format("{:.2f}°", degrees(model.theta_c() - model.frame().tilt)) : "–");
   fact("step", std::to_string(model.frame().step));
   fact("time", fmt::format("{:.3f} s", model.frame().time));
   fact("contacts", std::to_string(model.frame().contacts.count()));

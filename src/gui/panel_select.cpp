@@ -144,7 +144,7 @@ void draw_table(Gui& gui, const std::vector<Index>& grains) {
   const ImGuiTableFlags flags = ImGuiTableFlags_RowBg | ImGuiTableFlags_BordersInnerV |
                                 ImGuiTableFlags_Sortable | ImGuiTableFlags_ScrollX | ImGuiTableFlags_ScrollY |
                                 ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_NoSavedSettings;
-  const float height = std::max(ImGui::GetContentRegionAvail().y, 12.0f * gui.em);
+  const float height = 14.0f * gui.em;
   if (!ImGui::BeginTable("selected grains", static_cast<int>(columns.size()), flags, {0.0f, height})) return;
   ImGui::TableSetupScrollFreeze(1, 1);
   for (const GrainQuantity* quantity : columns)  // its own id, so that a sorting stays with its quantity
@@ -191,8 +191,7 @@ void draw_select_panel(Gui& gui) {
   if (!grains.empty()) return draw_selected(gui, grains);
   ImGui::TextWrapped(
       "No grains are selected. Write a condition, click a grain, or drag on the map: with shift a box, with "
-      "ctrl a "
-      "lasso.");
+      "ctrl a lasso.");
 }
 
 }  // namespace talus

@@ -5,6 +5,12 @@
 
 namespace talus {
 
+/// The column on the left: the panels as groups that are folded and unfolded; the inspector among them where
+/// it has no column of its own.
+void draw_column(Gui& gui, bool with_inspector);
+/// The group that a key unfolds; empty where it is for none.
+const char* group_of_key(ImWchar key);
+
 /// Playing and stepping, of a run that is computed or replayed.
 void draw_run_panel(Gui& gui);
 /// Which map is drawn, and how.

@@ -2,6 +2,7 @@
 
 #include <imgui_stdlib.h>
 
+#include <cfloat>
 #include <cmath>
 #include <limits>
 
@@ -33,17 +34,30 @@ void for_pieces(std::string_view text, const Piece& piece) {
   }
 }
 
-/// What follows a widget: where it is, the tip under the mouse, its label.
-void finish_widget(Gui& gui, const char* name, const char* label, const char* tip) {
-  note_place(gui, name);
-  show_tip(tip);
+/// Where the values of rows begin, so that they are below each other.
+void go_to_values() {
+  constexpr float share_of_labels = 0.42f;
+  const float before = ImGui::GetItemRectMax().x - ImGui::GetWindowPos().x;
+  const float values = share_of_labels * ImGui::GetWindowContentRegionMax().x;
+  ImGui::SameLine(before + ImGui::GetStyle().ItemInnerSpacing.x < values ? values : 0.0f);
+}
+
+/// The label of a row, if it has one; the widget that follows gets the rest of the width.
+void begin_row(const char* label, const char* tip) {
   if (*label == '\0') return;
-  const ImGuiStyle& style = ImGui::GetStyle();
-  ImGui::SameLine(0.0f, style.ItemInnerSpacing.x);
   const ImVec2 corner = ImGui::GetCursorScreenPos();
-  add_rich_text(*ImGui::GetWindowDrawList(), {corner.x, corner.y + style.FramePadding.y},
+  add_rich_text(*ImGui::GetWindowDrawList(), {corner.x, corner.y + ImGui::GetStyle().FramePadding.y},
                 ImGui::GetColorU32(ImGuiCol_Text), label);
   ImGui::Dummy({rich_width(*ImGui::GetFont(), ImGui::GetFontSize(), label), ImGui::GetFrameHeight()});
+  show_tip(tip);
+  go_to_values();
+  ImGui::SetNextItemWidth(-FLT_MIN);
+}
+
+/// What follows a widget: where it is, the tip under the mouse.
+void finish_widget(Gui& gui, const char* name, const char* tip) {
+  note_place(gui, name);
+  show_tip(tip);
 }
 
 std::string hidden(const char* name) { return std::string("##").append(name); }
@@ -83,9 +97,10 @@ bool named_slider(Gui& gui, const char* name, const char* label, double& value, 
                   const char* format, const char* tip, bool logarithmic) {
   const ImGuiSliderFlags flags =
       ImGuiSliderFlags_AlwaysClamp | (logarithmic ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None);
+  begin_row(label, tip);
   const bool changed =
       ImGui::SliderScalar(hidden(name).c_str(), ImGuiDataType_Double, &value, &low, &high, format, flags);
-  finish_widget(gui, name, label, tip);
+  finish_widget(gui, name, tip);
   return changed;
 }
 
@@ -105,29 +120,31 @@ std::optional<double> named_slider_when_done(Gui& gui, const char* name, const c
 
 bool named_number(Gui& gui, const char* name, const char* label, double& value, const char* format,
                   const char* tip) {
+  begin_row(label, tip);
   const bool changed = ImGui::InputDouble(hidden(name).c_str(), &value, 0.0, 0.0, format);
-  finish_widget(gui, name, label, tip);
+  finish_widget(gui, name, tip);
   return changed;
 }
 
 bool named_number(Gui& gui, const char* name, const char* label, int& value, const char* tip) {
+  begin_row(label, tip);
   const bool changed = ImGui::InputInt(hidden(name).c_str(), &value, 0);
-  finish_widget(gui, name, label, tip);
+  finish_widget(gui, name, tip);
   return changed;
 }
 
 bool named_text(Gui& gui, const char* name, const char* label, std::string& value, const char* tip) {
-  const bool changed = ImGui::InputText(std::string(label).append("##").append(name).c_str(), &value);
-  note_place(gui, name);
-  show_tip(tip);
+  begin_row(label, tip);
+  const bool changed = ImGui::InputText(hidden(name).c_str(), &value);
+  finish_widget(gui, name, tip);
   return changed;
 }
 
 bool named_choice(Gui& gui, const char* name, const char* label, const std::vector<std::string>& texts,
                   int& chosen) {
   bool changed = false;
-  const std::string id = std::string(label).append("##").append(name);
-  const bool open = ImGui::BeginCombo(id.c_str(), texts[static_cast<std::size_t>(chosen)].c_str(),
+  begin_row(label, nullptr);
+  const bool open = ImGui::BeginCombo(hidden(name).c_str(), texts[static_cast<std::size_t>(chosen)].c_str(),
                                       ImGuiComboFlags_HeightLargest);
   note_place(gui, name);
   if (!open) return false;
@@ -172,7 +189,7 @@ void rich_text(std::string_view text) {
 
 void fact(std::string_view label, const std::string& value) {
   rich_text(label);
-  ImGui::SameLine(0.42f * ImGui::GetWindowContentRegionMax().x);
+  go_to_values();
   rich_text(value);
 }
 

@@ -29,8 +29,9 @@ struct Gui {
 void note_place(Gui& gui, std::string name);
 void note_place(Gui& gui, std::string name, const ImVec2& low, const ImVec2& high);
 
-/// Widgets that are remembered under `name`; true if the user has used them. Labels of buttons are rich
-/// texts. `tip` is shown when the mouse is over the widget.
+/// Widgets that are remembered under `name`; true if the user has used them. Labels are rich texts: of
+/// buttons inside, of checkboxes on the right, of all others on the left, where the widget takes the rest of
+/// the row; without a label it is as wide as asked for. `tip` is shown when the mouse is over the widget.
 bool named_button(Gui& gui, const char* name, const char* label, const char* tip = nullptr);
 bool named_checkbox(Gui& gui, const char* name, const char* label, bool& value, const char* tip = nullptr);
 bool named_slider(Gui& gui, const char* name, const char* label, double& value, double low, double high,

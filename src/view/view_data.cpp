@@ -108,14 +108,24 @@ void ViewModel::Data::show_replayed() {
   replay->play(false);
 }
 
+/// What has been recorded, with room for the bed that is being deposited: grains fall into the picture from
+/// above, so that it and all around it stay where they are.
+MapExtent ViewModel::Data::live_extent() const {
+  constexpr double surplus = 1.05;  // of the depth: what a loose bed and its surface have
+  MapExtent extent = series ? series->extent() : bed_extent(statics());
+  const RunStatics& of = statics();
+  extent.y_max = std::max({extent.y_max, surplus * of.depth, of.depth + of.mean_diameter});
+  return extent;
+}
+
 void ViewModel::Data::show(std::shared_ptr<const Frame> next) {
   if (next == stored) return;
   stored = std::move(next);
   if (stored->x.size() != statics().radius.size())
     pictures.run.statics = arrived_statics(all_statics, stored->grain_count());
-  // While a bed falls together its top goes down: then only the frame shown counts.
-  if (!replay) bed = series ? series->extent() : bed_extent(statics());
+  if (live) bed = live_extent();
   extend(bed, {*stored, statics()});
+  if (live && live->status().depositing) bed.y_max = live_extent().y_max;
   make_frame();
 }
 

@@ -196,6 +196,8 @@ struct ViewModel::Data {
   std::size_t shown_index() const;
   /// The bed, as high as the higher one of two runs.
   MapExtent viewed_bed() const;
+  /// That of a run that is computed, before the frame shown is looked at.
+  MapExtent live_extent() const;
   /// Width over height of a picture in which the bed just has room.
   double bed_aspect(const ViewState& asked) const;
   /// The angle since which motions are shown, where the frame shown comes after it.

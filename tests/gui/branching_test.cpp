@@ -77,17 +77,17 @@ TEST_F(Branching, the_last_frame_of_a_run_that_has_ended_is_refused) {
 TEST_F(Branching, the_same_push_again_gives_the_same_state) {
   gui_.click("branch here");
   model_.state.selected = 5;
-  gui_.click("tab act");
+  gui_.key('A');
   EXPECT_TRUE(gui_.has("push"));
   std::string first;
   for (int time = 0; time < 3; ++time) {
-    gui_.click("tab act");
+    gui_.key('A');
     gui_.click("push");
-    gui_.click("tab run");
+    gui_.key('R');
     step_tens(2);
     if (time == 0) first = hash();
     EXPECT_EQ(hash(), first);
-    gui_.click("tab act");
+    gui_.key('A');
     gui_.click("back");
     EXPECT_TRUE(model_.live()->commands().empty());
   }

@@ -71,7 +71,7 @@ TEST_F(Replay, moves_by_keys) {
 
 TEST_F(Replay, a_map_is_chosen_in_the_list) {
   const Image before = gui_.frame();
-  gui_.click("tab map");
+  gui_.key('M');
   gui_.click("map kind");
   gui_.click("map kind: pressure");
   ASSERT_EQ(model_.state.map.layers, (MapLayers{MapKind::pressure}));
@@ -82,7 +82,7 @@ TEST_F(Replay, a_map_is_chosen_in_the_list) {
 
 TEST_F(Replay, escape_closes_a_list_before_it_selects_no_grain) {
   model_.state.selected = 7;
-  gui_.click("tab map");
+  gui_.key('M');
   gui_.click("map kind");
   ASSERT_TRUE(gui_.has("map kind: pressure"));
   gui_.key(key_escape);
@@ -203,7 +203,7 @@ TEST_F(Replay, the_map_is_the_one_of_talus_render) {
 }
 
 TEST_F(Replay, a_name_is_typed_and_a_picture_asked_for) {
-  gui_.click("tab files");
+  gui_.key('F');
   gui_.click("picture path");
   gui_.key('a', true);
   gui_.type("bed_at_rest.png");
@@ -212,10 +212,10 @@ TEST_F(Replay, a_name_is_typed_and_a_picture_asked_for) {
   EXPECT_EQ(model_.frame_index(), 0u) << "what is typed into a field is no key";
 }
 
-/// Widgets lie inside of the window, or in a part of it that scrolls; those of the first tab are always
+/// Widgets lie inside of the window, or in a part of it that scrolls; those of the first group are always
 /// there.
 void expect_inside(const OffscreenGui& gui, float width, float height) {
-  for (const char* name : {"play", "frame", "map", "tab run", "tab map"}) {
+  for (const char* name : {"play", "frame", "map", "group run"}) {
     const WidgetPlace place = gui.place(name);
     EXPECT_GE(place.x0, 0.0f) << name;
     EXPECT_GE(place.y0, 0.0f) << name;
@@ -251,6 +251,13 @@ TEST_F(Replay, the_bar_goes_where_it_is_told_to) {
   const Image before = gui_.frame();
   gui_.click("range");
   ASSERT_TRUE(model_.state.map.range_high.has_value());
+  gui_.move(700.0f, 895.0f);  // hints hide nothing of the map
+  EXPECT_EQ(difference(before, gui_.frame(), gui_.place("map")), 0.0) << "it begins with what is shown";
+  gui_.click("range high");
+  gui_.key('a', true);
+  gui_.type("0.3");
+  gui_.click("map", 0.5f, -0.02f);
+  EXPECT_DOUBLE_EQ(*model_.state.map.range_high, 0.3);
   EXPECT_GT(difference(before, gui_.frame(), gui_.place("map")), 0.01);
   EXPECT_NE(model_.render_command().find("--range"), std::string::npos);
   gui_.key('2');
@@ -339,7 +346,7 @@ TEST_F(Live, friction_and_pushes_are_commands) {
   gui_.click("deposit");
   ASSERT_TRUE(wait_until([&] { return !status().depositing && !status().running; }));
   gui_.key('n');
-  gui_.click("tab act");
+  gui_.key('A');
   gui_.click("push");
   gui_.click("friction", 0.5f);
   const std::vector<Command> commands = model_.live()->commands();

@@ -78,7 +78,7 @@ TEST_F(Replay, the_mouse_tells_values_in_the_second_view) {
 }
 
 TEST_F(Replay, another_run_is_opened_beside_from_the_panel) {
-  gui_.click("tab map");
+  gui_.key('M');
   gui_.click("beside");
   model_.state.beside.path = folder_.path("none.h5");
   gui_.settle();
@@ -120,7 +120,7 @@ TEST_F(Live, has_a_second_view_too) {
   gui_.key('P');
   EXPECT_TRUE(gui_.has("map beside"));
   gui_.key('D');
-  gui_.click("tab map");
+  gui_.key('M');
   EXPECT_FALSE(gui_.has("open beside")) << "another run only beside a replay";
 }
 

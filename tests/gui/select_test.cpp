@@ -84,6 +84,7 @@ TEST_F(Replay, a_condition_is_written) {
   gui_.click("select");
   EXPECT_NE(model_.state.selecting.error.find("'&&'"), std::string::npos) << model_.state.selecting.error;
   EXPECT_GT(model_.selected_grains().size(), 1u);
+  gui_.key('S');  // brings all of the group into sight
   gui_.click("select none");
   EXPECT_TRUE(model_.selected_grains().empty());
 }

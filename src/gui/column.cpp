@@ -1,0 +1,82 @@
+/// The column on the left: groups of widgets that are folded and unfolded.
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "gui/panels.h"
+
+namespace talus {
+namespace {
+
+/// A group, and the key that unfolds it and brings it into sight.
+struct Group {
+  const char* name;
+  char key;
+  void (*draw)(Gui&);
+  bool unfolded;  ///< at first, where there is room
+};
+
+constexpr Group groups[] = {{"run", 'R', draw_run_panel, true},     {"map", 'M', draw_map_panel, true},
+                            {"act", 'A', draw_action_panel, false}, {"select", 'S', draw_select_panel, false},
+                            {"files", 'F', draw_file_panel, false}, {"grain", 'G', draw_inspector, false}};
+
+/// A lower column has one unfolded group at a time.
+constexpr float room_for_several = 40.0f;  // em
+
+/// The heading of a group with its key; true while it is unfolded.
+bool draw_heading(Gui& gui, const Group& group) {
+  ImGui::PushStyleColor(ImGuiCol_Header, packed(gui.colours.raised));
+  const bool unfolded = ImGui::CollapsingHeader(group.name);
+  ImGui::PopStyleColor();
+  note_place(gui, std::string("group ").append(group.name));
+  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+  const char key[] = {group.key, '\0'};
+  ImGui::GetWindowDrawList()->AddText({high.x - 1.4f * gui.em, low.y + ImGui::GetStyle().FramePadding.y},
+                                      packed(gui.colours.soft), key);
+  return unfolded;
+}
+
+/// Scrolls as little as shows all from top to bottom, or else the top.
+void bring_into_sight(float top, float bottom) {
+  const float from = ImGui::GetScrollY(), room = ImGui::GetWindowHeight();
+  if (top < from)
+    ImGui::SetScrollY(top);
+  else if (bottom > from + room)
+    ImGui::SetScrollY(std::min(top, bottom - room));
+}
+
+void draw_group(Gui& gui, const Group& group, bool several) {
+  const bool asked = gui.panel_asked == group.name;
+  const bool another_asked = !gui.panel_asked.empty() && !asked;
+  if (asked || (another_asked && !several))
+    ImGui::SetNextItemOpen(asked);
+  else
+    ImGui::SetNextItemOpen(group.unfolded && (several || group.draw == draw_run_panel), ImGuiCond_Once);
+  const float top = ImGui::GetCursorPosY();
+  const bool unfolded = draw_heading(gui, group);
+  // A click on a heading is as its key, one picture later: what is folded and scrolled then is told once.
+  if (unfolded && ImGui::IsItemToggledOpen()) gui.model.state.panel_asked = group.name;
+  if (!unfolded) return;
+  group.draw(gui);
+  ImGui::Dummy({0.0f, 0.3f * gui.em});
+  if (asked) bring_into_sight(top, ImGui::GetCursorPosY());
+}
+
+}  // namespace
+
+const char* group_of_key(ImWchar key) {
+  const auto* const found =
+      std::ranges::find(groups, key, [](const Group& group) { return static_cast<ImWchar>(group.key); });
+  return found == std::end(groups) ? "" : found->name;
+}
+
+void draw_column(Gui& gui, bool with_inspector) {
+  ImGui::BeginChild("column");
+  const bool several = ImGui::GetWindowHeight() >= room_for_several * gui.em;
+  for (const Group& group : groups)
+    if (with_inspector || group.draw != draw_inspector) draw_group(gui, group, several);
+  ImGui::EndChild();
+}
+
+}  // namespace talus

@@ -1,0 +1,111 @@
+/// The column on the left: groups that are folded and unfolded, labels before their widgets, and rows that
+/// stay where they are.
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "gui/offscreen_fixture.h"
+
+namespace talus {
+namespace {
+
+using test::Live;
+using test::Replay;
+
+/// That a widget can be seen and used: inside of the column.
+void expect_in_sight(const OffscreenGui& gui, const std::string& name, float height) {
+  ASSERT_TRUE(gui.has(name)) << name;
+  const WidgetPlace place = gui.place(name);
+  EXPECT_GE(place.y0, 0.0f) << name;
+  EXPECT_LE(place.y1, height) << name;
+}
+
+TEST_F(Replay, a_high_column_has_several_groups) {
+  for (const char* name : {"play", "map kind", "group act"})
+    expect_in_sight(gui_, name, 900.0f);
+  EXPECT_FALSE(gui_.has("push")) << "folded at first";
+  EXPECT_FALSE(gui_.has("condition"));
+}
+
+TEST_F(Replay, a_heading_folds_and_unfolds) {
+  gui_.click("group map");
+  EXPECT_FALSE(gui_.has("map kind"));
+  gui_.click("group map");
+  EXPECT_TRUE(gui_.has("map kind"));
+  gui_.key('F');
+  gui_.click("group files");
+  EXPECT_FALSE(gui_.has("save picture"));
+  gui_.click("group select");
+  expect_in_sight(gui_, "group select", 900.0f);
+  expect_in_sight(gui_, "condition", 900.0f);
+  EXPECT_TRUE(gui_.has("map kind")) << "others stay where there is room";
+}
+
+TEST_F(Replay, a_low_column_has_one_group_and_brings_it_into_sight) {
+  OffscreenGui low(model_, 640, 480);
+  const std::map<char, const char*> widgets = {
+      {'M', "map kind"}, {'A', "branch here"}, {'S', "condition"}, {'F', "save picture"}, {'R', "frame"}};
+  EXPECT_FALSE(low.has("map kind"));
+  for (const auto& [key, widget] : widgets) {
+    low.key(key);
+    expect_in_sight(low, widget, 480.0f);
+    for (const auto& [other, folded] : widgets)
+      if (other != key && other != 'A') {  // "branch here" is in two groups
+        EXPECT_FALSE(low.has(folded)) << key << other;
+      }
+  }
+}
+
+TEST_F(Replay, labels_are_on_the_left_and_widgets_below_each_other) {
+  const WidgetPlace first = gui_.place("map kind"), column = gui_.place("group map");
+  EXPECT_GT(first.x0, column.x0 + 0.3f * (column.x1 - column.x0));
+  for (const char* name : {"overlay", "colours", "l_min", "threshold", "length", "speed"}) {
+    EXPECT_EQ(gui_.place(name).x0, first.x0) << name;
+    EXPECT_EQ(gui_.place(name).x1, first.x1) << name << " takes the rest of its row";
+  }
+}
+
+/// Widgets that have moved since, by name; those that are no longer there have not.
+std::string moved_since(const std::vector<WidgetPlace>& before, const OffscreenGui& gui) {
+  std::string moved;
+  for (const WidgetPlace& was : before) {
+    if (!gui.has(was.name)) continue;
+    const WidgetPlace now = gui.place(was.name);
+    if (now.x0 != was.x0 || now.y0 != was.y0 || now.x1 != was.x1 || now.y1 != was.y1) moved += " " + was.name;
+  }
+  return moved;
+}
+
+TEST_F(Live, nothing_moves_while_the_run_goes_on) {
+  model_.state.selected = 20;
+  gui_.settle();
+  const std::vector<WidgetPlace> before = gui_.places();
+  gui_.click("deposit");
+  EXPECT_TRUE(wait_until([&] { return status().step > 20; }));
+  EXPECT_EQ(moved_since(before, gui_), "") << "in the deposition";
+  EXPECT_TRUE(wait_until([&] { return !status().depositing && !status().running; }));
+  EXPECT_FALSE(gui_.has("deposit"));
+  EXPECT_EQ(moved_since(before, gui_), "") << "at rest";
+  gui_.click("play");
+  EXPECT_TRUE(wait_until([&] { return status().done; }));
+  EXPECT_EQ(moved_since(before, gui_), "") << "at the end";
+}
+
+TEST_F(Replay, the_inspector_stays_where_it_is_from_frame_to_frame) {
+  for (const Index grain : {Index{3}, Index{35}}) {
+    model_.state.selected = grain;
+    model_.go_to(0);
+    gui_.settle();
+    const WidgetPlace circle = gui_.place("mohr circle"), curve = gui_.place("neighbourhood");
+    for (std::size_t frame = 1; frame < model_.frame_count(); ++frame) {
+      model_.go_to(frame);
+      gui_.settle();
+      EXPECT_EQ(gui_.place("mohr circle").y0, circle.y0) << frame;
+      EXPECT_EQ(gui_.place("neighbourhood").y0, curve.y0) << frame;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace talus
