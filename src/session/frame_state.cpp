@@ -35,7 +35,6 @@ class RunCourse {
   explicit RunCourse(const RunFile& run)
       : run_(run),
         scenario_(stored_scenario(run.header(), "/parameters/scenario_resolved")),
-        program_(scenario_),
         end_(stored_schedule(run.checkpoint(), follows_failure(), "the run")),
         steps_(run.steps()),
         rows_(run.all_observables()) {}
@@ -43,13 +42,14 @@ class RunCourse {
   bool follows_failure() const { return scenario_.tilt.after_failure != AfterFailure::stop; }
 
   Schedule commanded(std::int64_t step) const {
+    const TiltProgram program(scenario_);
     Schedule schedule = before_commands();
     for (const Command& command : run_.commands()) {
       if (command.step >= step) break;
       schedule.tilt_steps = tilt_steps(command.step);
       if (command.kind == CommandKind::friction) schedule.friction = command.x;
       if (command.kind == CommandKind::tilt_rate)
-        schedule.course = TiltCourse{radians(command.x), scheduled_tilt(scenario_, program_, schedule),
+        schedule.course = TiltCourse{radians(command.x), scheduled_tilt(scenario_, program, schedule),
                                      schedule.tilt_steps};
       if (command.kind == CommandKind::drag) schedule.drag = Drag{command.grain, command.x, command.y};
       if (command.kind == CommandKind::release) schedule.drag.reset();
@@ -138,7 +138,6 @@ class RunCourse {
 
   const RunFile& run_;
   Scenario scenario_;
-  TiltProgram program_;
   Schedule end_;
   std::vector<StepRow> steps_;
   std::vector<ObservableRow> rows_;
