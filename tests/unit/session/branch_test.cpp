@@ -222,6 +222,32 @@ TEST(Branch, is_judged_by_the_friction_that_was_set_before_it_began) {
       << "or any friction would do";
 }
 
+/// Also where the branch has no command of its own.
+TEST(Branch, of_a_branch_has_what_was_set_before_the_first) {
+  const test::TemporaryFolder folder;
+  Session session(test::small_tilted_bed(3.0));
+  while (session.phase() != Phase::tilt) session.advance();
+  const std::int64_t step = session.world().step;
+  const Grains& grains = session.world().grains;
+  const std::vector<Command> commands = {{step + 1, CommandKind::friction, -1, 0.9},
+                                         {step + 2, CommandKind::tilt_rate, -1, 12.0},
+                                         {step + 3, CommandKind::drag, 5, grains.x[5], grains.y[5]}};
+  const RunFile run = recorded(test::small_tilted_bed(3.0), folder.path("run.h5"), commands);
+  const RunFile branch = recorded_branch(run, folder.path("branch.h5"), 2);
+  const Schedule first = stored_schedule(checkpoint_at_frame(run, 3), false, "the run"),
+                 second = stored_schedule(checkpoint_at_frame(branch, 1), false, "the branch");
+  ASSERT_EQ(branch.frame(1).step, run.frame(3).step);
+  EXPECT_EQ(second.friction, std::optional(0.9));
+  ASSERT_TRUE(second.course && first.course && second.drag);
+  EXPECT_EQ(second.course->rate, radians(12.0));
+  EXPECT_EQ(second.course->from, first.course->from);
+  EXPECT_EQ(second.course->since, first.course->since);
+  EXPECT_EQ(second.drag->grain, 5);
+  EXPECT_EQ(second.drag->y, grains.y[5]);
+  EXPECT_EQ(second.tilt_steps, first.tilt_steps);
+  EXPECT_EQ(second.baseline.volume, first.baseline.volume);
+}
+
 TEST(Branch, goes_on_in_the_flow_after_failure) {
   const test::TemporaryFolder folder;
   Scenario scenario = test::small_tilted_bed(3.0);
