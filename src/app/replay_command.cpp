@@ -94,7 +94,7 @@ void replay_run(const ReplayArguments& arguments) {
                     " was repaired, and the state that it began from is lost: it cannot be "
                     "computed again");
   const std::vector<Command> commands = run.commands();
-  Session session = session_at_start(run.header(), arguments.run + ":/parameters");
+  Session session = session_at_start(run.header(), arguments.run);
   session.use_threads(arguments.threads);
   std::optional<RunStore> store = begin_output(arguments, session, run);
   ProgressLine line(arguments.quiet);

@@ -119,12 +119,25 @@ void show_first(ViewModel& model, const ViewArguments& arguments) {
   model.state.panel_asked = "select";
 }
 
+/// The rule for a picture of the window: it replaces nothing of what is shown in it.
+OutputRule output_of_view(const ViewArguments& arguments) {
+  OutputRule rule = output_of_run(arguments.file, arguments.overwrite);
+  std::vector<std::string> more = arguments.behind;
+  if (!arguments.beside.empty()) more.push_back(arguments.beside);
+  if (!is_run(arguments.file)) {
+    const std::string bed = read_scenario(arguments.file, arguments.settings).deposition.file;
+    if (!bed.empty()) more.push_back(bed);
+  }
+  for (const std::string& run : more) rule.inputs.insert(rule.inputs.end(), {run, run_folder(run)});
+  return rule;
+}
+
 /// Draws once what works in the background has come in: nothing new for half a second.
 void take_screenshot(const ViewArguments& arguments) {
   using namespace std::chrono_literals;
   const auto [width, height] = parse_size(arguments.size);
   const std::optional<ContextKind> kind = context_kind(arguments.context);
-  output_target(arguments.screenshot, output_of_run(arguments.file, arguments.overwrite));
+  output_target(arguments.screenshot, output_of_view(arguments));
   ViewModel model = ViewModel::open(arguments.file, arguments.settings, "", false, command_line());
   show_first(model, arguments);
   OffscreenGui gui(model, width, height, 1.0f, kind);

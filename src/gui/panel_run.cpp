@@ -117,8 +117,7 @@ void draw_replay(Gui& gui) {
   int frame = static_cast<int>(model.frame_index());
   ImGui::SetNextItemWidth(-1.0f);
   if (ImGui::SliderInt("##frame", &frame, 0, static_cast<int>(model.frame_count()) - 1,
-                       fmt::format("frame {} of {}", model.frame_index() + 1, model.frame_count()).c_str(),
-                       ImGuiSliderFlags_AlwaysClamp))
+                       frame_counter(model).c_str(), ImGuiSliderFlags_AlwaysClamp))
     model.go_to(static_cast<std::size_t>(frame));
   note_place(gui, "frame");
   draw_landmarks(gui);
@@ -138,6 +137,10 @@ void draw_replay(Gui& gui) {
 }
 
 }  // namespace
+
+std::string frame_counter(const ViewModel& model) {
+  return fmt::format("frame {} of {}", model.frame_index() + 1, model.frame_count());
+}
 
 void draw_run_panel(Gui& gui) {
   ImGui::TextWrapped("%s", gui.model.path().c_str());

@@ -188,6 +188,7 @@ void draw_bookmark_note(Gui& gui) {
     ImGui::CloseCurrentPopup();
   }
   ImGui::EndDisabled();
+  if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false)) ImGui::CloseCurrentPopup();
   ImGui::EndPopup();
 }
 

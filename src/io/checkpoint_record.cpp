@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cstdlib>
 #include <fmt/core.h>
 
 #include "core/hash.h"
@@ -10,11 +11,14 @@ namespace {
 
 const std::string checkpoint_group = "/checkpoint/", branch_group = "/branch/";
 
+constexpr std::int64_t most_steps = std::int64_t{1} << 53;  // all numbers of steps up to this are doubles
+constexpr Range angle_of_bed = {-1.6, 1.6};                 // rad, upright and no further
+
 template <typename World, typename Fields>
 void for_each_field(const std::string& here, World& world, Fields fields) {
   fields.scalar(here + "step", world.step);
-  fields.scalar(here + "time", world.time);
-  fields.scalar(here + "tilt", world.tilt);
+  fields.scalar(here + "time", world.time, not_negative);
+  fields.scalar(here + "tilt", world.tilt, angle_of_bed);
   fields.scalar(here + "gravity", world.gravity, not_negative);
   auto& grains = world.grains;
   fields.scalar(here + "free_count", grains.free_count);
@@ -63,12 +67,14 @@ void check_contacts(const hdf5::Reader& reader, const std::string& here, const W
     if (c.a[k] < 0 || c.a[k] >= world.grains.count() || c.b[k] <= c.a[k] ||
         static_cast<std::size_t>(c.b[k]) >= bodies)
       reader.refuse(here + "contact_pair", "names a body that does not exist, or one twice");
+  if (std::ranges::any_of(c.shift, [](std::int8_t shift) { return std::abs(shift) > 1; }))
+    reader.refuse(here + "contact_shift", "holds a value other than -1, 0 and 1");
 }
 
 World read_world(hdf5::Reader& reader, const std::string& here) {
   World world;
   for_each_field(here, world, FieldReader(reader));
-  if (world.step < 0) reader.refuse(here + "step", "is negative");
+  if (world.step < 0 || world.step > most_steps) reader.refuse(here + "step", "is no number of steps");
   check_grains(reader, here, world.grains);
   check_contacts(reader, here, world);
   const std::string stored = reader.read_text(here + "state_hash"), found = hash_text(state_hash(world));
@@ -138,9 +144,15 @@ BranchOrigin read_branch(hdf5::Reader& reader) {
   BranchOrigin branch;
   branch.run = reader.read_text(branch_group + "run");
   branch.run_hash = reader.read_text(branch_group + "run_hash");
+  if (hash_text(parse_hash(branch.run_hash)) != branch.run_hash)
+    reader.refuse(branch_group + "run_hash", "is no hash: expected 16 hexadecimal digits");
   branch.frame = reader.read_scalar<std::int64_t>(branch_group + "frame");
   if (branch.frame < 0) reader.refuse(branch_group + "frame", "is negative");
   read_state(reader, branch_group, branch.start);
+  // Each frame of a run is of a later step than the one before.
+  if (branch.frame > branch.start.world.step)
+    reader.refuse(branch_group + "frame",
+                  fmt::format("is {}, after {} steps", branch.frame, branch.start.world.step));
   return branch;
 }
 

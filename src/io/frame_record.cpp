@@ -217,10 +217,12 @@ Frame read_frame(hdf5::Reader& reader, std::size_t row) {
   return frame;
 }
 
+double farthest_place(const RunStatics& statics) {
+  return std::min(1e4 * (statics.length + statics.depth), 1e8 * statics.mean_diameter);
+}
+
 void check_frame(const hdf5::Reader& reader, const BedFrame& bed, std::size_t planes) {
-  // As cells of the size of a grain, it must still be a number of cells.
-  const double farthest =
-      std::min(1e4 * (bed.statics.length + bed.statics.depth), 1e8 * bed.statics.mean_diameter);
+  const double farthest = farthest_place(bed.statics);
   const auto check_places = [&](const std::vector<double>& along, const std::string& name) {
     if (std::ranges::any_of(along, [&](double r) { return std::abs(r) > farthest; }))
       reader.refuse(name, "holds a position farther away than a grain can be");

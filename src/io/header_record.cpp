@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <fmt/core.h>
 
 #include "io/record_fields.h"
@@ -59,6 +60,33 @@ RunStatics read_statics(hdf5::Reader& reader) {
   return statics;
 }
 
+/// Whether an inverse of a mass is that of the mass, or 0 for a grain of the floor.
+bool is_inverse(double inverse, double of, bool free) {
+  return free ? std::abs(inverse * of - 1.0) < 1e-9 : inverse == 0.0;
+}
+
+/// The state that a branch begins from is one of the bed of the run.
+void check_branch(const hdf5::Reader& reader, const World& start, const RunStatics& statics) {
+  const Grains& of = start.grains;
+  const auto must = [&reader](bool holds, const char* name) {
+    if (!holds) reader.refuse(std::string("/branch/").append(name), "is not that of the bed of the run");
+  };
+  must(of.radius == statics.radius, "radius");
+  must(of.mass == statics.mass, "mass");
+  must(of.free_count == statics.free_count, "free_count");
+  must(start.gravity == statics.gravity, "gravity");
+  must(start.boundary.periodic == statics.periodic, "periodic");
+  must(start.boundary.length == statics.length, "length");
+  for (std::size_t i = 0; i < of.mass.size(); ++i) {
+    const bool free = static_cast<Index>(i) < statics.free_count;
+    must(is_inverse(of.inverse_mass[i], of.mass[i], free), "inverse_mass");
+    must(is_inverse(of.inverse_inertia[i], of.inertia[i], free), "inverse_inertia");
+  }
+  const double farthest = farthest_place(statics);
+  reader.check("/branch/x", of.x, -farthest, farthest);
+  reader.check("/branch/y", of.y, -farthest, farthest);
+}
+
 }  // namespace
 
 Sizes with_branch(Sizes sizes, const RunHeader& header) {
@@ -98,8 +126,7 @@ RunHeader read_header(hdf5::Reader& reader, const std::function<bool(const std::
   header.seed = reader.read_scalar<std::uint64_t>("/provenance/seed");
   if (reader.has("/branch") && (!keeps || keeps("/branch"))) {
     header.branch = read_branch(reader);
-    if (header.branch->start.world.grains.radius.size() != header.statics.radius.size())
-      reader.refuse("/branch/radius", "is not that of the grains of the run");
+    check_branch(reader, header.branch->start.world, header.statics);
   }
   for (const std::string& name : reader.names("/provenance")) {
     const std::string path = "/provenance/" + name;

@@ -29,6 +29,9 @@ Frame read_frame(hdf5::Reader& reader, std::size_t row);
 Frame read_positions(hdf5::Reader& reader, std::size_t row);
 /// The value of /frames/hash: of the number of bytes and the bytes of each data set, as they are stored.
 std::uint64_t frame_hash(const Frame& frame);
+/// How far from the origin a grain or a contact can be along either axis, m: as cells of the size of a grain,
+/// it must still be a number of cells.
+double farthest_place(const RunStatics& statics);
 /// Refuses a frame whose grains or contacts cannot be those of a bed with so many planes: what others use as
 /// an index, or make a grid from, without looking.
 void check_frame(const hdf5::Reader& reader, const BedFrame& bed, std::size_t planes);

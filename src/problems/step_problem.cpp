@@ -49,13 +49,20 @@ InForce in_force(const RunFile& run, const Scenario& scenario, std::int64_t step
   return now;
 }
 
+/// Steps taken before the first one of the tilt.
+std::int64_t first_step(const RunFile& run) {
+  if (!run.header().branch) return run.frame(0).step;
+  const Checkpoint& start = run.header().branch->start;
+  return start.world.step - find_value(start.integers, "tilt_steps").value_or(0);
+}
+
 /// Of the step after a frame. Where no command has changed the rate it is a whole number of steps of the
 /// tilt, as in a run; with a programme that of the number of the step. The first frame is that before the
 /// first step of the tilt.
 double next_tilt(const RunFile& run, const World& world, const Scenario& scenario, const InForce& now) {
   const double tilt = world.tilt;
   if (now.tilt_rate) return tilt + *now.tilt_rate * time_step(scenario);
-  if (run.has_program()) return TiltProgram(scenario).tilt(world.step - run.frame(0).step + 1);
+  if (run.has_program()) return TiltProgram(scenario).tilt(world.step - first_step(run) + 1);
   const double step_angle = radians(scenario.tilt.step);
   return static_cast<double>(std::llround(tilt / step_angle) + 1) * step_angle;
 }

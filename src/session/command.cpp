@@ -12,11 +12,10 @@
 namespace talus {
 namespace {
 
-constexpr double fastest_push = 100.0;     // sqrt(g D)
-constexpr Index most_dropped = 1000;       // grains
-constexpr double highest_drop = 100.0;     // D
-constexpr double largest_friction = 10.0;  // 1
-constexpr double fastest_tilt = 100.0;     // deg/s
+constexpr double fastest_push = 100.0;  // sqrt(g D)
+constexpr Index most_dropped = 1000;    // grains
+constexpr double highest_drop = 100.0;  // D
+constexpr double fastest_tilt = 100.0;  // deg/s
 
 constexpr std::array<std::string_view, command_kind_count> names = {"push",      "drop", "friction",
                                                                     "tilt_rate", "drag", "release"};

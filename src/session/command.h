@@ -12,6 +12,9 @@
 
 namespace talus {
 
+/// The largest coefficient of friction that a command can set.
+inline constexpr double largest_friction = 10.0;
+
 /// "push", "drop", "friction", "tilt_rate", "drag", "release".
 std::string_view name_of(CommandKind kind);
 

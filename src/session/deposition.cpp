@@ -44,6 +44,8 @@ World initial_bed(const Scenario& scenario) {
   return bed_without_grains(plan);
 }
 
+Boundary boundary_of(const Scenario& scenario) { return bed_without_grains(bed_plan(scenario)).boundary; }
+
 Index grain_count(const Scenario& scenario) {
   if (scenario.deposition.method == DepositionMethod::file) return initial_bed(scenario).grains.free_count;
   return bed_plan(scenario).grain_count;

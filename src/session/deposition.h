@@ -12,6 +12,9 @@ namespace talus {
 /// bed_of_file does where they are those of a file.
 World initial_bed(const Scenario& scenario);
 
+/// Its walls and its smooth floor, which stay as they are.
+Boundary boundary_of(const Scenario& scenario);
+
 /// How many grains the bed will have. Reads and checks a file, and throws as bed_of_file does.
 Index grain_count(const Scenario& scenario);
 

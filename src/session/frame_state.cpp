@@ -83,7 +83,8 @@ class RunCourse {
   Schedule before_commands() const {
     Schedule schedule;
     if (!run_.header().branch) return schedule;
-    const Schedule start = stored_schedule(start_of(*run_.header().branch), follows_failure(), "/branch");
+    const Schedule start =
+        stored_schedule(start_of(*run_.header().branch), follows_failure(), "the run", "/branch");
     schedule.friction = start.friction;
     schedule.course = start.course;
     schedule.drag = start.drag;
@@ -143,6 +144,17 @@ class RunCourse {
   std::vector<ObservableRow> rows_;
 };
 
+/// A run that was repaired tells how it stood at a frame only where none of its steps and commands is lost.
+void require_course(const RunFile& run) {
+  if (run.lost().empty()) return;
+  const std::int64_t begun = run.header().branch ? run.header().branch->start.world.step : 0;
+  const auto steps = static_cast<std::int64_t>(run.steps().size());
+  if (run.checkpoint().world.step - begun == steps && !may_lack_commands(run)) return;
+  throw Error(ExitCode::bad_data,
+              "the run was repaired, and some of its steps or commands are lost, so that it is not known how "
+              "it stood at a frame: no branch can begin there");
+}
+
 /// In single precision the period itself can be reached.
 void wrap_rounded(World& world) {
   Grains& grains = world.grains;
@@ -154,6 +166,13 @@ void wrap_rounded(World& world) {
 }
 
 }  // namespace
+
+bool may_lack_commands(const RunFile& run) {
+  const std::string lost = run.lost();
+  const auto names = {"/commands", "/branch", "/contents", "segment_"};
+  return std::ranges::any_of(names,
+                             [&lost](const char* name) { return lost.find(name) != std::string::npos; });
+}
 
 World world_at_frame(const RunFile& run, std::size_t k) {
   if (!run.has_state())
@@ -188,6 +207,7 @@ Checkpoint start_of(const BranchOrigin& branch) {
 Checkpoint checkpoint_at_frame(const RunFile& run, std::size_t k) {
   Checkpoint checkpoint;
   checkpoint.world = world_at_frame(run, k);
+  require_course(run);
   wrap_rounded(checkpoint.world);
   const RunCourse course(run);
   const Schedule schedule = course.at_step(checkpoint.world.step, checkpoint.world);

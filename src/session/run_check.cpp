@@ -12,6 +12,8 @@
 #include "core/trigonometry.h"
 #include "scenario/scenario.h"
 #include "scenario/text.h"
+#include "session/branch_start.h"
+#include "session/command.h"
 #include "session/drag.h"
 #include "session/frame_state.h"
 #include "session/run_header.h"
@@ -50,8 +52,11 @@ struct Frictions {
   double grains = 0.0, walls = 0.0;
 };
 
-/// The friction in force at a step: the scenario's, or what a command has set.
+/// The friction in force at a step: the scenario's, or what a command has set, before a branch began or
+/// since. Of a run that may lack a command, the largest that one can set.
 double friction_at(const RunFile& run, double given, std::int64_t step) {
+  if (may_lack_commands(run)) return largest_friction;
+  if (run.header().branch) given = find_value(run.header().branch->start.reals, "friction").value_or(given);
   for (const Command& command : run.commands())
     if (command.kind == CommandKind::friction && command.step < step) given = command.x;
   return given;
@@ -337,6 +342,24 @@ void check_results(const Scenario& scenario, const Checkpoint& checkpoint, Findi
   found.add("/checkpoint", error.what());
 }
 
+/// A branch begins with a state of its scenario, and its first frame is that state.
+void check_branch(const RunFile& run, const Scenario& scenario, Findings& found) try {
+  const BranchOrigin& branch = *run.header().branch;
+  check_branch_start(branch, scenario, "the run");
+  if (!run.lost().empty() || run.all_frame_tilts().empty()) return;
+  const Frame first = run.positions(0);
+  const World& start = branch.start.world;
+  const auto same = [](double one, double other) {
+    return static_cast<float>(one) == static_cast<float>(other);
+  };
+  if (first.step != start.step || first.tilt != start.tilt ||
+      !std::ranges::equal(first.x, start.grains.x, same) ||
+      !std::ranges::equal(first.y, start.grains.y, same))
+    found.add("/branch", "is not the state of the first frame");
+} catch (const Error& error) {
+  found.add("/branch", error.what());
+}
+
 }  // namespace
 
 RunCheck check_run(const RunFile& run, const std::function<void(std::size_t)>& progress) {
@@ -360,6 +383,7 @@ RunCheck check_run(const RunFile& run, const std::function<void(std::size_t)>& p
   check_observables(rows, static_cast<double>(last_step), lacks, found);
   const Scenario scenario = stored_scenario(run.header(), "/parameters/scenario_resolved");
   check_parameters(run.header(), scenario, found);
+  if (run.header().branch) check_branch(run, scenario, found);
   if (run.has_state()) {
     check_grains(statics, run.checkpoint().world, found);
     check_results(scenario, run.checkpoint(), found);
@@ -386,7 +410,8 @@ RunCheck check_run(const RunFile& run, const std::function<void(std::size_t)>& p
         Loads loads = loads_of(bed);
         check_moments(frame, loads, name, found);
         if (is_dragged) add_drag(run, scenario, k, frame.step, loads);
-        if (at_rest(rows, frame.step)) check_balance(bed, loads, imbalance_allowed(scenario), name, found);
+        if (at_rest(rows, frame.step) && !may_lack_commands(run))
+          check_balance(bed, loads, imbalance_allowed(scenario), name, found);
       }
     } catch (const Error& error) {
       found.add(name, error.what());

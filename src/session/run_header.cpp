@@ -6,6 +6,7 @@
 #include <fmt/core.h>
 
 #include "core/version.h"
+#include "session/branch_start.h"
 #include "session/frame_state.h"
 
 namespace talus {
@@ -48,9 +49,10 @@ RunHeader run_header(const Session& session, const RunOrigin& origin) {
 }
 
 Session session_at_start(const RunHeader& header, const std::string& name) {
-  const Scenario scenario = stored_scenario(header, name);
+  const Scenario scenario = stored_scenario(header, name + ":/parameters");
   if (!header.branch) return Session(scenario);
-  Session session(scenario, start_of(*header.branch), name + ", its /branch");
+  check_branch_start(*header.branch, scenario, name);
+  Session session(scenario, start_of(*header.branch), name, "/branch");
   session.record_start();
   return session;
 }

@@ -23,7 +23,8 @@ RunHeader run_header(const Session& session, const RunOrigin& origin);
 /// The scenario of a stored run, from its header; `name` is what messages call it.
 Scenario stored_scenario(const RunHeader& header, const std::string& name);
 
-/// The session of a stored run before its first step; of a branch, with what it records of its start.
+/// The session of a stored run before its first step; of a branch, with what it records of its start. `name`
+/// is what messages call the file. Throws Error(bad_data) as stored_scenario and check_branch_start do.
 Session session_at_start(const RunHeader& header, const std::string& name);
 
 /// The version that computed a run, with its git hash, from its provenance: "0.1.0 (abc)".

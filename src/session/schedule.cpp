@@ -18,8 +18,6 @@ constexpr double most_steps = 0x1p53;  // all numbers of steps up to this are do
 
 /// Where in a checkpoint a value stands. Those of `timing` are no state, and need not be there.
 enum class CheckpointGroup { integers, reals, results, timing };
-constexpr std::array<const char*, 4> groups = {"/checkpoint/integers/", "/checkpoint/reals/", "/results/",
-                                               "/provenance/timing/"};
 
 enum class Kept {
   always,
@@ -124,15 +122,24 @@ std::optional<double> find(const ScheduleField& field, const Checkpoint& checkpo
   return found ? std::optional(static_cast<double>(*found)) : std::nullopt;
 }
 
-[[noreturn]] void refuse(const ScheduleField& field, const std::string& origin, const std::string& fault) {
+/// Where a checkpoint comes from, for messages: the file, and its group there.
+struct CheckpointOrigin {
+  const std::string& file;
+  const std::string& group;
+};
+
+[[noreturn]] void refuse(const ScheduleField& field, const CheckpointOrigin& origin,
+                         const std::string& fault) {
+  const std::string groups[] = {origin.group + "/integers/", origin.group + "/reals/", "/results/",
+                                "/provenance/timing/"};
   throw Error(ExitCode::bad_data,
-              fmt::format("{}: data set {}{} {}", origin, groups[static_cast<std::size_t>(field.place)],
+              fmt::format("{}: data set {}{} {}", origin.file, groups[static_cast<std::size_t>(field.place)],
                           field.name, fault));
 }
 
 /// Sets the value of a field, or refuses what it cannot be.
 void take(double number, const ScheduleField& field, const Checkpoint& checkpoint,
-          const std::string& origin) {
+          const CheckpointOrigin& origin) {
   const auto check = [&](double most, const char* expected) {
     if (!(number >= 0.0 && number <= most))
       refuse(field, origin, fmt::format("is {}, expected {}", short_text(number), expected));
@@ -149,6 +156,8 @@ void take(double number, const ScheduleField& field, const Checkpoint& checkpoin
   } else if (bool* const* flag = std::get_if<bool*>(&field.value)) {
     **flag = number != 0.0;
   } else if (double* const* real = std::get_if<double*>(&field.value)) {
+    if (field.place == CheckpointGroup::reals && !std::isfinite(number))
+      refuse(field, origin, fmt::format("is {}, expected a finite number", short_text(number)));
     **real = number;
   } else if (std::optional<double>* const* real_or_none = std::get_if<std::optional<double>*>(&field.value)) {
     if (!std::isnan(number)) **real_or_none = number;
@@ -172,7 +181,9 @@ void store_schedule(Schedule schedule, bool follows, Checkpoint& checkpoint) {
   }
 }
 
-Schedule stored_schedule(const Checkpoint& checkpoint, bool follows, const std::string& origin) {
+Schedule stored_schedule(const Checkpoint& checkpoint, bool follows, const std::string& file,
+                         const std::string& group) {
+  const CheckpointOrigin origin{file, group};
   Schedule schedule;
   if (find_value(checkpoint.reals, "friction")) schedule.friction.emplace();
   if (find_value(checkpoint.reals, "tilt_rate")) schedule.course.emplace();

@@ -79,8 +79,9 @@ std::optional<double> angle_of_repose(const Schedule& schedule);
 void store_schedule(Schedule schedule, bool follows, Checkpoint& checkpoint);
 
 /// The schedule in a checkpoint. Throws Error(bad_data) where it lacks a value or has an impossible one;
-/// `origin` is what messages call the file.
-Schedule stored_schedule(const Checkpoint& checkpoint, bool follows, const std::string& origin);
+/// `origin` is what messages call the file, and `group` where the checkpoint stands in it.
+Schedule stored_schedule(const Checkpoint& checkpoint, bool follows, const std::string& origin,
+                         const std::string& group = "/checkpoint");
 
 /// A hash of all values of the table that are state, to the last bit: not of wall times.
 std::uint64_t schedule_hash(Schedule schedule);

@@ -90,11 +90,12 @@ Session::Session(const Scenario& scenario)
   let_arrive(arrivals_, pour_rule(scenario_), time_step(scenario_), world_);
 }
 
-Session::Session(const Scenario& scenario, Checkpoint checkpoint, const std::string& origin)
+Session::Session(const Scenario& scenario, Checkpoint checkpoint, const std::string& origin,
+                 const std::string& group)
     : scenario_(scenario),
       program_(scenario),
       world_(std::move(checkpoint.world)),
-      schedule_(stored_schedule(checkpoint, follows_failure(scenario), origin)),
+      schedule_(stored_schedule(checkpoint, follows_failure(scenario), origin, group)),
       arrivals_(arrivals_of(scenario)) {}
 
 ContactLawParameters Session::law() const {

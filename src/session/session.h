@@ -25,8 +25,9 @@ class Session {
   /// A new run: the bed of the scenario before its first step.
   explicit Session(const Scenario& scenario);
   /// A run as its last commit left it. Throws Error(bad_data) where the checkpoint lacks a value; `origin` is
-  /// what messages call the file.
-  Session(const Scenario& scenario, Checkpoint checkpoint, const std::string& origin = "the checkpoint");
+  /// what messages call the file, and `group` where the checkpoint stands in it.
+  Session(const Scenario& scenario, Checkpoint checkpoint, const std::string& origin = "the checkpoint",
+          const std::string& group = "/checkpoint");
 
   /// Records a row and a frame of the state as it is: those with which a branch of another run begins.
   void record_start();

@@ -378,8 +378,10 @@ TEST(Ensemble, of_a_bad_form_is_refused_before_anything_is_made) {
   EXPECT_EQ(run_talus({"ensemble", "bed.toml", "--until", "theta_c", "-o", "e"}, folder.path()).exit_code,
             64);
   EXPECT_EQ(run_talus({"ensemble", "bed.toml", "--seeds", "4-1", "-o", "e"}, folder.path()).exit_code, 64);
-  EXPECT_EQ(run_talus({"ensemble", "bed.toml", "--vary", "tilt.stp=1", "-o", "e"}, folder.path()).exit_code,
-            65);
+  const Outcome key = run_talus({"ensemble", "bed.toml", "--vary", "tilt.stp=1", "-o", "e"}, folder.path());
+  EXPECT_EQ(key.exit_code, 65);
+  EXPECT_TRUE(key.err.starts_with("--vary tilt.stp=1: error: ")) << key.err;
+  EXPECT_EQ(key.err.find("--set"), std::string::npos) << key.err;
   EXPECT_EQ(run_talus({"ensemble", "bed.toml", "--until", "theta_x:1", "-o", "e"}, folder.path()).exit_code,
             64);
   EXPECT_EQ(run_talus({"ensemble", "status", "e"}, folder.path()).exit_code, 66);

@@ -161,6 +161,7 @@ TEST(Study, with_a_bad_key_leaves_with_65_before_anything_runs) {
     const Outcome study = run_talus({"study", "bed.toml", "--vary", axis, "-o", "study"}, folder.path());
     EXPECT_EQ(study.exit_code, 65) << axis;
     EXPECT_NE(study.err.find("--vary tilt.st"), std::string::npos) << study.err;
+    EXPECT_EQ(study.err.find("--set"), std::string::npos) << study.err;
   }
   EXPECT_FALSE(std::filesystem::exists(folder.path("study")));
 }

@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <vector>
 
 #include "gui/offscreen_fixture.h"
+#include "gui/theme.h"
 
 namespace talus {
 namespace {
@@ -79,6 +81,34 @@ TEST_F(Replay, a_plot_answers) {
   EXPECT_EQ(model_.state.plot_looks["stress"].log_y, std::optional(true));
   gui_.double_click("plot stress", 0.5f);
   EXPECT_TRUE(gui_.has("plot energy"));
+}
+
+/// How many pixels of the upper left part of a plot have the colour in which its threshold is written.
+int note_pixels(OffscreenGui& gui, const std::string& plot) {
+  const Image window = gui.frame();
+  const WidgetPlace place = gui.place("plot " + plot);
+  const Colour soft = palette_of(Theme::light).soft;
+  int count = 0;
+  for (int y = static_cast<int>(place.y0); y < static_cast<int>(place.y0 + 0.4f * (place.y1 - place.y0)); ++y)
+    for (int x = static_cast<int>(place.x0); x < static_cast<int>(0.5f * (place.x0 + place.x1)); ++x) {
+      const std::uint8_t* pixel = window.pixels.data() + 3 * (y * window.width + x);
+      const auto near = [](int one, int other) { return std::abs(one - other) < 60; };
+      count += near(pixel[0], soft.red) && near(pixel[1], soft.green) && near(pixel[2], soft.blue) ? 1 : 0;
+    }
+  return count;
+}
+
+TEST_F(Replay, plots_of_overloaded_grains_say_their_threshold) {
+  for (int wait = 0; wait < 500 && plot_called("lengths").note.empty(); ++wait) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    gui_.frame();
+  }
+  for (const char* plot : {"overloaded", "cluster", "lengths"}) {
+    EXPECT_EQ(plot_called(plot).note, "at 1 Γ_c, if θ_c = 20°") << plot;
+    EXPECT_GT(note_pixels(gui_, plot), note_pixels(gui_, "stress") + 20) << plot;
+  }
+  gui_.key(']');
+  EXPECT_EQ(plot_called("overloaded").note, "at 1.1 Γ_c, if θ_c = 20°");
 }
 
 TEST_F(Replay, plots_answer_over_time_as_well) {

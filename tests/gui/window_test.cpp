@@ -57,6 +57,42 @@ TEST(View, shows_two_views_in_the_picture_and_says_what_cannot_be_beside) {
   EXPECT_EQ(view("bed.toml", {"--beside", "bed.h5"}).exit_code, 64);
 }
 
+TEST(View, a_picture_of_the_window_replaces_nothing_that_is_shown_in_it) {
+  const TemporaryFolder folder;
+  write_file(folder, "bed.toml", small_bed);
+  ASSERT_EQ(run_talus({"run", "bed.toml", "-q"}, folder.path()).exit_code, 0);
+  for (const char* copy : {"other.h5", "behind.h5"})
+    std::filesystem::copy_file(folder.path("bed.h5"), folder.path(copy));
+  const std::string run = text_of(folder.path("bed.h5")), scenario = text_of(folder.path("bed.toml"));
+  const std::vector<std::vector<std::string>> commands = {
+      {"bed.h5", "--screenshot", "bed.h5"},
+      {"bed.toml", "--screenshot", "bed.toml"},
+      {"bed.h5", "--beside", "other.h5", "--screenshot", "other.h5"},
+      {"bed.h5", "--behind", "behind.h5", "--screenshot", "behind.h5"},
+      {"bed.toml", "--set", "deposition.method=file", "--set", "deposition.file=other.h5", "--screenshot",
+       "other.h5"}};
+  for (std::vector<std::string> words : commands) {
+    words.insert(words.begin(), "view");
+    words.emplace_back("--overwrite");
+    const Outcome outcome = run_talus(words, folder.path());
+    EXPECT_EQ(outcome.exit_code, 64) << outcome.err;
+    EXPECT_TRUE(text_of(folder.path("bed.h5")) == run);
+    EXPECT_TRUE(text_of(folder.path("other.h5")) == run);
+    EXPECT_TRUE(text_of(folder.path("behind.h5")).starts_with("talus run file"));
+    EXPECT_EQ(text_of(folder.path("bed.toml")), scenario);
+  }
+}
+
+TEST(View, a_file_that_is_missing_is_said_where_there_is_no_display_too) {
+  const TemporaryFolder folder;
+  for (const char* file : {"nope.h5", "nope.toml"}) {
+    const Outcome outcome = run_talus({"view", file}, folder.path(), {"DISPLAY=", "WAYLAND_DISPLAY="});
+    EXPECT_EQ(outcome.exit_code, 66);
+    EXPECT_NE(outcome.err.find(file), std::string::npos) << outcome.err;
+    EXPECT_EQ(outcome.err.find("isplay"), std::string::npos) << outcome.err;
+  }
+}
+
 TEST(View, refuses_a_beginning_that_is_none) {
   const TemporaryFolder folder;
   write_file(folder, "bed.toml", small_bed);

@@ -90,6 +90,7 @@ TEST_F(Edges, each_signal_ends_each_command) {
                                            << ": " << errors_in(folder->path());
       if (code == 75) {
         EXPECT_NE(errors_in(folder->path()).find("topped"), std::string::npos) << words[0];
+        EXPECT_EQ(errors_in(folder->path()).find("error"), std::string::npos) << words[0];
       }
     }
 }

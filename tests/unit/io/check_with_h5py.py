@@ -62,6 +62,8 @@ def check_values(file, expected):
     assert file["checkpoint/vx"][2] == expected["vx_last"]
     assert file["parameters/scenario_given"][()].decode() == "seed = 3\n# \u03b8 in a comment\n"
     assert file["particles/grains/radius"].attrs["unit"] == b"m"
+    assert file["particles/grains/internal_moment/value"].attrs["unit"] == b"J/m", "per metre of thickness"
+    assert file["contacts/force"].attrs["unit"] == b"N/m"
     assert list(file["particles/grains/species"]) == [0, 0, 0, 0, 1, 1]
 
 

@@ -8,6 +8,8 @@
 #include "core/hash.h"
 #include "core/trigonometry.h"
 #include "io/run_file.h"
+#include "problems/step_problem.h"
+#include "scenario/tilt_program.h"
 #include "session/drag.h"
 #include "session/frame_state.h"
 #include "session/run.h"
@@ -163,6 +165,109 @@ TEST(Branch, of_a_branch_goes_on) {
   EXPECT_EQ(schedule.friction, 0.9);
   EXPECT_EQ(schedule.tilt_steps,
             static_cast<std::int64_t>(std::lround(degrees(branch.frame(2).tilt) / 0.02)));
+}
+
+/// A run of a scenario, recorded whole.
+RunFile recorded(const Scenario& scenario, const std::string& path, std::span<const Command> commands = {}) {
+  Session session(scenario);
+  record(session, {}, path, commands);
+  return RunFile::open(path);
+}
+
+/// A branch of it at frame k, recorded to its end.
+RunFile recorded_branch(const RunFile& run, const std::string& path, std::size_t k) {
+  const BranchOrigin origin = origin_at(run, "run.h5", k);
+  Session session(stored_scenario(run.header(), "run.h5"), origin.start);
+  session.record_start();
+  record(session, {"", "", "", 1, origin}, path);
+  return RunFile::open(path);
+}
+
+void expect_whole(const RunFile& run) {
+  const RunCheck check = check_run(run, {});
+  EXPECT_TRUE(check.faults.empty()) << check.faults.front();
+}
+
+TEST(Branch, goes_on_with_the_programme_of_the_tilt) {
+  const test::TemporaryFolder folder;
+  Scenario scenario = test::small_tilted_bed(1.0);
+  scenario.tilt.end_angle.reset();
+  scenario.tilt.program = {"to 1", "hold 0.03", "to 0.5", "2 times"};
+  const TiltProgram program(scenario);
+  const RunFile run = recorded(scenario, folder.path("run.h5"));
+  const std::int64_t first = run.frame(0).step;
+  for (const std::size_t k : {std::size_t{0}, run.frame_count() / 2}) {
+    SCOPED_TRACE(k);
+    const RunFile branch = recorded_branch(run, folder.path("branch" + std::to_string(k) + ".h5"), k);
+    expect_whole(branch);
+    EXPECT_EQ(branch.checkpoint().world.step, run.checkpoint().world.step);
+    EXPECT_EQ(find_value(branch.checkpoint().integers, last_tilt_step_name),
+              find_value(run.checkpoint().integers, last_tilt_step_name));
+    ASSERT_EQ(branch.all_frame_tilts().size(), run.all_frame_tilts().size() - k);
+    for (std::size_t j = 0; j < branch.all_frame_tilts().size(); ++j) {
+      EXPECT_EQ(branch.all_frame_tilts()[j], run.all_frame_tilts()[j + k]);
+      EXPECT_EQ(problem_after_frame(branch, j).scales.tilt, program.tilt(branch.frame(j).step - first + 1));
+    }
+  }
+}
+
+TEST(Branch, is_judged_by_the_friction_that_was_set_before_it_began) {
+  const test::TemporaryFolder folder;
+  const std::vector<Command> commands = {{0, CommandKind::friction, -1, 0.9}};
+  const RunFile run = recorded(test::small_tilted_bed(3.0), folder.path("run.h5"), commands);
+  const RunFile branch = recorded_branch(run, folder.path("branch.h5"), 2);
+  EXPECT_TRUE(branch.commands().empty());
+  expect_whole(branch);
+  EXPECT_GT(check_run(branch, {}).largest_mobilisation * 0.9, test::small_bed().contact.friction)
+      << "or any friction would do";
+}
+
+/// Also where the branch has no command of its own.
+TEST(Branch, of_a_branch_has_what_was_set_before_the_first) {
+  const test::TemporaryFolder folder;
+  Session session(test::small_tilted_bed(3.0));
+  while (session.phase() != Phase::tilt) session.advance();
+  const std::int64_t step = session.world().step;
+  const Grains& grains = session.world().grains;
+  const std::vector<Command> commands = {{step + 1, CommandKind::friction, -1, 0.9},
+                                         {step + 2, CommandKind::tilt_rate, -1, 12.0},
+                                         {step + 3, CommandKind::drag, 5, grains.x[5], grains.y[5]}};
+  const RunFile run = recorded(test::small_tilted_bed(3.0), folder.path("run.h5"), commands);
+  const RunFile branch = recorded_branch(run, folder.path("branch.h5"), 2);
+  const Schedule first = stored_schedule(checkpoint_at_frame(run, 3), false, "the run"),
+                 second = stored_schedule(checkpoint_at_frame(branch, 1), false, "the branch");
+  ASSERT_EQ(branch.frame(1).step, run.frame(3).step);
+  EXPECT_EQ(second.friction, std::optional(0.9));
+  ASSERT_TRUE(second.course && first.course && second.drag);
+  EXPECT_EQ(second.course->rate, radians(12.0));
+  EXPECT_EQ(second.course->from, first.course->from);
+  EXPECT_EQ(second.course->since, first.course->since);
+  EXPECT_EQ(second.drag->grain, 5);
+  EXPECT_EQ(second.drag->y, grains.y[5]);
+  EXPECT_EQ(second.tilt_steps, first.tilt_steps);
+  EXPECT_EQ(second.baseline.volume, first.baseline.volume);
+}
+
+TEST(Branch, goes_on_in_the_flow_after_failure) {
+  const test::TemporaryFolder folder;
+  Scenario scenario = test::small_tilted_bed(3.0);
+  scenario.contact.friction = 0.02;
+  scenario.tilt.end_angle.reset();
+  scenario.tilt.after_failure = AfterFailure::lower;
+  scenario.tilt.lowering_rate = 100.0;
+  const RunFile run = recorded(scenario, folder.path("run.h5"));
+  const std::size_t k = run.frame_count();
+  ASSERT_LT(k + 1, run.all_frame_tilts().size()) << "a frame of the flow";
+  const Schedule schedule = stored_schedule(checkpoint_at_frame(run, k), true, "the frame");
+  EXPECT_EQ(schedule.phase, Phase::flow);
+  EXPECT_TRUE(schedule.flow.failed);
+  const RunFile branch = recorded_branch(run, folder.path("branch.h5"), k);
+  expect_whole(branch);
+  EXPECT_EQ(find_value(branch.checkpoint().results, "theta_c"),
+            find_value(run.checkpoint().results, "theta_c"));
+  Session again = session_at_start(branch.header(), "branch.h5");
+  replay(again, nullptr, {}, to_the_end, {});
+  EXPECT_EQ(state_hash(again.world()), state_hash(branch.checkpoint().world));
 }
 
 constexpr double diameter = 0.01, step_length = 1e-3;

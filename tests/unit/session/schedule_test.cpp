@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/errors.h"
@@ -132,6 +133,18 @@ TEST(Schedule, that_lacks_a_value_or_has_an_impossible_one_is_refused) {
   steps.integers[1].second = -1;
   EXPECT_EQ(refusal(steps),
             "run.h5: data set /checkpoint/integers/tilt_steps is -1, expected a number of steps");
+  for (Checkpoint other = checkpoint; auto& [name, value] : other.reals) {
+    const double was = std::exchange(value, std::nan(""));
+    EXPECT_EQ(refusal(other),
+              "run.h5: data set /checkpoint/reals/" + name + " is nan, expected a finite number");
+    value = was;
+  }
+  try {
+    stored_schedule(phase, true, "run.h5", "/branch");
+  } catch (const Error& error) {
+    EXPECT_EQ(std::string(error.what()),
+              "run.h5: data set /branch/integers/phase is 4, expected 0, 1, 2 or 3");
+  }
   Checkpoint untimed = checkpoint;
   untimed.timing.clear();
   EXPECT_EQ(read(untimed).seconds.tilt, 0.0) << "wall times are no state";

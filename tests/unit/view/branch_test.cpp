@@ -137,6 +137,11 @@ TEST(BranchView, goes_on_from_the_frame_shown_and_is_saved_as_a_run) {
   const RunFile branch = RunFile::open(folder.path("run-branch-1.h5"));
   EXPECT_EQ(hash_text(state_hash(branch.checkpoint().world)), hash);
   ASSERT_TRUE(branch.header().branch);
+  EXPECT_EQ(branch.header().branch->run, folder.path("run.h5"));
+  EXPECT_EQ(branch.header().branch->frame, 3);
+  EXPECT_EQ(branch.header().branch->start.world.step, shown.step);
+  EXPECT_EQ(branch.header().branch->run_hash,
+            hash_text(state_hash(RunFile::open(folder.path("run.h5")).checkpoint().world)));
   Session again = session_at_start(branch.header(), "branch");
   replay(again, nullptr, branch.commands(), branch.checkpoint().world.step, {});
   EXPECT_EQ(hash_text(state_hash(again.world())), hash);

@@ -11,6 +11,7 @@
 
 #include "core/trigonometry.h"
 #include "export/fields.h"
+#include "io/run_schema.h"
 #include "pictures/overload_rule.h"
 #include "support/temporary_folder.h"
 #include "unit/view/example_bed.h"
@@ -96,6 +97,28 @@ TEST(GrainQuantitiesOfARun, are_those_that_export_writes) {
     }
   }
   EXPECT_GE(compared, 19);
+}
+
+/// What the window says in SI units has the unit of the attribute of its data set: per metre of thickness.
+TEST(GrainQuantitiesOfARun, have_the_units_of_the_run_file) {
+  const std::pair<const char*, const char*> same[] = {
+      {"mass", "/particles/grains/mass"},
+      {"velocity_x", "/particles/grains/velocity/value"},
+      {"velocity_y", "/particles/grains/velocity/value"},
+      {"angular_velocity", "/particles/grains/angular_velocity/value"},
+      {"internal_moment_xx", "/particles/grains/internal_moment/value"},
+      {"internal_moment_yx", "/particles/grains/internal_moment/value"},
+      {"pressure", "/observables/sigma_n"}};
+  for (const auto& [name, data_set] : same)
+    EXPECT_EQ(std::string(grain_quantity(name).unit), field_of(data_set).unit) << name;
+  const std::pair<const char*, const char*> per_metre[] = {{"/contacts/force", "N/m"},
+                                                           {"/observables/kinetic_energy", "J/m"},
+                                                           {"/particles/grains/internal_moment/value", "J/m"},
+                                                           {"/particles/grains/mass", "kg/m"},
+                                                           {"/checkpoint/contact_force", "N/m"},
+                                                           {"/branch/contact_force", "N/m"},
+                                                           {"/branch/mass", "kg/m"}};
+  for (const auto& [data_set, unit] : per_metre) EXPECT_EQ(field_of(data_set).unit, unit) << data_set;
 }
 
 TEST(GrainQuantitiesOfARun, are_listed_in_the_document) {

@@ -1,0 +1,387 @@
+/// Branches whose /branch is damaged, or whole and no state of their run: every command tells of it in one
+/// message, or does without.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <limits>
+
+#include "cli/process.h"
+#include "core/random.h"
+#include "io/child_process.h"
+#include "io/run_file.h"
+#include "reliability/branched_run.h"
+#include "reliability/hostile_test.h"
+#include "session/frame_state.h"
+#include "session/run_check.h"
+
+namespace talus::hostile {
+namespace {
+
+namespace fs = std::filesystem;
+using Words = std::vector<std::string>;
+
+constexpr int done = 0, bad_data = 65;
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+void make_good(const test::TemporaryFolder& folder) {
+  make_branch(folder.path("parent.h5"), folder.path("good.h5"), true);
+  make_branch(folder.path("parent.h5"), folder.path("stopped.h5"), false);
+}
+
+class HostileBranch : public HostileFile<make_good> {
+ protected:
+  static test::Outcome talus(const Words& words) { return test::run_talus(words, folder->path()); }
+
+  /// The stopped branch with another start.
+  static std::string with_start(const std::function<void(BranchOrigin&)>& change) {
+    const std::string path = folder->path("changed.h5");
+    store_with_start(folder->path("stopped.h5"), path, change);
+    return path;
+  }
+};
+
+/// In a process of its own, which may take no longer than a file of that size needs.
+void use_apart(const std::string& path) {
+  const std::string folder = run_folder(path);
+  const std::string read = fs::exists(path) ? path : folder + "/header.h5";
+  in_child_process(path, fs::file_size(read), [&path] {
+    use_branch(path);
+    return Bytes();
+  });
+}
+
+std::optional<std::string> refusal(const std::string& path) { return hostile::refusal(path, use_apart); }
+
+bool is_of_branch(const std::string& path) { return path.starts_with("/branch/"); }
+
+std::vector<std::string> data_sets_of_branch(const Bytes& file) {
+  std::vector<std::string> paths = data_sets(file);
+  std::erase_if(paths, [](const std::string& path) { return !is_of_branch(path); });
+  return paths;
+}
+
+TEST_F(HostileBranch, is_the_good_one_to_begin_with) {
+  EXPECT_EQ(refusal(bad(good)), std::nullopt);
+  EXPECT_EQ(refusal(bad(spoilt(good, {}))), std::nullopt);
+  EXPECT_EQ(refusal(with_start([](BranchOrigin&) {})), std::nullopt);
+  EXPECT_EQ(refusal(folder->path("stopped.h5")), std::nullopt);
+  const RunCheck check = check_run(RunFile::open(folder->path("good.h5")), {});
+  EXPECT_TRUE(check.faults.empty()) << check.faults.front();
+  EXPECT_GT(check.largest_mobilisation, 0.5 / 0.6) << "the friction that a command had set is in force";
+  EXPECT_EQ(talus({"replay", "good.h5", "-q"}).exit_code, done);
+}
+
+TEST_F(HostileBranch, that_was_stopped_goes_on_to_the_end_of_one_that_was_not) {
+  fs::copy(run_folder(folder->path("stopped.h5")), run_folder(folder->path("again.h5")));
+  const test::Outcome resumed = talus({"run", "--resume", "again.h5", "-q"});
+  EXPECT_EQ(resumed.exit_code, done) << resumed.err;
+  const auto hash = [](const std::string& name) {
+    return test::json_value(talus({"info", name, "--json"}).out, "state_hash");
+  };
+  EXPECT_EQ(hash("again.h5"), hash("good.h5"));
+  EXPECT_EQ(talus({"replay", "again.h5", "-q"}).exit_code, done);
+  EXPECT_EQ(talus({"check", "again.h5"}).exit_code, done);
+}
+
+TEST_F(HostileBranch, each_data_set_of_another_make_is_refused_by_name) {
+  // One of these less is another start, as good, of which only the hashes of the pieces tell.
+  const auto may_be_missing = [](const std::string& path) {
+    for (const char* name : {"/friction", "/drag_grain", "/tilt_rate", "/unconverged_in_a_row"})
+      if (path.ends_with(name)) return true;
+    return false;
+  };
+  std::size_t refused = 0;
+  for (const std::string& path : data_sets_of_branch(good))
+    for (const Harm harm : {Harm::missing, Harm::group_instead, Harm::as_int64, Harm::as_text,
+                            Harm::as_text_of_variable_length, Harm::as_compound, Harm::one_rank_more,
+                            Harm::huge, Harm::values_in_another_file, Harm::external_link}) {
+      const bool is_gone = harm == Harm::missing || harm == Harm::group_instead;
+      const bool is_text_still = harm == Harm::as_text && path == "/branch/run";
+      if (is_text_still || (is_gone && may_be_missing(path))) continue;
+      SCOPED_TRACE(path + " " + name_of(harm));
+      const Bytes bytes = spoilt(good, std::vector<Spoil>{{path, harm, 0, 0, folder->path("good.h5")}});
+      const std::optional<std::string> message = refusal(bad(bytes));
+      ASSERT_TRUE(message) << "was accepted";
+      const auto leaf = path.rfind('/');
+      EXPECT_TRUE(message->find(path.substr(0, leaf)) != std::string::npos ||
+                  message->find("/branch/state_hash") != std::string::npos)
+          << *message;
+      ++refused;
+    }
+  EXPECT_GT(refused, 300U);
+}
+
+TEST_F(HostileBranch, one_value_less_is_told_by_check) {
+  for (const char* path : {"/branch/reals/friction", "/branch/integers/drag_grain"}) {
+    const RunFile run = RunFile::open(bad(spoilt(good, std::vector<Spoil>{{path, Harm::missing, 0, 0, {}}})));
+    const RunCheck check = check_run(run, {});
+    EXPECT_TRUE(std::ranges::any_of(check.faults, [&path](const std::string& fault) {
+      return fault.starts_with(path);
+    })) << path;
+  }
+}
+
+TEST_F(HostileBranch, sizes_and_values_of_chance_are_refused_or_harmless) {
+  const std::vector<std::string> paths = data_sets_of_branch(good);
+  Random random(60);
+  int refused = 0;
+  const int count = tries(150);
+  for (int k = 0; k < count; ++k) {
+    std::vector<Spoil> spoils(1 + random.below(2));
+    for (Spoil& spoil : spoils)
+      spoil = {paths[random.below(static_cast<std::uint32_t>(paths.size()))],
+               static_cast<Harm>(random.below(harm_count)), random.next(), random.below(40),
+               folder->path("good.h5")};
+    SCOPED_TRACE(spoils.front().path + " " + name_of(spoils.front().harm) + " " +
+                 std::to_string(spoils.front().bits));
+    refused += refusal(bad(spoilt(good, spoils))) ? 1 : 0;
+  }
+  EXPECT_GT(refused, count / 2);
+}
+
+/// A start that no run of this scenario has, with the hashes that belong to it.
+struct WrongStart {
+  const char* named;  ///< what the message names
+  std::function<void(BranchOrigin&)> change;
+};
+
+void set(std::vector<std::pair<std::string, double>>& values, const std::string& name, double to) {
+  std::ranges::find(values, name, &std::pair<std::string, double>::first)->second = to;
+}
+
+void set(std::vector<std::pair<std::string, std::int64_t>>& values, const std::string& name,
+         std::int64_t to) {
+  std::ranges::find(values, name, &std::pair<std::string, std::int64_t>::first)->second = to;
+}
+
+WrongStart with_integer(const char* named, const std::string& name, std::int64_t to) {
+  return {named, [=](BranchOrigin& branch) { set(branch.start.integers, name, to); }};
+}
+
+WrongStart with_real(const char* named, const std::string& name, double to) {
+  return {named, [=](BranchOrigin& branch) { set(branch.start.reals, name, to); }};
+}
+
+WrongStart with_grain(const char* named, std::vector<double> Grains::*member, double to) {
+  return {named, [=](BranchOrigin& branch) { (branch.start.world.grains.*member)[3] = to; }};
+}
+
+template <typename Value>
+WrongStart with_world(const char* named, Value World::*member, Value to) {
+  return {named, [=](BranchOrigin& branch) { branch.start.world.*member = to; }};
+}
+
+std::vector<WrongStart> wrong_starts() {
+  constexpr std::int64_t huge = std::int64_t{1} << 62;
+  return {
+      {"/branch/frame", [](BranchOrigin& branch) { branch.frame = -1; }},
+      {"/branch/frame", [](BranchOrigin& branch) { branch.frame = huge; }},
+      {"/branch/run_hash", [](BranchOrigin& branch) { branch.run_hash = "no hash"; }},
+      {"/branch/run_hash", [](BranchOrigin& branch) { branch.run_hash.replace(0, 4, "\x1b[2J"); }},
+      with_world("/branch/step", &World::step, std::int64_t{-1}),
+      with_world("/branch/step", &World::step, huge),
+      with_world("/branch/integers/tilt_steps", &World::step, std::int64_t{10}),
+      with_world("/branch/time", &World::time, -1.0),
+      with_world("/branch/time", &World::time, nan),
+      with_world("/branch/tilt", &World::tilt, 1e300),
+      with_world("/branch/tilt", &World::tilt, 0.5),
+      with_world("/branch/gravity", &World::gravity, 0.0),
+      with_world("/branch/gravity", &World::gravity, 1e300),
+      with_grain("/branch/x", &Grains::x, 1e300),
+      with_grain("/branch/x", &Grains::x, -1e4),
+      with_grain("/branch/y", &Grains::y, nan),
+      with_grain("/branch/vx", &Grains::vx, 1e300),
+      with_grain("/branch/vy", &Grains::vy, -1e9),
+      with_grain("/branch/omega", &Grains::omega, 1e300),
+      with_grain("/branch/radius", &Grains::radius, 1e-300),
+      with_grain("/branch/radius", &Grains::radius, 0.0),
+      with_grain("/branch/mass", &Grains::mass, 1.0),
+      with_grain("/branch/inverse_mass", &Grains::inverse_mass, 0.0),
+      with_grain("/branch/inverse_mass", &Grains::inverse_mass, 1e300),
+      with_grain("/branch/inverse_inertia", &Grains::inverse_inertia, 0.0),
+      with_grain("/branch/inverse_inertia", &Grains::inertia, 0.0),
+      {"/branch/free_count", [](BranchOrigin& branch) { --branch.start.world.grains.free_count; }},
+      {"/branch/free_count", [](BranchOrigin& branch) { branch.start.world.grains.free_count = -1; }},
+      {"/branch/radius",
+       [](BranchOrigin& branch) {
+         Grains& grains = branch.start.world.grains;
+         for (auto member : {&Grains::x, &Grains::y, &Grains::vx, &Grains::vy, &Grains::omega,
+                             &Grains::radius, &Grains::inverse_mass, &Grains::inverse_inertia, &Grains::mass,
+                             &Grains::inertia, &Grains::angle})
+           (grains.*member).pop_back();
+         grains.image.pop_back();
+         branch.start.world.contacts.resize(0);
+       }},
+      {"/branch/periodic", [](BranchOrigin& branch) { branch.start.world.boundary.periodic = true; }},
+      {"/branch/length", [](BranchOrigin& branch) { branch.start.world.boundary.length *= 2.0; }},
+      {"/branch/plane_normal",
+       [](BranchOrigin& branch) {
+         branch.start.world.boundary.planes.pop_back();
+         branch.start.world.contacts.resize(0);
+       }},
+      {"/branch/plane_normal",
+       [](BranchOrigin& branch) { branch.start.world.boundary.planes[0].normal.x = 0.0; }},
+      {"/branch/plane_normal",
+       [](BranchOrigin& branch) { branch.start.world.boundary.planes[0].offset = 0.05; }},
+      {"/branch/contact_pair", [](BranchOrigin& branch) { branch.start.world.contacts.a[0] = -1; }},
+      {"/branch/contact_pair", [](BranchOrigin& branch) { branch.start.world.contacts.b[0] = 1000; }},
+      {"/branch/contact_shift", [](BranchOrigin& branch) { branch.start.world.contacts.shift[0] = 100; }},
+      {"/branch/contact_normal", [](BranchOrigin& branch) { branch.start.world.contacts.nx[0] = 1e300; }},
+      {"/branch/contact_force", [](BranchOrigin& branch) { branch.start.world.contacts.fn[0] = nan; }},
+      with_integer("/branch/integers/phase", "phase", 0),
+      with_integer("/branch/integers/phase", "phase", 2),
+      with_integer("/branch/integers/phase", "phase", 3),
+      with_integer("/branch/integers/phase", "phase", 7),
+      with_integer("/branch/integers/tilt_steps", "tilt_steps", -1),
+      with_integer("/branch/integers/tilt_steps", "tilt_steps", huge),
+      with_integer("/branch/tilt", "tilt_steps", 100),
+      with_integer("/branch/integers/quiet_steps", "quiet_steps", huge / 1024),
+      with_integer("/branch/integers/tilt_since", "tilt_since", huge / 1024),
+      with_integer("/branch/integers/drag_grain", "drag_grain", 1000),
+      with_integer("/branch/integers/drag_grain", "drag_grain", -1),
+      {"/branch/integers/phase", [](BranchOrigin& branch) { branch.start.integers.clear(); }},
+      {"/branch/reals/", [](BranchOrigin& branch) { branch.start.reals.clear(); }},
+      {"/branch/integers/last_tilt_step",
+       [](BranchOrigin& branch) { branch.start.integers.emplace_back("last_tilt_step", 3); }},
+      with_real("/branch/reals/friction", "friction", nan),
+      with_real("/branch/reals/friction", "friction", -1.0),
+      with_real("/branch/reals/friction", "friction", 1e300),
+      with_real("/branch/reals/tilt_rate", "tilt_rate", nan),
+      with_real("/branch/tilt", "tilt_from", 1.0),
+      with_real("/branch/reals/baseline_volume", "baseline_volume", 0.0),
+      with_real("/branch/reals/surface_height", "surface_height", std::numeric_limits<double>::infinity()),
+      with_real("/branch/reals/drag_x", "drag_x", 1e300),
+      with_real("/branch/reals/drag_y", "drag_y", nan),
+  };
+}
+
+TEST_F(HostileBranch, that_begins_with_no_state_of_its_run_is_refused_by_name) {
+  for (const WrongStart& wrong : wrong_starts()) {
+    SCOPED_TRACE(wrong.named);
+    const std::string path = with_start(wrong.change);
+    const std::optional<std::string> message = refusal(path);
+    ASSERT_TRUE(message) << "was accepted";
+    // A file of the folder, or the run, is what it begins with.
+    EXPECT_NE(message->find(std::string("data set ") + wrong.named), std::string::npos) << *message;
+  }
+}
+
+/// One message, and nothing that a terminal obeys.
+void expect_told(const test::Outcome& outcome, bool refused) {
+  EXPECT_EQ(outcome.exit_code, refused ? bad_data : done) << outcome.err;
+  EXPECT_EQ(outcome.err.find_first_of("\x1b\a\r\x7f"), std::string::npos);
+  EXPECT_EQ(outcome.out.find_first_of("\x1b\a\r\x7f"), std::string::npos);
+  if (!refused) return;
+  const auto first = outcome.err.find("talus: error: ");
+  EXPECT_NE(first, std::string::npos) << outcome.err;
+  EXPECT_EQ(outcome.err.find("talus: error: ", first + 1), std::string::npos) << "one message";
+  EXPECT_NE((outcome.err + outcome.out).find("/branch/"), std::string::npos) << outcome.err << outcome.out;
+}
+
+/// Of what cannot be read every command tells; of what can be read and is no state of the scenario those tell
+/// that use it.
+TEST_F(HostileBranch, is_told_by_every_command) {
+  const auto in = [](const char* named, bool read, const std::function<void(BranchOrigin&)>& change) {
+    SCOPED_TRACE(named);
+    with_start(change);
+    fs::remove(folder->path("view.png"));
+    expect_told(talus({"info", "changed.h5"}), !read);
+    expect_told(talus({"info", "changed.h5", "--json"}), !read);
+    expect_told(talus({"check", "changed.h5"}), true);
+    expect_told(talus({"replay", "changed.h5"}), true);
+    expect_told(
+        talus({"render", "changed.h5", "--map", "pressure", "--at", "1.3", "-o", "maps", "--overwrite"}),
+        !read);
+    const test::Outcome view = talus({"view", "changed.h5", "--screenshot", "view.png", "--size", "400x300"});
+    if (view.err.find("without its window") == std::string::npos) expect_told(view, !read);
+    EXPECT_TRUE(read || !fs::exists(folder->path("view.png")));
+    expect_told(talus({"repair", "changed.h5", "-o", "repaired.h5"}), !read);
+    EXPECT_FALSE(fs::exists(folder->path("repaired.h5")));
+    expect_told(talus({"run", "--resume", "changed.h5", "-q"}), !read);
+  };
+  in("a bed of other grains", false, [](BranchOrigin& of) { of.start.world.grains.radius[3] *= 1.1; });
+  in("a frame out of range", false, [](BranchOrigin& of) { of.frame = std::int64_t{1} << 40; });
+  in("a tilt that is none", false, [](BranchOrigin& of) { of.start.world.tilt = nan; });
+  in("another tilt", true, [](BranchOrigin& of) { of.start.world.tilt = 0.3; });
+  in("a friction that is none", true, [](BranchOrigin& of) { set(of.start.reals, "friction", nan); });
+  in("no phase", true, [](BranchOrigin& of) { of.start.integers.clear(); });
+}
+
+TEST_F(HostileBranch, names_reach_no_terminal_raw) {
+  const std::string attack =
+      "\x1b]0;owned\a\x1b[2J\xc2\x9b"
+      "31m\r\xff\x7f";
+  const std::string path = with_start([&attack](BranchOrigin& branch) {
+    branch.run = attack;
+    branch.start.integers.emplace_back(attack, 1);
+    branch.start.reals.emplace_back(attack, nan);
+  });
+  EXPECT_EQ(refusal(path), std::nullopt) << "a name that nobody asks for";
+  for (const Words& words : {Words{"info", "changed.h5"},
+                             {"info", "changed.h5", "--json"},
+                             {"check", "changed.h5"},
+                             {"replay", "changed.h5"},
+                             {"repair", "changed.h5", "-o", "repaired.h5"},
+                             {"run", "--resume", "changed.h5"}}) {
+    const test::Outcome outcome = talus(words);
+    EXPECT_EQ(outcome.exit_code, done) << words[0] << ": " << outcome.err;
+    for (const std::string& text : {outcome.out, outcome.err}) {
+      EXPECT_EQ(text.find_first_of("\x1b\a\x7f\xff"), std::string::npos) << words[0];
+      EXPECT_EQ(text.find("\xc2\x9b"), std::string::npos) << words[0];
+    }
+  }
+  EXPECT_NE(talus({"info", "changed.h5"}).out.find("branch of           \\x1b]0;owned"), std::string::npos);
+}
+
+TEST_F(HostileBranch, of_another_run_is_told_by_check_and_by_replay) {
+  const RunFile parent = RunFile::open(folder->path("parent.h5"));
+  const Checkpoint elsewhere = checkpoint_at_frame(parent, 3);
+  with_start([&elsewhere](BranchOrigin& branch) { branch.start = elsewhere; });
+  const test::Outcome check = talus({"check", "changed.h5"});
+  EXPECT_EQ(check.exit_code, bad_data);
+  EXPECT_NE(check.out.find("/branch: is not the state of the first frame"), std::string::npos) << check.out;
+  EXPECT_NE(talus({"replay", "changed.h5", "-q"}).exit_code, done);
+}
+
+/// What is left without it is a run like any other, and says what it lacks.
+TEST_F(HostileBranch, of_which_the_start_is_damaged_is_repaired_without_it) {
+  const std::string path = bad(spoilt(good, std::vector<Spoil>{{"/branch/vx", Harm::one_value, 2, 10, {}}}));
+  const test::Outcome check = talus({"check", "bad.h5"});
+  EXPECT_EQ(check.exit_code, bad_data);
+  EXPECT_NE(check.out.find("fault: /branch/vx: is not as it was written"), std::string::npos) << check.out;
+  fs::remove(folder->path("kept.h5"));
+  const test::Outcome repair = talus({"repair", "bad.h5", "-o", "kept.h5"});
+  EXPECT_EQ(repair.exit_code, done) << repair.err;
+  EXPECT_NE((repair.out + repair.err).find("all of /branch is left out"), std::string::npos) << repair.out;
+  const RunFile kept = RunFile::open(folder->path("kept.h5")), whole = RunFile::open(folder->path("good.h5"));
+  EXPECT_FALSE(kept.header().branch);
+  EXPECT_EQ(kept.all_frame_tilts(), whole.all_frame_tilts());
+  EXPECT_EQ(talus({"info", "kept.h5"}).exit_code, done);
+  const test::Outcome whole_again = talus({"check", "kept.h5"});
+  EXPECT_EQ(whole_again.exit_code, done) << whole_again.out;
+  const test::Outcome replay = talus({"replay", "kept.h5"});
+  EXPECT_EQ(replay.exit_code, bad_data);
+  EXPECT_NE(replay.err.find("the state that it began from is lost"), std::string::npos) << replay.err;
+  EXPECT_THROW(checkpoint_at_frame(kept, 1), Error) << "what had been set before is not known any more";
+}
+
+TEST_F(HostileBranch, with_a_byte_flipped_in_its_header_is_refused_as_a_folder) {
+  const fs::path header = run_folder(folder->path("stopped.h5")) + "/header.h5";
+  const Bytes whole = read_bytes(header);
+  Random random(61);
+  for (int k = 0; k < tries(60); ++k) {
+    Bytes bytes = whole;
+    const auto at = random.below(static_cast<std::uint32_t>(bytes.size()));
+    bytes[at] ^= static_cast<std::byte>(1 + random.below(255));
+    write_bytes(header, bytes);
+    EXPECT_TRUE(refusal(folder->path("stopped.h5"))) << "byte " << at;
+  }
+  write_bytes(header, whole);
+}
+
+}  // namespace
+}  // namespace talus::hostile
