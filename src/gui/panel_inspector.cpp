@@ -107,7 +107,7 @@ std::string ratio_text(double ratio, const char* remark) {
 void draw_state(const Inspection& grain, double diameter, double l_min) {
   fact("radius", fmt::format("{:.3f} D", grain.radius / diameter));
   fact("place", fmt::format("{:.2f}, {:.2f} D", grain.x / diameter, grain.y / diameter));
-  fact("velocity", fmt::format("{:.3g}, {:.3g} m/s", grain.vx, grain.vy));
+  fact("velocity", fmt::format("{:.2g}, {:.2g} m/s", grain.vx, grain.vy));
   fact("spin", fmt::format("{:.3g} rad/s", grain.omega));
   if (!grain.free) return;
   fact("M_x_x, M_y_y", fmt::format("{:.3g}, {:.3g} J/m", grain.internal_moment.xx, grain.internal_moment.yy));

@@ -13,9 +13,11 @@ struct PlotGrid {
   ImVec2 cell;
 };
 
+constexpr float least_width = 17.5f;  // em: the longest title has room
+
 PlotGrid lay_out_plots(const ImVec2& room, int count, float em) {
   PlotGrid grid;
-  grid.columns = std::clamp(static_cast<int>(room.x / (15.0f * em)), 1, count);
+  grid.columns = std::clamp(static_cast<int>(room.x / (least_width * em)), 1, count);
   const int rows = (count + grid.columns - 1) / grid.columns;
   grid.columns = (count + rows - 1) / rows;
   grid.cell = {std::floor(room.x / static_cast<float>(grid.columns)),

@@ -37,8 +37,7 @@ void offer_names(Gui& gui) {
 void choose_mode(Gui& gui) {
   SelectionMode& mode = gui.model.state.selecting.mode;
   int chosen = static_cast<int>(mode);
-  ImGui::SetNextItemWidth(-1.0f);
-  if (named_choice(gui, "mode", "", {"select anew", "add", "take away", "only of these"}, chosen))
+  if (named_choice(gui, "mode", "selecting", {"anew", "adds", "takes away", "keeps only these"}, chosen))
     mode = static_cast<SelectionMode>(chosen);
 }
 
@@ -52,7 +51,6 @@ void write_condition(Gui& gui) {
   const bool pressed = named_button(gui, "select", "Select", "enter");
   ImGui::SameLine();
   offer_names(gui);
-  ImGui::SameLine();
   choose_mode(gui);
   if (entered || pressed) gui.model.select_by_condition();
   if (named_checkbox(gui, "in each frame", "anew in each frame", selecting.in_each_frame) &&

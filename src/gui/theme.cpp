@@ -100,7 +100,7 @@ constexpr std::pair<ImGuiCol, Colour Palette::*> roles[] = {
     {ImGuiCol_TitleBg, &Palette::raised},
     {ImGuiCol_TitleBgActive, &Palette::raised},
     {ImGuiCol_TitleBgCollapsed, &Palette::raised},
-    {ImGuiCol_ScrollbarGrab, &Palette::line},
+    {ImGuiCol_ScrollbarGrab, &Palette::pressed},
     {ImGuiCol_ScrollbarGrabHovered, &Palette::soft},
     {ImGuiCol_ScrollbarGrabActive, &Palette::soft},
     {ImGuiCol_CheckMark, &Palette::accent},

@@ -306,6 +306,15 @@ void expect_inside(const OffscreenGui& gui, float width, float height) {
   }
 }
 
+TEST_F(Replay, titles_of_plots_have_room) {
+  for (const float scale : {1.0f, 1.5f, 2.0f}) {
+    const OffscreenGui gui(model_, 2400, 1600, scale);
+    const WidgetPlace plot = gui.place("plot overloaded"), button = gui.place("play");
+    const float em = (button.y1 - button.y0) / 1.53f;  // as high as a line with its frame
+    EXPECT_GT(plot.x1 - plot.x0, 16.5f * em) << scale;
+  }
+}
+
 TEST_F(Replay, a_small_window_has_what_is_needed) {
   gui_.resize(640, 400);
   expect_inside(gui_, 640.0f, 400.0f);
