@@ -92,6 +92,7 @@ struct FrameView {
   bool coloured = false;        ///< a picture in colour, even if everything in it is gray
   bool transparent = false;     ///< nothing behind the discs, instead of white
   bool furniture = true;        ///< false: the bed alone fills the picture; what follows is not drawn
+  double letters = 90.0;        ///< so many font sizes are as wide as the picture
   bool left_wall = false;       ///< a wall stands at x_min, and is drawn as a line
   bool right_wall = false;      ///< the same at x_max
   bool floor_line = false;      ///< y_min is a smooth floor, drawn as a line

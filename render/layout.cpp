@@ -17,7 +17,6 @@ constexpr double margin = 0.8;
 constexpr double gap_between_rows = 0.3;
 
 constexpr double smallest_em = 6.0;  // px: below, nothing can be read
-constexpr double letters_per_width = 90.0;
 
 /// Puts groups from left to right, `last` at the right end, into as many rows as they need. Returns the lower
 /// edge, px.
@@ -146,7 +145,7 @@ Layout lay_out(const FrameView& view, int width, const Font& font, double larges
     throw Error(ExitCode::usage,
                 fmt::format("width = {}: expected {} ... {} px", width, smallest_width, largest_side));
   if (!view.furniture) return lay_out_bed(view, width);
-  const double wanted_em = std::max(10.0, std::round(width / letters_per_width));
+  const double wanted_em = std::max(10.0, std::round(width / view.letters));
   for (double em = std::min(wanted_em, largest_em); em >= smallest_em; em -= 0.5)
     if (std::optional<Layout> layout = lay_out_with(view, width, em, font)) return *layout;
   throw Error(

@@ -85,8 +85,8 @@ inline constexpr int smallest_width = 200;
 inline constexpr int largest_side = 16384;
 
 /// Lays out a picture `width` px wide: caption, bed, legends, traces. The height follows from the aspect of
-/// the bed. The font grows with the width, up to `largest_em`, and shrinks if a text would not fit. Throws
-/// Error(usage) if nothing legible fits, or if the picture is larger than largest_side.
+/// the bed. The font grows with the width, as the view asks for, up to `largest_em`, and shrinks if a text
+/// would not fit. Throws Error(usage) if nothing legible fits, or if the picture is larger than largest_side.
 Layout lay_out(const FrameView& view, int width, const Font& font,
                double largest_em = std::numeric_limits<double>::infinity());
 

@@ -51,6 +51,13 @@ function criticalLines(frame, places, swatches) {
   return lines;
 }
 
+/** Over filled grains those that cannot be seen through have a white border: they are told from any shade of gray. */
+function withBorders(lines) {
+  const isOpaque = (line) => line.colour[3] === 255, above = lines.filter(isOpaque);
+  const borders = above.map((line) => ({ ...line, half: line.half + data.contacts.border, colour: [255, 255, 255, 255] }));
+  return lines.filter((line) => !isOpaque(line)).concat(borders, above);
+}
+
 /** The legend of lines over a map; `map` null: over outlines. */
 const linesLegend = (lines, map) => lines.legends.find((legend) => legend.over === (map ? map.over : "")).legend;
 
@@ -58,7 +65,7 @@ const linesLegend = (lines, map) => lines.legends.find((legend) => legend.over =
 function lineShapes(lines, map, frame) {
   if (!lines) return { count: 0, numbers: new Float32Array(0), colours: new Uint8Array(0) };
   const make = lines.name === "forces" ? forceLines : criticalLines;
-  const made = make(frame, centres(frame), linesLegend(lines, map).swatches);
+  const bare = make(frame, centres(frame), linesLegend(lines, map).swatches), made = map ? withBorders(bare) : bare;
   const numbers = new Float32Array(5 * made.length), colours = new Uint8Array(4 * made.length);
   made.forEach((line, k) => {
     numbers.set(line.ends, 5 * k);

@@ -86,6 +86,12 @@ void add_frame_options(CLI::App& command, MapOptions& options) {
   command.add_flag("--turned", options.turned, "Draw the bed at its slope instead of in its own frame");
   command.add_flag("--transparent", options.transparent, "Transparent background instead of white");
   command.add_flag("--bare", options.bare, "The bed alone: no caption, bar, scale or arrow");
+  command
+      .add_option(
+          "--printed", options.printed,
+          "How wide the picture will be printed, in cm, as 8.6 for a column: its letters have 8 points "
+          "there [letters for a screen]")
+      ->check(in_range(4.0, 200.0));
 }
 
 }  // namespace

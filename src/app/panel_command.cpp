@@ -31,6 +31,7 @@ MapPlan plan_panel(const PanelArguments& arguments) {
   if (!arguments.output.ends_with(".png"))
     throw Error(ExitCode::usage, arguments.output + ": expected a name that ends in .png");
   plan.width /= static_cast<int>(plan.maps.size());
+  for (MapSettings& map : plan.maps) map.printed /= static_cast<double>(plan.maps.size());
   if (plan.width < smallest_width)
     throw Error(ExitCode::usage,
                 fmt::format("--width {}: each of {} maps beside each other takes {} px or more",

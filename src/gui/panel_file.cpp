@@ -64,6 +64,13 @@ void draw_file_panel(Gui& gui) {
   ImGui::Separator();
   ImGui::SetNextItemWidth(-1.0f);
   named_text(gui, "picture path", "", state.picture_path, "PNG file to write");
+  double& printed = state.map.printed;
+  named_number(
+      gui, "printed", "print width", printed, "%.1f cm",
+      "how wide the picture will be printed, as 8.6 for a column: its letters have 8 points there; 0: "
+      "for a screen");
+  if (!(printed >= 4.0)) printed = 0.0;
+  printed = std::min(printed, 200.0);
   if (named_button(gui, "save picture", "Save picture", "the map as talus render draws it")) {
     if (state.picture_path.empty())
       state.message = "Give the picture a name first.";

@@ -127,6 +127,7 @@ std::string contacts_json(const ContactTables& contacts) {
     planes.push_back(json::list({json::number(plane.id), json::number(plane.nx), json::number(plane.ny)}));
   return json::line({{"widest", json::number(force_lines.widest)},
                      {"half_width", json::number(force_lines.half_width)},
+                     {"border", json::number(line_border)},
                      {"critical_length", json::number(critical_lines.length)},
                      {"critical_half_width", json::number(critical_lines.half_width)},
                      {"planes", json::list(planes)}});

@@ -64,8 +64,13 @@ MapLayer dyed_layer(const MapFrame& of, const ScaleChoice& choice);
 /// The colour of lines over grains that another layer fills; none where they are outlines.
 using OverColour = std::optional<Colour>;
 
+/// D: of lines over filled grains. With it they are told from grains of any shade, in gray print too.
+inline constexpr double line_border = 0.06;
+/// Gives lines that cannot be seen through a white border of that width, m, below all of them.
+void add_borders(std::vector<Line>& lines, double border);
+
 /// Of every free grain; or of one in each square of `spacing` (m) where that is more than D, and longer by
-/// it.
+/// it. Lengths are the displacements times a round number, which the legend says; the longest are cut.
 MapLayer displacement_arrows(const MapFrame& of, const MotionRanges& motion, const OverColour& over,
                              double spacing);
 

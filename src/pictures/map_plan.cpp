@@ -37,6 +37,7 @@ MapSettings common_settings(const MapOptions& options) {
   settings.turned = options.turned;
   settings.transparent = options.transparent;
   settings.furniture = !options.bare;
+  settings.printed = options.printed.value_or(settings.printed);
   if (options.joined && *options.joined != "contacts" && *options.joined != "neighbours")
     refuse(fmt::format("--joined {}: expected contacts or neighbours{}", visible_word(*options.joined),
                        did_you_mean(*options.joined, {"contacts", "neighbours"})));
@@ -81,6 +82,8 @@ void refuse_idle_options(const MapOptions& options, const MapPlan& plan) {
     refuse("--joined: it is for the map clusters and the trace of the largest one");
   if (options.bare && !options.traces.empty())
     refuse("--trace and --bare do not go together: traces are furniture");
+  if (options.bare && options.printed)
+    refuse("--printed and --bare do not go together: a bed alone has no letters");
 }
 
 }  // namespace

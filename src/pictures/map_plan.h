@@ -29,6 +29,7 @@ struct MapOptions {
   bool turned = false;
   bool transparent = false;
   bool bare = false;
+  std::optional<double> printed;  ///< cm
 };
 
 /// A region of the bed in D: the origin is its left end on the floor.

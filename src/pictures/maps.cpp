@@ -101,9 +101,10 @@ Bar measuring(Bar bar, std::vector<double> values) {
   return bar;
 }
 
-MapLayer make_layer(const MapFrame& of, const MapSettings& settings, const MapExtent& extent, std::size_t k) {
-  constexpr double arrows_across = 60.0;  // at most, to tell one from the other
+namespace {
 
+/// The layer without borders of its lines; `spacing` of arrows, m.
+MapLayer bare_layer(const MapFrame& of, const MapSettings& settings, double spacing, std::size_t k) {
   const ScaleChoice choice = choice_of(settings, k);
   const bool over_grains = settings.layers.size() > 1 && fills_grains(settings.layers, 1 - k);
   const OverColour over = over_grains ? OverColour(colour_over(settings, 1 - k)) : OverColour();
@@ -119,8 +120,7 @@ MapLayer make_layer(const MapFrame& of, const MapSettings& settings, const MapEx
     case MapKind::pressure:
       return pressure_layer(of, choice);
     case MapKind::displacement:
-      if (k > 0)
-        return displacement_arrows(of, settings.motion, over, (extent.x_max - extent.x_min) / arrows_across);
+      if (k > 0) return displacement_arrows(of, settings.motion, over, spacing);
       [[fallthrough]];
     case MapKind::rotation:
     case MapKind::nonaffine:
@@ -154,6 +154,36 @@ MapLayer make_layer(const MapFrame& of, const MapSettings& settings, const MapEx
   }
   throw Error(ExitCode::internal, "a map of no kind");
 }
+
+}  // namespace
+
+void add_borders(std::vector<Line>& lines, double border) {
+  std::vector<Line> borders, above;
+  for (const Line& line : lines) {
+    if (line.colour.alpha < 255) continue;
+    above.push_back(line);
+    borders.push_back(line);
+    borders.back().half_width += static_cast<float>(border);
+    borders.back().colour = white;
+  }
+  std::erase_if(lines, [](const Line& line) { return line.colour.alpha == 255; });
+  lines.insert(lines.end(), borders.begin(), borders.end());
+  lines.insert(lines.end(), above.begin(), above.end());
+}
+
+MapLayer make_layer(const MapFrame& of, const MapSettings& settings, const MapExtent& extent, std::size_t k) {
+  constexpr double arrows_across = 60.0;  // at most, to tell one from the other
+  const double spacing = (extent.x_max - extent.x_min) / arrows_across, diameter = of.statics.mean_diameter;
+  MapLayer layer = bare_layer(of, settings, spacing, k);
+  const bool over_grains = settings.layers.size() > 1 && fills_grains(settings.layers, 1 - k);
+  const bool has_arrows = settings.layers[k] == MapKind::displacement;
+  if (over_grains)
+    add_borders(layer.lines, line_border * (has_arrows ? std::max(spacing, diameter) : diameter));
+  return layer;
+}
+
+/// Of letters in print, as in figures.
+constexpr double printed_points = 8.0, points_per_cm = 72.0 / 2.54;
 
 std::string caption_of(const Frame& frame, const MapSettings& settings) {
   std::string caption = fmt::format("θ = {:.2f}°", degrees(frame.tilt));
@@ -221,6 +251,7 @@ FrameView compose_map(const MapFrame& frame, const MapSettings& settings, const 
   add_surroundings(view, frame);
   view.furniture = settings.furniture;
   view.transparent = settings.transparent;
+  if (settings.printed > 0.0) view.letters = settings.printed * points_per_cm / printed_points;
   // Also in a frame in which no cluster has a colour yet: all of a movie have as many channels.
   view.coloured = shows(settings.layers, MapKind::clusters) || shows(settings.layers, MapKind::rigid);
   view.tilt = frame.frame.tilt;

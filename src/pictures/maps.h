@@ -61,6 +61,7 @@ struct MapSettings : OverloadRule {
   double tilt_max = 0.0;         ///< rad, of all frames that are to have the size of this one
   bool furniture = true;
   bool transparent = false;
+  double printed = 0.0;  ///< cm, how wide the picture is printed; 0: it is for a screen
   bool operator==(const MapSettings&) const = default;
 };
 

@@ -54,6 +54,26 @@ void add_arrow(std::vector<Line>& lines, double x, double y, Vec2 along, double 
   line(tip_x, tip_y, tip_x - back * along.x + aside * along.y, tip_y - back * along.y - aside * along.x);
 }
 
+/// What arrows of a displacement are longer by: 1, 2 or 5 times a power of ten, with which one of `high` has
+/// at most the length `longest`.
+double magnification(double high, double longest) {
+  const double exact = longest / high;
+  const double decade = std::pow(10.0, std::floor(std::log10(exact)));
+  for (const double digit : {5.0, 2.0})
+    if (digit * decade <= exact) return digit * decade;
+  return decade;
+}
+
+/// D, per degree where the span is: 99 % of the displacements of all that is drawn are smaller, or, where it
+/// is not known what else is, of this frame.
+double largest_displacement(const MapFrame& of, const MotionRanges& motion, const MotionSpan& span) {
+  if (const auto range = motion.of(MapKind::displacement, span.per_degree)) return range->high;
+  MotionSample sample({MapKind::displacement});
+  sample.add(of);
+  const auto own = sample.ranges().of(MapKind::displacement, span.per_degree);
+  return own.value_or(fixed_motion_range(MapKind::displacement, span.per_degree)).high;
+}
+
 }  // namespace
 
 ScaleRange fixed_motion_range(MapKind kind, bool per_degree) {
@@ -73,24 +93,24 @@ MapLayer motion_layer(MapKind kind, const MapFrame& of, const MotionRanges& moti
 
 MapLayer displacement_arrows(const MapFrame& of, const MotionRanges& motion, const OverColour& over,
                              double spacing) {
-  constexpr double longest = 1.6, half_width = 0.04;  // D, or spacing
+  constexpr double longest = 1.6, cut = 2.0, shortest = 0.2, half_width = 0.04;  // D, or spacing
   const Colour colour = over.value_or(Colour{0, 90, 180});
   const MotionSpan span = motion_span(of);
-  const MotionMap& map = motion_map(MapKind::displacement);
-  const Scale scale = scale_of(map, motion, span, {});
-  const double unit = std::max(spacing, of.statics.mean_diameter);
+  const double diameter = of.statics.mean_diameter, unit = std::max(spacing, diameter);
+  const double times = magnification(largest_displacement(of, motion, span), longest * unit / diameter);
   MapLayer layer;
   layer.title = "Displacement" + span.title;
   const std::vector<Vec2> moved = displacements(of, span);
   for (const Index i : evenly_spread(of, spacing)) {
     const double distance = std::hypot(moved[i].x, moved[i].y);
-    if (!(distance > scale.low)) continue;
-    const double stretch = longest * unit * std::min(1.0, share_of(scale, distance)) / distance;
+    const double length = std::min(times * distance * diameter, cut * unit);
+    if (!(length > shortest * unit)) continue;
+    const double stretch = length / distance;
     add_arrow(layer.lines, of.frame.x[i], of.frame.y[i], {stretch * moved[i].x, stretch * moved[i].y},
               half_width * unit, colour);
   }
-  const std::string label = fmt::format("length logarithmic, from {:.6g} to {:.6g} D{}{}", scale.low,
-                                        scale.high, span.unit, share_text(map, motion, span, {}));
+  const std::string label = fmt::format("arrow = {:.6g} × displacement{}, at most {:.2g} D", times, span.unit,
+                                        cut * unit / diameter);
   layer.legend.swatches = {{Swatch::Kind::line, colour, colour, 0.15, label}};
   return layer;
 }

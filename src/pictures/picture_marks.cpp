@@ -74,6 +74,7 @@ void add_settings(PictureKey& key, const MapSettings& settings, int width, const
   key.add("tilt_max", settings.tilt_max);
   key.add("furniture", settings.furniture);
   key.add("transparent", settings.transparent);
+  key.add("printed", settings.printed);
   key.add("width", width);
   key.add("extent", std::vector{extent.x_min, extent.x_max, extent.y_min, extent.y_max});
 }

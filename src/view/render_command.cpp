@@ -62,6 +62,7 @@ std::string render_command_line(const RenderRequest& shown) {
   if (shown.part) add("--crop", crop_text(*shown.part, shown.mean_diameter));
   if (settings.turned) flag("--turned");
   if (settings.transparent) flag("--transparent");
+  if (settings.printed > 0.0) add("--printed", number(settings.printed));
   return line;
 }
 

@@ -187,6 +187,7 @@ FrameView ViewModel::Data::furnished(const ViewState& shown, MapCache& cache) {
   add_surroundings(view, {*frame, statics()});
   view.furniture = true;
   view.transparent = whole.transparent;
+  view.letters = whole.letters;
   view.title = whole.title;
   view.caption = whole.caption;
   view.legends = whole.legends;

@@ -62,6 +62,8 @@ TEST_F(MapCommands, refuse_what_makes_no_sense_before_they_look_for_the_run) {
       {{"--map", "coarse", "--l-min", "0"}, "gamma of grains"},
       {{"--map", "gamma", "--l-min", "-1"}, "--l-min"},
       {{"--map", "gamma", "--bare", "--trace", "overloaded"}, "--bare"},
+      {{"--map", "gamma", "--bare", "--printed", "8.6"}, "--bare"},
+      {{"--map", "gamma", "--printed", "1"}, "--printed"},
       {{"--map", "gamma", "--width", "1000000"}, "--width"},
       {{"--map", "gamma", "--width", "20"}, "--width"},
   };
@@ -165,6 +167,7 @@ TEST_F(MapCommands, pictures_that_are_right_are_kept_and_the_others_refused) {
                                                 {"--turned"},
                                                 {"--bare"},
                                                 {"--transparent"},
+                                                {"--printed", "8.6"},
                                                 {"--crop", "1,0,9,3"}}) {
     const Outcome refused = render(first + change);
     EXPECT_EQ(refused.exit_code, 73) << change[0];

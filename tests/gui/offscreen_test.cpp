@@ -292,6 +292,22 @@ TEST_F(Replay, a_name_is_typed_and_a_picture_asked_for) {
   EXPECT_EQ(model_.frame_index(), 0u) << "what is typed into a field is no key";
 }
 
+TEST_F(Replay, a_picture_is_saved_with_letters_for_a_screen_or_for_print) {
+  gui_.key('F');
+  EXPECT_EQ(model_.furnished_map().letters, FrameView().letters);
+  gui_.click("printed");
+  gui_.key('a', true);
+  gui_.type("8.6");
+  gui_.key(key_enter);
+  EXPECT_NEAR(model_.furnished_map().letters, 8.6 / 2.54 * 72.0 / 8.0, 1e-6);
+  EXPECT_NE(model_.render_command().find("--printed 8.6"), std::string::npos) << model_.render_command();
+  gui_.click("printed");
+  gui_.key('a', true);
+  gui_.type("1");
+  gui_.key(key_enter);
+  EXPECT_EQ(model_.furnished_map().letters, FrameView().letters) << "nobody prints that";
+}
+
 /// Widgets lie inside of the window, or in a part of it that scrolls; those of the first group are always
 /// there.
 void expect_inside(const OffscreenGui& gui, float width, float height) {

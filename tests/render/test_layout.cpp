@@ -129,6 +129,16 @@ TEST(Layout, TextShrinksBeforeItIsRefused) {
   EXPECT_THROW(lay_out(view, 600, font), Error);
 }
 
+TEST(Layout, LettersAreAsLargeAsTheViewAsks) {
+  const Font font = embedded_font();
+  FrameView view = sample_view();
+  view.letters = 40.0;
+  EXPECT_EQ(lay_out(view, 1600, font).em, 40.0);
+  EXPECT_EQ(lay_out(view, 1600, font, 20.0).em, 20.0);
+  view.title = std::string(60, 'm');
+  EXPECT_LT(lay_out(view, 1600, font).em, 30.0) << "or the title would not fit";
+}
+
 TEST(Layout, KeepsToTheFontSizeAllowed) {
   const Font font = embedded_font();
   EXPECT_EQ(lay_out(sample_view(), 1600, font).em, 18.0);

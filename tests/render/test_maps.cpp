@@ -198,6 +198,14 @@ TEST(Map, CaptionSaysWhereThetaCIsAssumedAndNothingWhereThereIsNone) {
   EXPECT_EQ(map_of(packing, settings).caption, "θ = 0.00°");
 }
 
+TEST(Map, LettersHaveEightPointsInPrint) {
+  MapSettings settings = settings_of("gamma");
+  EXPECT_EQ(map_of(row_of_grains({0.1, 0.2}), settings).letters, FrameView().letters);
+  settings.printed = 8.6;
+  const double width = 8.6 / 2.54 * 72.0;  // points
+  EXPECT_NEAR(width / map_of(row_of_grains({0.1, 0.2}), settings).letters, 8.0, 1e-9);
+}
+
 TEST(Map, IsTurnedToItsSlopeWhereAsked) {
   Packing packing = row_of_grains({0.1, 0.2});
   packing.frame.tilt = 0.2;
@@ -235,7 +243,7 @@ TEST(TwoLayers, LinesAreDrawnOverFillsInEitherOrder) {
     const FrameView view = map_of(packing, layers);
     ASSERT_EQ(view.discs.size(), 2u) << layers;
     EXPECT_EQ(view.discs[1].fill, gray(gamma_shade(0.7, gamma_c))) << layers;
-    EXPECT_EQ(view.lines.size(), 1u) << layers;
+    EXPECT_EQ(view.lines.size(), 2u) << layers << ": a line and its border";
     EXPECT_EQ(view.legends.size(), 2u) << layers;
   }
   EXPECT_EQ(map_of(packing, "forces+critical").lines.size(), 2u);
