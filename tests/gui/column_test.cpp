@@ -85,10 +85,12 @@ TEST_F(Live, nothing_moves_while_the_run_goes_on) {
   EXPECT_TRUE(wait_until([&] { return status().step > 20; }));
   EXPECT_EQ(moved_since(before, gui_), "") << "in the deposition";
   EXPECT_TRUE(wait_until([&] { return !status().depositing && !status().running; }));
+  gui_.settle();  // what was drawn last may have been a step before
   EXPECT_FALSE(gui_.has("deposit"));
   EXPECT_EQ(moved_since(before, gui_), "") << "at rest";
   gui_.click("play");
   EXPECT_TRUE(wait_until([&] { return status().done; }));
+  gui_.settle();
   EXPECT_EQ(moved_since(before, gui_), "") << "at the end";
 }
 

@@ -6,13 +6,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <fmt/core.h>
 #include <random>
 
 #include "core/trigonometry.h"
 #include "gui/offscreen_fixture.h"
-#include "gui/panels.h"
 
 namespace talus {
 namespace {
@@ -110,43 +108,6 @@ TEST_F(Replay, escape_closes_whatever_is_open_and_leaves_the_selection) {
   }
 }
 
-TEST_F(Replay, frames_are_counted_from_one_to_their_number) {
-  EXPECT_EQ(frame_counter(model_), "frame 1 of 5");
-  gui_.key(key_end);
-  EXPECT_EQ(frame_counter(model_), "frame 5 of 5");
-}
-
-/// Of each free grain on each map: no number that is none, and gamma only where the map shows it. Returns how
-/// many times a grain that carries nothing was told.
-int expect_told_by_maps(OffscreenGui& gui, ViewModel& model) {
-  int idle = 0;
-  model.state.map.l_min = 0.0;
-  for (const MapKind kind : map_kinds()) {
-    model.state.map.layers = {kind};
-    gui.frame();
-    for (Index grain = 0; grain < model.statics().free_count; ++grain) {
-      const std::string told = grain_text(model, grain);
-      const bool loaded = !std::isnan(model.frame().gamma[static_cast<std::size_t>(grain)]);
-      idle += loaded ? 0 : 1;
-      EXPECT_EQ(told.find("nan"), std::string::npos) << told;
-      EXPECT_EQ(told.find("γ = ") != std::string::npos, shows_gamma(kind) && loaded)
-          << map_name(kind) << ": " << told;
-      EXPECT_EQ(told.find("carries nothing") != std::string::npos, shows_gamma(kind) && !loaded) << told;
-    }
-  }
-  return idle;
-}
-
-TEST_F(Replay, no_grain_is_told_what_the_map_does_not_show) {
-  model_.go_to(3);
-  expect_told_by_maps(gui_, model_);
-}
-
-TEST_F(Live, grains_that_carry_nothing_have_no_number_that_is_none) {
-  ASSERT_GT(model_.statics().free_count, 0) << "the first grain, before the first step";
-  EXPECT_GT(expect_told_by_maps(gui_, model_), 0);
-}
-
 TEST_F(Replay, motion_since_an_angle_is_drawn_before_it_too) {
   model_.state.map.layers = {MapKind::displacement};
   model_.state.map.range_low = 1e-9;  // the bed is small, and creeps
@@ -170,16 +131,6 @@ TEST_F(Replay, motion_since_an_angle_is_drawn_before_it_too) {
   gui_.key(key_right);
   EXPECT_NE(model_.annotated_map().title.find("since 0.50°"), std::string::npos)
       << model_.annotated_map().title;
-}
-
-TEST_F(Replay, a_grain_is_told_by_what_the_map_shows) {
-  const std::string gamma = grain_text(model_, 7);
-  EXPECT_NE(gamma.find("grain 7, γ = "), std::string::npos) << gamma;
-  model_.state.map.layers = {MapKind::forces};
-  EXPECT_EQ(grain_text(model_, 7), "grain 7");
-  model_.state.map.layers = {MapKind::displacement, MapKind::gamma};
-  EXPECT_EQ(grain_text(model_, model_.statics().free_count),
-            fmt::format("floor grain {}", model_.statics().free_count));
 }
 
 TEST_F(Replay, motion_is_per_degree_before_the_angle_since_which_it_is_asked_for) {
@@ -471,24 +422,6 @@ TEST_F(Live, friction_and_pushes_are_commands) {
   ASSERT_EQ(model_.live()->commands().size(), 4u);
   EXPECT_EQ(model_.live()->commands()[3].kind, CommandKind::drop);
   EXPECT_EQ(model_.live()->commands()[3].grain, 5) << "grains";
-}
-
-TEST_F(Live, grains_that_are_dropped_are_seen_before_they_fall) {
-  gui_.click("deposit");
-  ASSERT_TRUE(wait_until([&] { return !status().depositing && !status().running; }));
-  const auto highest = [this] { return std::ranges::max(model_.frame().y) + 0.5 * model_.mean_diameter(); };
-  const auto shown_to = [this] {
-    const WidgetPlace map = gui_.place("map");
-    return model_.shown_region(static_cast<double>(map.x1 - map.x0) /
-                               static_cast<double>(map.y1 - map.y0))[3];
-  };
-  const double before = highest();
-  gui_.key('k');
-  gui_.click("step 1");
-  ASSERT_TRUE(wait_until([&] { return highest() > before + 3.0 * model_.mean_diameter(); }));
-  gui_.settle();
-  EXPECT_GE(shown_to(), highest()) << "what has been lifted is in the picture";
-  EXPECT_NE(model_.state.message.find("Applied"), std::string::npos) << model_.state.message;
 }
 
 /// Keys and clicks anywhere, from a fixed seed; what would leave the window or write files is left out.
