@@ -49,8 +49,8 @@ class RunCourse {
       schedule.tilt_steps = tilt_steps(command.step);
       if (command.kind == CommandKind::friction) schedule.friction = command.x;
       if (command.kind == CommandKind::tilt_rate)
-        schedule.course = TiltCourse{radians(command.x), scheduled_tilt(scenario_, program, schedule),
-                                     schedule.tilt_steps};
+        schedule.course =
+            TiltCourse{radians(command.x), scheduled_tilt(scenario_, program, schedule), schedule.tilt_steps};
       if (command.kind == CommandKind::drag) schedule.drag = Drag{command.grain, command.x, command.y};
       if (command.kind == CommandKind::release) schedule.drag.reset();
     }
@@ -144,15 +144,20 @@ class RunCourse {
   std::vector<ObservableRow> rows_;
 };
 
-/// A run that was repaired tells how it stood at a frame only where none of its steps and commands is lost.
+/// A run that was repaired tells how it stood at a frame only where none of its steps, rows of observables
+/// and commands is lost.
 void require_course(const RunFile& run) {
-  if (run.lost().empty()) return;
+  const std::string lost = run.lost();
+  if (lost.empty()) return;
   const std::int64_t begun = run.header().branch ? run.header().branch->start.world.step : 0;
   const auto steps = static_cast<std::int64_t>(run.steps().size());
-  if (run.checkpoint().world.step - begun == steps && !may_lack_commands(run)) return;
-  throw Error(ExitCode::bad_data,
-              "the run was repaired, and some of its steps or commands are lost, so that it is not known how "
-              "it stood at a frame: no branch can begin there");
+  if (run.checkpoint().world.step - begun == steps && !may_lack_commands(run) &&
+      lost.find("/observables") == std::string::npos)
+    return;
+  throw Error(
+      ExitCode::bad_data,
+      "the run was repaired, and some of its steps, observables or commands are lost, so that it is not "
+      "known how it stood at a frame: no branch can begin there");
 }
 
 /// In single precision the period itself can be reached.

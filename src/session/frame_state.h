@@ -22,8 +22,8 @@ Schedule set_by_commands(const RunFile& run, std::int64_t step);
 /// All that a run needs to go on from frame k. What the series of the run tell is that of the run: the phase
 /// and its steps, how long the bed has been at rest, what commands have set, where strains are counted from.
 /// What a run counts begins at nought: wall times, warnings, steps that did not converge. Throws as
-/// world_at_frame, Error(bad_data) where a repaired run lacks steps or commands, and Error(usage) where the
-/// run ends with that frame.
+/// world_at_frame, Error(bad_data) where a repaired run lacks steps, rows or commands, and Error(usage) where
+/// the run ends with that frame.
 Checkpoint checkpoint_at_frame(const RunFile& run, std::size_t k);
 
 /// The checkpoint with which a stored branch begins: a file keeps its state, and no results.

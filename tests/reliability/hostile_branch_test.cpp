@@ -13,6 +13,7 @@
 #include "core/random.h"
 #include "io/child_process.h"
 #include "io/run_file.h"
+#include "io/run_repair.h"
 #include "reliability/branched_run.h"
 #include "reliability/hostile_test.h"
 #include "session/frame_state.h"
@@ -367,6 +368,63 @@ TEST_F(HostileBranch, of_which_the_start_is_damaged_is_repaired_without_it) {
   EXPECT_EQ(replay.exit_code, bad_data);
   EXPECT_NE(replay.err.find("the state that it began from is lost"), std::string::npos) << replay.err;
   EXPECT_THROW(checkpoint_at_frame(kept, 1), Error) << "what had been set before is not known any more";
+}
+
+/// A byte flipped, up to 4 KiB of zeros, or a cut.
+Bytes damaged(Bytes bytes, int kind, Random& random) {
+  const auto at = random.below(static_cast<std::uint32_t>(bytes.size()));
+  if (kind == 0) bytes[at] ^= static_cast<std::byte>(1 + random.below(255));
+  if (kind == 1)
+    std::fill_n(bytes.begin() + at,
+                std::min<std::size_t>(bytes.size() - at, std::size_t{1} << random.below(13)), std::byte{0});
+  if (kind == 2) bytes.resize(at);
+  return bytes;
+}
+
+/// What is kept is what was written, and passes every check; another branch either begins with all that was
+/// in force, or does not begin.
+void expect_kept(const RunFile& kept, const RunFile& whole) {
+  const RunCheck check = check_run(kept, {});
+  EXPECT_TRUE(check.faults.empty()) << check.faults.front();
+  for (std::size_t k = 0; k < kept.all_frame_tilts().size(); ++k) {
+    const Frame frame = kept.frame(k);
+    std::size_t same = 0;
+    while (same < whole.all_frame_tilts().size() && whole.frame(same).step != frame.step) ++same;
+    ASSERT_LT(same, whole.all_frame_tilts().size());
+    EXPECT_EQ(frame.x, whole.frame(same).x);
+    EXPECT_EQ(frame.contacts.fn, whole.frame(same).contacts.fn);
+    try {
+      const Checkpoint start = checkpoint_at_frame(kept, k), expected = checkpoint_at_frame(whole, same);
+      EXPECT_EQ(start.integers, expected.integers) << kept.lost();
+      EXPECT_EQ(start.reals, expected.reals) << kept.lost();
+    } catch (const Error& error) {
+      EXPECT_TRUE(error.code() == ExitCode::bad_data || error.code() == ExitCode::usage) << error.what();
+    }
+  }
+}
+
+TEST_F(HostileBranch, with_damage_of_chance_is_repaired_to_what_was_written) {
+  const RunFile whole = RunFile::open(folder->path("good.h5"));
+  const std::string out = folder->path("out.h5");
+  Random random(62);
+  int repaired = 0, without_start = 0, refused = 0;
+  for (int k = 0; k < tries(45) && !HasFailure(); ++k) {
+    SCOPED_TRACE("try " + std::to_string(k));
+    const std::string path = bad(damaged(good, k % 3, random));
+    try {
+      if (repair_run({path, out, true}).was_whole) continue;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::bad_data) << error.what();
+      ++refused;
+      continue;
+    }
+    const RunFile kept = RunFile::open(out);
+    ++repaired;
+    without_start += kept.header().branch ? 0 : 1;
+    expect_kept(kept, whole);
+  }
+  std::printf("%d repaired, %d of them without their start; %d refused\n", repaired, without_start, refused);
+  EXPECT_GT(repaired, 0);
 }
 
 TEST_F(HostileBranch, with_a_byte_flipped_in_its_header_is_refused_as_a_folder) {
