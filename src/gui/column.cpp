@@ -12,14 +12,14 @@ namespace {
 /// A group, and the key that unfolds it and brings it into sight.
 struct Group {
   const char* name;
-  char key;
   void (*draw)(Gui&);
+  char key;
   bool unfolded;  ///< at first, where there is room
 };
 
-constexpr Group groups[] = {{"run", 'R', draw_run_panel, true},     {"map", 'M', draw_map_panel, true},
-                            {"act", 'A', draw_action_panel, false}, {"select", 'S', draw_select_panel, false},
-                            {"files", 'F', draw_file_panel, false}, {"grain", 'G', draw_inspector, false}};
+constexpr Group groups[] = {{"run", draw_run_panel, 'R', true},     {"map", draw_map_panel, 'M', true},
+                            {"act", draw_action_panel, 'A', false}, {"select", draw_select_panel, 'S', false},
+                            {"files", draw_file_panel, 'F', false}, {"grain", draw_inspector, 'G', false}};
 
 /// A lower column has one unfolded group at a time.
 constexpr float room_for_several = 40.0f;  // em
