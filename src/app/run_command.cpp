@@ -183,6 +183,20 @@ OpenRun open_run(const RunArguments& arguments, const RunRequest& request, bool 
                           by_signal ? "" : " for --max-wall", arguments.output));
 }
 
+/// Maps of the frames are drawn while the run goes on. Meanwhile the solver has a thread less where there is
+/// no processor beside its own: threads that share one hold up the others, which wait for them many times a
+/// step.
+void draw_beside(LiveMaps& maps, int threads, Session& session, RunControl& control) {
+  const auto processors = static_cast<int>(std::thread::hardware_concurrency());
+  const int fewer = processors > threads ? threads : std::max(1, threads - 1);
+  control.on_frame = [&maps](const Frame& frame) { maps.add(frame); };
+  control.on_step = [&maps, &session, threads, fewer,
+                     tell = std::move(control.on_step)](const RunProgress& progress) {
+    tell(progress);
+    session.use_threads(maps.drawing() ? fewer : threads);
+  };
+}
+
 void run(const RunArguments& arguments) {
   RunControl control;
   control.stop = stop_request();
@@ -197,7 +211,7 @@ void run(const RunArguments& arguments) {
   if (maps) begin_maps(*maps, open, arguments);
   ProgressLine line(arguments.quiet);
   control.on_step = [&line](const RunProgress& progress) { line.show(progress); };
-  if (maps) control.on_frame = [&maps](const Frame& frame) { maps->add(frame); };
+  if (maps) draw_beside(*maps, arguments.threads, open.session, control);
   const RunEnd end = [&] {
     const CommitOnSignals commit;
     return run_to_end(open.session, open.store, control);

@@ -22,6 +22,11 @@ void BackgroundTasks::post(std::function<void()> task) {
   changed_.notify_all();
 }
 
+bool BackgroundTasks::busy() const {
+  const std::lock_guard lock(mutex_);
+  return working_ || !waiting_.empty();
+}
+
 void BackgroundTasks::drop() {
   const std::lock_guard lock(mutex_);
   waiting_.clear();

@@ -22,6 +22,9 @@ class BackgroundTasks {
   /// Waits while as many are waiting as may. Throws what an earlier task threw; none is done after that.
   void post(std::function<void()> task);
 
+  /// Whether there is anything to do now.
+  bool busy() const;
+
   /// Forgets those that are waiting.
   void drop();
 
@@ -33,7 +36,7 @@ class BackgroundTasks {
   void throw_failure();
 
   std::size_t most_waiting_;
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<std::function<void()>> waiting_;
   bool working_ = false;

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "core/output_file.h"
-#include "core/priority.h"
 #include "core/trigonometry.h"
 #include "pictures/picture_files.h"
 
@@ -54,12 +53,8 @@ MapPlan plan_live_maps(const MapOptions& options) {
 LiveMaps::LiveMaps(const MapPlan& plan, std::string folder, bool resumed, bool overwrite, Warn warn)
     : folder_(std::move(folder)), overwrite_(overwrite), warn_(std::move(warn)), tasks_(frames_waiting) {
   series_.asked = series_.plan = plan;
-  // A context belongs to the thread that makes it, and so do the threads with which it draws. They use the
-  // time that the solver leaves: a thread of it that loses its processor would hold up the others.
-  tasks_.post([this] {
-    give_way();
-    renderer_ = std::make_unique<Renderer>(make_context(series_.plan.context));
-  });
+  // A context belongs to the thread that makes it.
+  tasks_.post([this] { renderer_ = std::make_unique<Renderer>(make_context(series_.plan.context)); });
   tasks_.finish();
   prepare_folder(folder_);
   if (!resumed && !overwrite_) refuse_pictures(folder_, series_.plan);

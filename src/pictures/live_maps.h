@@ -40,6 +40,9 @@ class LiveMaps {
   /// Has a new frame drawn; waits while several are waiting. The first failure ends the drawing, not the run.
   void add(const Frame& frame);
 
+  /// Whether a picture is being drawn now, or waits for it.
+  bool drawing() const { return tasks_.busy(); }
+
   /// Waits for the last picture. Throws the first failure, once the run is safe.
   void finish();
 

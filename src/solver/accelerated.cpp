@@ -202,7 +202,7 @@ AcceleratedOutcome solve_part(TeamMember& member, double tolerance, int max_iter
 
 /// No more threads than find work.
 void ensure_team(const ContactProblem& problem, AcceleratedWorkspace& w, int threads) {
-  const int useful = std::clamp(most_members(problem), 1, std::max(1, threads));
+  const int useful = std::clamp(most_members(problem), 1, threads);
   if (w.team && w.team->size() == useful) return;
   w.team = std::make_unique<ThreadTeam>(useful);
   w.choice = {};
@@ -220,7 +220,7 @@ AcceleratedOutcome solve_accelerated(const ContactProblem& problem, double toler
   prepare(problem, solution, workspace.linearisation);
   for (auto* field : {&solution.vx, &solution.vy, &solution.omega})
     field->resize(static_cast<std::size_t>(problem.body_count()));
-  ensure_team(problem, workspace, threads);
+  if (threads > 1) ensure_team(problem, workspace, threads);
   const auto begin = std::chrono::steady_clock::now();
   AcceleratedOutcome outcome;
   const auto take_part = [&](ThreadTeam* team, int member) {
@@ -229,14 +229,15 @@ AcceleratedOutcome solve_accelerated(const ContactProblem& problem, double toler
     part.unload();
     if (member == 0) outcome = mine;
   };
-  ThreadTeam& team = *workspace.team;
-  if (workspace.choice.in_team())
-    team.run([&](int member) { take_part(&team, member); });
+  // One thread leaves a team as it is, which may be wanted again by the next solve.
+  ThreadTeam* const team = threads > 1 ? workspace.team.get() : nullptr;
+  if (team != nullptr && workspace.choice.in_team())
+    team->run([&](int member) { take_part(team, member); });
   else
     take_part(nullptr, 0);
   if (workspace.failure) std::rethrow_exception(std::exchange(workspace.failure, nullptr));
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
-  if (team.size() > 1)
+  if (team != nullptr && team->size() > 1)
     workspace.choice.add(taken.count(), static_cast<double>(problem.contact_count()) *
                                             (outcome.iterations + iterations_for_the_rest));
   return outcome;

@@ -65,8 +65,8 @@ std::vector<RockedBed> rocked_beds() {
 }
 
 RockedRun rock(const RockedBed& bed, std::int64_t steps, int threads,
-               const std::function<void(const World&)>& watch) {
-  const StepSettings settings = settings_of(bed, threads);
+               const std::function<void(const World&)>& watch, int alone_every) {
+  StepSettings settings = settings_of(bed, threads);
   World world = make_loose_bed(bed.plan);
   StepWorkspace workspace;
   RockedRun run;
@@ -74,6 +74,7 @@ RockedRun rock(const RockedBed& bed, std::int64_t steps, int threads,
   for (std::int64_t k = 0; k < steps; ++k) {
     world.tilt = radians(tilt_after(k));
     workspace.solver.accelerated.choice = {};  // all threads, whether they are worth it or not
+    settings.solver.threads = alone_every > 0 && k % alone_every == 0 ? 1 : threads;
     step(world, settings, workspace);
     run.changes += !same_pairs(world.contacts, before);
     before = world.contacts;

@@ -31,9 +31,9 @@ struct RockedRun {
 };
 
 /// Steps a bed on so many threads: it falls at tilt 0, then the tilt swings between 35 and -35 deg. Calls
-/// watch(world) after each step.
+/// watch(world) after each step. One step of `alone_every` is on one thread, none where it is 0.
 RockedRun rock(const RockedBed& bed, std::int64_t steps, int threads,
-               const std::function<void(const World&)>& watch);
+               const std::function<void(const World&)>& watch, int alone_every = 0);
 
 /// The state of a world, and what is measured on it (internal moments, stress ratios, free surface), as one
 /// hash.

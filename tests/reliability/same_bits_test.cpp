@@ -32,5 +32,18 @@ TEST(SameBits, walls_and_restitution) { expect_bits(1, 5000, "353cb704812106a1",
 TEST(SameBits, gauss_seidel) { expect_bits(2, 2000, "a2c5c55a5afc433f", 300, 1); }
 TEST(SameBits, threads_that_work_together) { expect_bits(3, 60, "5c3145ef4359714d", 40, 2); }
 
+// While maps are drawn beside a run, its solver has fewer threads.
+TEST(SameBits, threads_that_come_and_go) {
+  Hasher hash;
+  const RockedRun run = rock(
+      rocked_beds().at(3), 60, 2,
+      [&hash](const World& world) {
+        if (world.step % 10 == 0) hash.add(hash_of(world));
+      },
+      3);
+  EXPECT_EQ(hash_text(hash.value()), "5c3145ef4359714d") << "as with threads that stay";
+  EXPECT_EQ(run.team, 2);
+}
+
 }  // namespace
 }  // namespace talus::test

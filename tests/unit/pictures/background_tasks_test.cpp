@@ -31,6 +31,17 @@ TEST(BackgroundTasks, are_done_in_order_on_one_other_thread) {
   EXPECT_NE(threads[0], std::this_thread::get_id());
 }
 
+TEST(BackgroundTasks, are_busy_until_the_last_is_done) {
+  BackgroundTasks tasks(2);
+  EXPECT_FALSE(tasks.busy());
+  std::promise<void> go;
+  tasks.post([&] { go.get_future().wait(); });
+  EXPECT_TRUE(tasks.busy());
+  go.set_value();
+  tasks.finish();
+  EXPECT_FALSE(tasks.busy());
+}
+
 TEST(BackgroundTasks, no_more_wait_than_may) {
   std::atomic<int> held = 0, most = 0;
   {
