@@ -76,10 +76,14 @@ std::shared_ptr<const Frame> Replay::frame(std::size_t k) {
   const auto found =
       std::ranges::find(kept_, k, &std::pair<std::size_t, std::shared_ptr<const Frame>>::first);
   auto frame = found == kept_.end() ? frames_->read(k) : found->second;
-  if (found != kept_.end()) kept_.erase(found);
-  kept_.emplace_front(k, frame);
-  if (kept_.size() > most_kept) kept_.pop_back();
+  keep(k, frame);
   return frame;
+}
+
+void Replay::keep(std::size_t k, std::shared_ptr<const Frame> frame) {
+  std::erase_if(kept_, [k](const auto& kept) { return kept.first == k; });
+  kept_.emplace_front(k, std::move(frame));
+  if (kept_.size() > most_kept) kept_.pop_back();
 }
 
 }  // namespace talus

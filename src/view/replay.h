@@ -60,6 +60,8 @@ class Replay {
 
   /// Frame k; those asked for last are kept. Throws as RunFile::frame does.
   std::shared_ptr<const Frame> frame(std::size_t k);
+  /// Frame k, which somebody else has read, is kept as if it had been asked for.
+  void keep(std::size_t k, std::shared_ptr<const Frame> frame);
 
  private:
   double seconds_shown(std::size_t k) const;

@@ -39,8 +39,7 @@ void ViewModel::Data::take_all_recorded() {
 
 /// The file is read up to here, and no more while the branch is computed.
 void ViewModel::Data::start_branch(std::size_t k) {
-  history.reset();
-  series.reset();
+  end_series();
   const RunFile& run = frames->file();
   BranchOrigin origin;
   Scenario of_run;
@@ -82,8 +81,7 @@ void ViewModel::back() {
   if (!is_live()) return;
   const std::string next = data_->output.empty() ? "" : next_output(data_->first_output);
   follow();
-  data_->history.reset();
-  data_->series.reset();
+  data_->end_series();
   try {
     data_->live->back(next);
   } catch (const Error&) {

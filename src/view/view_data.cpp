@@ -36,11 +36,11 @@ void ViewModel::Data::open_replay() {
 }
 
 void ViewModel::Data::begin_series() {
-  history.reset();
-  series.reset();
+  end_series();
   if (replay) {
-    series =
-        std::make_unique<FrameSeries>(all_statics, [from = frames](std::size_t k) { return from->read(k); });
+    const auto read_frame = [from = frames](std::size_t k) { return from->read(k); };
+    series = std::make_unique<FrameSeries>(all_statics, read_frame);
+    ahead = std::make_unique<FrameAhead>(all_statics, read_frame);
     series->set_counts(replay->count(), frames->file().frame_count());
   } else {
     series = std::make_unique<FrameSeries>(all_statics,
@@ -49,12 +49,17 @@ void ViewModel::Data::begin_series() {
   }
 }
 
+void ViewModel::Data::end_series() {
+  history.reset();
+  series.reset();
+  ahead.reset();
+}
+
 void ViewModel::Data::start_live(const std::string& next_output, bool overwrite) {
   auto next =
       std::make_unique<LiveRun>(scenario, scenario_text, next_output, overwrite, command_line, branch);
   output = next_output;
-  history.reset();
-  series.reset();
+  end_series();
   pictures.met = {};
   pictures.has_program = !scenario.tilt.program.empty();
   live = std::move(next);
@@ -103,9 +108,19 @@ std::shared_ptr<const Frame> ViewModel::Data::read(std::size_t k) {
 }
 
 void ViewModel::Data::show_replayed() {
-  auto next = read(replay->index());
-  if (next) return show(std::move(next));
-  replay->play(false);
+  const std::size_t k = replay->index();
+  if (auto made = ahead->take(k, l_min)) {
+    replay->keep(k, made->stored);
+    show(std::move(made->stored), std::move(made->mapped));
+  } else if (auto next = read(k)) {
+    show(std::move(next));
+  } else {
+    return replay->play(false);
+  }
+  // On by as many frames as last time, back as well.
+  const std::size_t following = k == shown_before ? k + 1 : k + (k - shown_before);
+  shown_before = k;
+  if (following < replay->count()) ahead->begin(following, l_min);
 }
 
 /// What has been recorded, with room for the bed that is being deposited: grains fall into the picture from
@@ -118,7 +133,7 @@ MapExtent ViewModel::Data::live_extent() const {
   return extent;
 }
 
-void ViewModel::Data::show(std::shared_ptr<const Frame> next) {
+void ViewModel::Data::show(std::shared_ptr<const Frame> next, std::shared_ptr<const Frame> mapped) {
   if (next == stored) return;
   stored = std::move(next);
   if (stored->x.size() != statics().radius.size())
@@ -126,7 +141,7 @@ void ViewModel::Data::show(std::shared_ptr<const Frame> next) {
   if (live) bed = live_extent();
   extend(bed, {*stored, statics()});
   if (live && live->status().depositing) bed.y_max = live_extent().y_max;
-  make_frame();
+  make_frame(std::move(mapped));
 }
 
 bool ViewModel::Data::read_with(double next_l_min) {
@@ -136,8 +151,8 @@ bool ViewModel::Data::read_with(double next_l_min) {
   return true;
 }
 
-void ViewModel::Data::make_frame() {
-  frame = std::make_shared<const Frame>(mapped_frame(*stored, statics(), l_min));
+void ViewModel::Data::make_frame(std::shared_ptr<const Frame> mapped) {
+  frame = mapped ? std::move(mapped) : std::make_shared<const Frame>(mapped_frame(*stored, statics(), l_min));
   plot_gamma({*frame, statics()}, plots);
 }
 

@@ -5,6 +5,7 @@
 #include <mutex>
 #include <string_view>
 
+#include "view/frame_ahead.h"
 #include "view/frame_series.h"
 #include "view/ghost.h"
 #include "view/history.h"
@@ -73,6 +74,8 @@ struct ViewModel::Data {
   // Of a run that is replayed.
   std::shared_ptr<RunFrames> frames;
   std::optional<Replay> replay;
+  std::unique_ptr<FrameAhead> ahead;
+  std::size_t shown_before = 0;  ///< the frame shown before the last one: which way it goes
   std::optional<Analysis> analysis;
 
   // Of a run that is computed.
@@ -129,6 +132,8 @@ struct ViewModel::Data {
   /// Begins the run of `scenario`, and shows it instead of what was shown.
   void start_live(const std::string& output, bool overwrite);
   void begin_series();
+  /// Ends all that is read in the background.
+  void end_series();
   // view_branch.cpp
   void start_branch(std::size_t k);
   /// Takes over what a live run has recorded, from its beginning.
@@ -137,11 +142,11 @@ struct ViewModel::Data {
   std::shared_ptr<const Frame> read(std::size_t k);
   /// Shows the frame that a replay is at; where it cannot be read, the one before stays and playing ends.
   void show_replayed();
-  /// Another frame is shown.
-  void show(std::shared_ptr<const Frame> next);
+  /// Another frame is shown; `mapped` where it is known already.
+  void show(std::shared_ptr<const Frame> next, std::shared_ptr<const Frame> mapped = nullptr);
   /// Neighbourhoods begin at another diameter (D): makes `frame` anew; true where it is another.
   bool read_with(double next_l_min);
-  void make_frame();
+  void make_frame(std::shared_ptr<const Frame> mapped = nullptr);
   /// Takes over what a live run has made; true where its frame is another.
   bool take_live();
   /// Shows a recorded frame of a live run, or again what it computes.

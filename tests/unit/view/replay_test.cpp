@@ -82,6 +82,10 @@ TEST_F(ReplayOfBed, keeps_the_frames_asked_for_last) {
   EXPECT_EQ(replay_->frame(3)->gamma[30], 1.0);
   EXPECT_EQ(replay_->frame(0), first) << "read again";
   EXPECT_EQ(replay_->frame(2)->gamma[30], 0.0);
+  const auto read_elsewhere = std::make_shared<const Frame>(example::bed_frame(5.0, 1));
+  replay_->keep(1, read_elsewhere);
+  EXPECT_EQ(replay_->frame(1), read_elsewhere);
+  EXPECT_EQ(replay_->frame(0), first);
 }
 
 TEST(ReplayOfNothing, says_that_there_are_no_frames) {

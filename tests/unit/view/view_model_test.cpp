@@ -8,6 +8,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <span>
 
 #include "core/errors.h"
 #include "core/hash.h"
@@ -359,6 +360,26 @@ TEST_F(ViewOfRun, says_in_the_title_why_a_map_cannot_be_drawn) {
   EXPECT_GE(model_->map(2.0).discs.size(), 50u);
   EXPECT_FALSE(model_->furnished_map().title.empty());
   EXPECT_NE(model_->furnished_map().title, "Stress ratio γ of single grains");
+}
+
+TEST_F(ViewOfRun, shows_the_same_frames_on_any_way) {
+  const auto expect_frame = [&](std::size_t k) {
+    model_->go_to(k);
+    ViewModel other = opened(path_);
+    other.state.map.l_min = model_->state.map.l_min;
+    other.update(0.0);
+    other.go_to(k);
+    EXPECT_EQ(model_->frame().tilt, other.frame().tilt) << k;
+    const auto free_grains = static_cast<std::size_t>(other.statics().free_count);
+    EXPECT_TRUE(std::ranges::equal(std::span(model_->frame().gamma).first(free_grains),
+                                   std::span(other.frame().gamma).first(free_grains)))
+        << k;
+  };
+  for (const std::size_t k : {0u, 1u, 2u, 4u, 6u, 5u, 4u, 2u, 0u, 7u}) expect_frame(k);
+  model_->go_to(2);  // what is made ahead has other neighbourhoods from here on
+  model_->state.map.l_min = 3.0;
+  model_->update(0.0);
+  for (const std::size_t k : {3u, 4u, 3u}) expect_frame(k);
 }
 
 TEST_F(ViewOfRun, tells_of_a_frame_that_cannot_be_read) {

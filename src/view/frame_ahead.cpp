@@ -1,0 +1,37 @@
+#include "view/frame_ahead.h"
+
+#include <chrono>
+#include <exception>
+#include <utility>
+
+#include "pictures/overload_rule.h"
+
+namespace talus {
+
+FrameAhead::FrameAhead(RunStatics statics, ReadFrame read)
+    : statics_(std::move(statics)), read_(std::move(read)) {}
+
+void FrameAhead::begin(std::size_t k, double l_min) {
+  const Asked next{k, l_min};
+  if (made_.valid() &&
+      (next == asked_ || made_.wait_for(std::chrono::seconds(0)) != std::future_status::ready))
+    return;
+  asked_ = next;
+  made_ = std::async(std::launch::async, [this, k, l_min]() -> std::optional<ShownFrame> {
+    try {
+      ShownFrame shown{read_(k), nullptr};
+      if (shown.stored->x.size() != statics_.radius.size()) return std::nullopt;
+      shown.mapped = std::make_shared<const Frame>(mapped_frame(*shown.stored, statics_, l_min));
+      return shown;
+    } catch (const std::exception&) {
+      return std::nullopt;
+    }
+  });
+}
+
+std::optional<ShownFrame> FrameAhead::take(std::size_t k, double l_min) {
+  if (!made_.valid() || !(asked_ == Asked{k, l_min})) return std::nullopt;
+  return made_.get();
+}
+
+}  // namespace talus
