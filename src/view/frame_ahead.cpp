@@ -11,15 +11,15 @@ namespace talus {
 FrameAhead::FrameAhead(RunStatics statics, ReadFrame read)
     : statics_(std::move(statics)), read_(std::move(read)) {}
 
-void FrameAhead::begin(std::size_t k, double l_min) {
+void FrameAhead::begin(std::size_t k, double l_min, std::shared_ptr<const Frame> known) {
   const Asked next{k, l_min};
   if (made_.valid() &&
       (next == asked_ || made_.wait_for(std::chrono::seconds(0)) != std::future_status::ready))
     return;
   asked_ = next;
-  made_ = std::async(std::launch::async, [this, k, l_min]() -> std::optional<ShownFrame> {
+  made_ = std::async(std::launch::async, [this, k, l_min, known]() -> std::optional<ShownFrame> {
     try {
-      ShownFrame shown{read_(k), nullptr};
+      ShownFrame shown{known ? known : read_(k), nullptr};
       if (shown.stored->x.size() != statics_.radius.size()) return std::nullopt;
       shown.mapped = std::make_shared<const Frame>(mapped_frame(*shown.stored, statics_, l_min));
       return shown;

@@ -9,8 +9,14 @@
 namespace talus {
 namespace {
 
-constexpr std::size_t most_kept = 32;  // about 2 MB each in a bed of 8000 grains
-constexpr double slowest = 1e-3;       // deg/s
+constexpr double slowest = 1e-3;  // deg/s
+
+/// How many frames of that size are kept: all of the paper's bed, which has some 90 of 1.6 MB.
+std::size_t most_kept(const Frame& frame) {
+  constexpr std::size_t budget = 256u << 20, of_grain = 90, of_contact = 60;  // bytes
+  const std::size_t size = of_grain * frame.x.size() + of_contact * frame.contacts.a.size() + 1;
+  return std::max<std::size_t>(2, budget / size);
+}
 
 }  // namespace
 
@@ -73,17 +79,23 @@ bool Replay::advance(double seconds) {
 }
 
 std::shared_ptr<const Frame> Replay::frame(std::size_t k) {
-  const auto found =
-      std::ranges::find(kept_, k, &std::pair<std::size_t, std::shared_ptr<const Frame>>::first);
-  auto frame = found == kept_.end() ? frames_->read(k) : found->second;
+  auto frame = kept(k);
+  if (!frame) frame = frames_->read(k);
   keep(k, frame);
   return frame;
 }
 
+std::shared_ptr<const Frame> Replay::kept(std::size_t k) const {
+  const auto found =
+      std::ranges::find(kept_, k, &std::pair<std::size_t, std::shared_ptr<const Frame>>::first);
+  return found == kept_.end() ? nullptr : found->second;
+}
+
 void Replay::keep(std::size_t k, std::shared_ptr<const Frame> frame) {
   std::erase_if(kept_, [k](const auto& kept) { return kept.first == k; });
+  const std::size_t most = most_kept(*frame);
   kept_.emplace_front(k, std::move(frame));
-  if (kept_.size() > most_kept) kept_.pop_back();
+  while (kept_.size() > most) kept_.pop_back();
 }
 
 }  // namespace talus

@@ -58,8 +58,10 @@ class Replay {
   /// Frames of a flow after failure follow each other as those of the tilt do, whatever their tilt.
   bool advance(double seconds);
 
-  /// Frame k; those asked for last are kept. Throws as RunFile::frame does.
+  /// Frame k; those asked for last are kept, up to some 256 MB. Throws as RunFile::frame does.
   std::shared_ptr<const Frame> frame(std::size_t k);
+  /// Frame k if it is kept; null else.
+  std::shared_ptr<const Frame> kept(std::size_t k) const;
   /// Frame k, which somebody else has read, is kept as if it had been asked for.
   void keep(std::size_t k, std::shared_ptr<const Frame> frame);
 

@@ -120,7 +120,7 @@ void ViewModel::Data::show_replayed() {
   // On by as many frames as last time, back as well.
   const std::size_t following = k == shown_before ? k + 1 : k + (k - shown_before);
   shown_before = k;
-  if (following < replay->count()) ahead->begin(following, l_min);
+  if (following < replay->count()) ahead->begin(following, l_min, replay->kept(following));
 }
 
 /// What has been recorded, with room for the bed that is being deposited: grains fall into the picture from

@@ -67,6 +67,16 @@ TEST(FrameAhead, makes_one_at_a_time) {
   EXPECT_TRUE(ahead.take(4, 1.0));
 }
 
+TEST(FrameAhead, does_not_read_what_is_known) {
+  FrameAhead ahead(example::bed_statics(),
+                   [](std::size_t) -> std::shared_ptr<const Frame> { throw std::runtime_error("read"); });
+  const auto known = read_bed(3);
+  ahead.begin(3, 1.0, known);
+  const auto made = ahead.take(3, 1.0);
+  ASSERT_TRUE(made);
+  EXPECT_EQ(made->stored, known);
+}
+
 TEST(FrameAhead, has_none_that_cannot_be_read_or_is_of_another_bed) {
   FrameAhead ahead(example::bed_statics(), [](std::size_t k) {
     if (k == 0) throw std::runtime_error("damaged");

@@ -85,6 +85,8 @@ TEST_F(ReplayOfBed, keeps_the_frames_asked_for_last) {
   const auto read_elsewhere = std::make_shared<const Frame>(example::bed_frame(5.0, 1));
   replay_->keep(1, read_elsewhere);
   EXPECT_EQ(replay_->frame(1), read_elsewhere);
+  EXPECT_EQ(replay_->kept(1), read_elsewhere);
+  EXPECT_EQ(replay_->kept(5), nullptr) << "nobody has asked for it";
   EXPECT_EQ(replay_->frame(0), first);
 }
 
