@@ -123,6 +123,13 @@ void ViewModel::Data::show_replayed() {
   if (following < replay->count()) ahead->begin(following, l_min, replay->kept(following));
 }
 
+/// Whether grains are above the bed that they will make.
+bool ViewModel::Data::is_falling() const {
+  const DepositionMethod method = scenario.deposition.method;
+  return live->status().depositing &&
+         (method == DepositionMethod::pour || method == DepositionMethod::collapse);
+}
+
 /// What has been recorded, with room for the bed that is being deposited: grains fall into the picture from
 /// above, so that it and all around it stay where they are.
 MapExtent ViewModel::Data::live_extent() const {
@@ -140,7 +147,7 @@ void ViewModel::Data::show(std::shared_ptr<const Frame> next, std::shared_ptr<co
     pictures.run.statics = arrived_statics(all_statics, stored->grain_count());
   if (live) bed = live_extent();
   extend(bed, {*stored, statics()});
-  if (live && live->status().depositing) bed.y_max = live_extent().y_max;
+  if (live && is_falling()) bed.y_max = live_extent().y_max;
   make_frame(std::move(mapped));
 }
 

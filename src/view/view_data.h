@@ -201,6 +201,7 @@ struct ViewModel::Data {
   std::size_t shown_index() const;
   /// The bed, as high as the higher one of two runs.
   MapExtent viewed_bed() const;
+  bool is_falling() const;
   /// That of a run that is computed, before the frame shown is looked at.
   MapExtent live_extent() const;
   /// Width over height of a picture in which the bed just has room.

@@ -62,6 +62,20 @@ TEST_F(ViewOfScenario, follows_the_run) {
   EXPECT_NE(model_->furnished_map().title.find("per degree"), std::string::npos);
 }
 
+TEST_F(ViewOfScenario, shows_all_of_a_bed_that_is_higher_than_its_scenario_says) {
+  std::ofstream table(folder_.path("tower.csv"));
+  for (int k = 0; k < 40; ++k) table << 1.0 + 2.0 * (k % 4) << ',' << 1.0 + k / 4 << ",0.5\n";
+  table.close();
+  std::ofstream(folder_.path("tower.toml"))
+      << "[bed]\nlength = 10\ndepth = 3\n[deposition]\nmethod = 'file'\nfile = '" << folder_.path("tower.csv")
+      << "'\n[tilt]\nend_angle = 1.0\n";
+  const ViewModel tower = opened(folder_.path("tower.toml"));
+  ASSERT_EQ(tower.frame().grain_count(), 50);
+  EXPECT_GE(tower.shown_region(3.0)[3], 10.5 * tower.mean_diameter());
+  EXPECT_LE(model_->shown_region(3.0)[3], 5.0 * model_->mean_diameter())
+      << "of a bed that is poured, no more is shown than it will fill";
+}
+
 TEST_F(ViewOfScenario, looks_back_while_the_run_goes_on) {
   model_->go_to(0);
   EXPECT_FALSE(model_->looks_back()) << "no frame is recorded yet";
