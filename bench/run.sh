@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Builds the benchmarks and writes every result to bench/results/: bench/run.sh [PART...]
-# Parts: solver, scale, siconos, siconos_si, siconos_dense, paper, crowded, ensemble, store, render, view; all of them with no argument.
+# Parts: solver, scale, siconos, siconos_si, siconos_dense, paper, crowded, frames, ensemble, store, render, view; all of them with no argument.
 set -euo pipefail
 
 cd -- "$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")/.."
@@ -117,6 +117,14 @@ crowded() {
   keep crowded.md
 }
 
+frames() {
+  {
+    heading "Maps drawn beside a run" "bench/run_frames.py $build/talus"
+    /usr/bin/python3 bench/run_frames.py "$build/talus"
+  } >"$results/frames.md.part"
+  keep frames.md
+}
+
 ensemble() {
   {
     heading "Ensembles of many members" "bench/ensemble_bench.py $build/talus"
@@ -162,12 +170,12 @@ view() {
 }
 
 parts=("$@")
-((${#parts[@]} > 0)) || parts=(solver scale siconos siconos_si siconos_dense paper crowded ensemble store render view)
+((${#parts[@]} > 0)) || parts=(solver scale siconos siconos_si siconos_dense paper crowded frames ensemble store render view)
 build
 mkdir -p "$results"
 for part in "${parts[@]}"; do
   case $part in
-    solver | scale | siconos | siconos_si | siconos_dense | paper | crowded | ensemble | store | render | view) "$part" ;;
+    solver | scale | siconos | siconos_si | siconos_dense | paper | crowded | frames | ensemble | store | render | view) "$part" ;;
     *) printf 'bench/run.sh: error: no part "%s"; they are listed at the top of this file\n' "$part" >&2 && exit 64 ;;
   esac
   printf '%s: done after %d s\n' "$part" "$SECONDS"

@@ -86,7 +86,8 @@ void measure_replay(ViewModel& model) {
 
 void measure_live(ViewModel& model) {
   model.live()->finish_deposition();
-  while (model.live()->status().running) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  while (model.live()->status().depositing || model.live()->status().running)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
   model.update(0.0);
   std::printf("Live: window of %d x %d px, %d grains; the solver has one thread.\n\n", width, height,
               model.statics().free_count);

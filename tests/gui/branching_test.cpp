@@ -12,14 +12,7 @@ namespace {
 /// A replay of which a branch is made, in a window without a display.
 class Branching : public test::Replay {
  protected:
-  bool wait_until(const std::function<bool()>& so) {
-    for (int wait = 0; wait < 1000; ++wait) {
-      gui_.frame();
-      if (so()) return true;
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    }
-    return false;
-  }
+  bool wait_until(const std::function<bool()>& so) { return test::drawn_until(gui_, so); }
   LiveStatus status() { return model_.live()->status(); }
   std::string hash() {
     EXPECT_TRUE(wait_until([&] { return !status().running; }));

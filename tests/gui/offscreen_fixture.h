@@ -52,6 +52,16 @@ class Replay : public testing::Test {
   OffscreenGui gui_;
 };
 
+/// Draws until it is so; false after ten seconds.
+inline bool drawn_until(OffscreenGui& gui, const std::function<bool()>& so) {
+  for (int wait = 0; wait < 1000; ++wait) {
+    gui.frame();
+    if (so()) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return false;
+}
+
 /// A bed that is computed, in a window of 1200 x 800 px.
 class Live : public testing::Test {
  protected:
@@ -62,15 +72,7 @@ class Live : public testing::Test {
     return folder_.path("bed.toml");
   }
 
-  /// Draws until it is so; false after ten seconds.
-  bool wait_until(const std::function<bool()>& so) {
-    for (int wait = 0; wait < 1000; ++wait) {
-      gui_.frame();
-      if (so()) return true;
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    }
-    return false;
-  }
+  bool wait_until(const std::function<bool()>& so) { return drawn_until(gui_, so); }
   LiveStatus status() { return model_.live()->status(); }
 
   TemporaryFolder folder_;

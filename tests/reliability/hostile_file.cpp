@@ -211,6 +211,15 @@ std::uint64_t values_hash(const Bytes& file) {
   return hasher.value();
 }
 
+std::vector<Spoil> spoils_of_chance(Random& random, std::span<const std::string> paths,
+                                    const std::string& elsewhere) {
+  std::vector<Spoil> spoils(1 + random.below(2));
+  for (Spoil& spoil : spoils)
+    spoil = {paths[random.below(static_cast<std::uint32_t>(paths.size()))],
+             static_cast<Harm>(random.below(harm_count)), random.next(), random.below(40), elsewhere};
+  return spoils;
+}
+
 Bytes spoilt(const Bytes& file, std::span<const Spoil> spoils) {
   Bytes bytes = file;
   const Handle open = hdf5::open_image(bytes, "spoilt", H5F_ACC_RDWR);

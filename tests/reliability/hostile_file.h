@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "core/random.h"
+
 namespace talus::hostile {
 
 using Bytes = std::vector<std::byte>;
@@ -45,6 +47,10 @@ struct Spoil {
 
 /// Paths of all data sets of an HDF5 file in memory.
 std::vector<std::string> data_sets(const Bytes& file);
+
+/// One or two harms to data sets of `paths`; external links lead to `elsewhere`.
+std::vector<Spoil> spoils_of_chance(Random& random, std::span<const std::string> paths,
+                                    const std::string& elsewhere);
 
 /// The hash of the values of all data sets, as they are stored.
 std::uint64_t values_hash(const Bytes& file);

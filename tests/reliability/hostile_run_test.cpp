@@ -160,11 +160,7 @@ TEST_F(HostileRun, sizes_and_values_of_chance_are_refused_or_harmless) {
   int refused = 0;
   const int count = tries(200);
   for (int k = 0; k < count; ++k) {
-    std::vector<Spoil> spoils(1 + random.below(2));
-    for (Spoil& spoil : spoils)
-      spoil = {paths[random.below(static_cast<std::uint32_t>(paths.size()))],
-               static_cast<Harm>(random.below(harm_count)), random.next(), random.below(40),
-               folder->path("good.h5")};
+    const std::vector<Spoil> spoils = spoils_of_chance(random, paths, folder->path("good.h5"));
     SCOPED_TRACE(spoils.front().path + " " + name_of(spoils.front().harm) + " " +
                  std::to_string(spoils.front().bits));
     refused += refusal(bad(spoilt(good, spoils))) ? 1 : 0;
