@@ -200,12 +200,13 @@ AcceleratedOutcome solve_part(TeamMember& member, double tolerance, int max_iter
   }
 }
 
-/// No more threads than find work.
-void ensure_team(const ContactProblem& problem, AcceleratedWorkspace& w, int threads) {
+/// The team for a problem, of no more threads than find work; null where that is one. What has been learnt of
+/// teams stays: while a bed is poured, the number of those who find work goes up and down.
+ThreadTeam* team_for(const ContactProblem& problem, AcceleratedWorkspace& w, int threads) {
   const int useful = std::clamp(most_members(problem), 1, threads);
-  if (w.team && w.team->size() == useful) return;
-  w.team = std::make_unique<ThreadTeam>(useful);
-  w.choice = {};
+  if (useful == 1) return nullptr;  // a team that is there may be wanted again by the next solve
+  if (!w.team || w.team->size() != useful) w.team = std::make_unique<ThreadTeam>(useful);
+  return w.team.get();
 }
 
 /// What a solve costs beside its iterations, in iterations: some 35 ns for each contact, to 2 ns of an
@@ -220,7 +221,6 @@ AcceleratedOutcome solve_accelerated(const ContactProblem& problem, double toler
   prepare(problem, solution, workspace.linearisation);
   for (auto* field : {&solution.vx, &solution.vy, &solution.omega})
     field->resize(static_cast<std::size_t>(problem.body_count()));
-  if (threads > 1) ensure_team(problem, workspace, threads);
   const auto begin = std::chrono::steady_clock::now();
   AcceleratedOutcome outcome;
   const auto take_part = [&](ThreadTeam* team, int member) {
@@ -229,15 +229,14 @@ AcceleratedOutcome solve_accelerated(const ContactProblem& problem, double toler
     part.unload();
     if (member == 0) outcome = mine;
   };
-  // One thread leaves a team as it is, which may be wanted again by the next solve.
-  ThreadTeam* const team = threads > 1 ? workspace.team.get() : nullptr;
+  ThreadTeam* const team = team_for(problem, workspace, threads);
   if (team != nullptr && workspace.choice.in_team())
     team->run([&](int member) { take_part(team, member); });
   else
     take_part(nullptr, 0);
   if (workspace.failure) std::rethrow_exception(std::exchange(workspace.failure, nullptr));
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
-  if (team != nullptr && team->size() > 1)
+  if (team != nullptr)
     workspace.choice.add(taken.count(), static_cast<double>(problem.contact_count()) *
                                             (outcome.iterations + iterations_for_the_rest));
   return outcome;

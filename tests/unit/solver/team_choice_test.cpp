@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include "solver/accelerated.h"
+#include "unit/solver/small_problems.h"
+
 namespace talus {
 namespace {
 
@@ -91,6 +94,28 @@ TEST(TeamChoice, judges_by_nothing_less_than_time_and_work) {
     EXPECT_TRUE(without_time.in_team());
     EXPECT_TRUE(without_work.in_team());
   }
+}
+
+/// While a bed is poured, the problems are now too small for a team and now not.
+TEST(TeamOfSolve, and_what_was_learnt_of_it_stay_over_a_problem_that_needs_none) {
+  AcceleratedWorkspace workspace;
+  const auto solve_with = [&](const ContactProblem& problem, int threads) {
+    ContactSolution solution = test::no_guess(problem);
+    solve_accelerated(problem, 1e-3, 1, threads, workspace, solution);
+  };
+  const ContactProblem large = test::random_problem(1, 1500, 2000), small = test::random_problem(2, 50, 60);
+  solve_with(small, 2);
+  EXPECT_EQ(workspace.team, nullptr);
+  solve_with(large, 2);
+  const ThreadTeam* const team = workspace.team.get();
+  ASSERT_NE(team, nullptr);
+  work(workspace.choice, 100, 50.0, 2.0);
+  ASSERT_FALSE(workspace.choice.in_team());
+  solve_with(small, 2);
+  solve_with(large, 1);
+  solve_with(large, 2);
+  EXPECT_EQ(workspace.team.get(), team);
+  EXPECT_FALSE(workspace.choice.in_team());
 }
 
 }  // namespace
