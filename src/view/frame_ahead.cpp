@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <exception>
+#include <system_error>
 #include <utility>
 
 #include "pictures/overload_rule.h"
@@ -11,13 +12,12 @@ namespace talus {
 FrameAhead::FrameAhead(RunStatics statics, ReadFrame read)
     : statics_(std::move(statics)), read_(std::move(read)) {}
 
-void FrameAhead::begin(std::size_t k, double l_min, std::shared_ptr<const Frame> known) {
+void FrameAhead::begin(std::size_t k, double l_min, const std::shared_ptr<const Frame>& known) {
   const Asked next{k, l_min};
   if (made_.valid() &&
       (next == asked_ || made_.wait_for(std::chrono::seconds(0)) != std::future_status::ready))
     return;
-  asked_ = next;
-  made_ = std::async(std::launch::async, [this, k, l_min, known]() -> std::optional<ShownFrame> {
+  const auto make = [this, k, l_min, known]() -> std::optional<ShownFrame> {
     try {
       ShownFrame shown{known ? known : read_(k), nullptr};
       if (shown.stored->x.size() != statics_.radius.size()) return std::nullopt;
@@ -26,7 +26,12 @@ void FrameAhead::begin(std::size_t k, double l_min, std::shared_ptr<const Frame>
     } catch (const std::exception&) {
       return std::nullopt;
     }
-  });
+  };
+  try {
+    made_ = std::async(std::launch::async, make);
+    asked_ = next;
+  } catch (const std::system_error&) {  // no more threads: the frame is made when it is shown
+  }
 }
 
 std::optional<ShownFrame> FrameAhead::take(std::size_t k, double l_min) {

@@ -29,8 +29,8 @@ class FrameAhead {
   FrameAhead& operator=(const FrameAhead&) = delete;
 
   /// Begins to make frame k, with neighbourhoods from l_min (D) on; reads it where it is not known. Does
-  /// nothing where another is under way.
-  void begin(std::size_t k, double l_min, std::shared_ptr<const Frame> known = nullptr);
+  /// nothing where another is under way, or no thread can be had.
+  void begin(std::size_t k, double l_min, const std::shared_ptr<const Frame>& known = nullptr);
   /// Frame k, where it was begun last with that l_min; waits until it is made. None where something else
   /// was begun, where it has not all grains, or where it could not be read: reading it again tells why.
   std::optional<ShownFrame> take(std::size_t k, double l_min);
