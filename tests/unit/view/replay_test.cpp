@@ -88,6 +88,19 @@ TEST_F(ReplayOfBed, keeps_the_frames_asked_for_last) {
   EXPECT_EQ(replay_->kept(1), read_elsewhere);
   EXPECT_EQ(replay_->kept(5), nullptr) << "nobody has asked for it";
   EXPECT_EQ(replay_->frame(0), first);
+  const auto third = replay_->kept(3);
+  for (int k = 0; k < 60000; ++k) replay_->frame(0);  // more often than there is room for frames of this bed
+  EXPECT_EQ(replay_->kept(3), third) << "a frame that is asked for again takes no more room";
+}
+
+TEST_F(ReplayOfBed, keeps_two_frames_of_the_largest_beds) {
+  Frame of_three_million;
+  of_three_million.x.resize(3'000'000);
+  const auto large = std::make_shared<const Frame>(std::move(of_three_million));
+  for (const std::size_t k : {0u, 1u, 2u}) replay_->keep(k, large);
+  EXPECT_EQ(replay_->kept(0), nullptr);
+  EXPECT_EQ(replay_->kept(1), large);
+  EXPECT_EQ(replay_->kept(2), large);
 }
 
 TEST(ReplayOfNothing, says_that_there_are_no_frames) {

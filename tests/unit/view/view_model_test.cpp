@@ -376,6 +376,7 @@ TEST_F(ViewOfRun, shows_the_same_frames_on_any_way) {
         << k;
   };
   for (const std::size_t k : {0u, 1u, 2u, 4u, 6u, 5u, 4u, 2u, 0u, 7u}) expect_frame(k);
+  model_->go_to(1);
   model_->go_to(2);  // what is made ahead has other neighbourhoods from here on
   model_->state.map.l_min = 3.0;
   model_->update(0.0);
