@@ -8,10 +8,10 @@
 namespace talus {
 namespace {
 
-/// Goes to the next line if what follows would not fit.
-void make_room(float width) {
+/// Goes to the next line if what follows would not fit beside what is left free on the right.
+void make_room(float width, float margin) {
   if (ImGui::GetCursorPosX() > ImGui::GetStyle().WindowPadding.x + 1.0f &&
-      ImGui::GetContentRegionAvail().x < width)
+      ImGui::GetContentRegionAvail().x - margin < width)
     ImGui::NewLine();
 }
 
@@ -68,10 +68,10 @@ struct DrawnBar {
   ImVec2 low, high;
 };
 
-DrawnBar draw_bar(const Bar& bar, float em, ImU32 ink) {
+DrawnBar draw_bar(const Bar& bar, float em, ImU32 ink, float margin) {
   const float title = text_width(bar.title), length = bar_length * em, height = 0.85f * em;
   const float width = width_of(bar, em);
-  make_room(width);
+  make_room(width, margin);
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   ImDrawList& list = *ImGui::GetWindowDrawList();
   add_rich_text(list, {corner.x, corner.y - 0.1f * em}, ink, bar.title);
@@ -98,9 +98,11 @@ DrawnBar draw_bar(const Bar& bar, float em, ImU32 ink) {
   return {{left, corner.y}, {left + length, corner.y + height}};
 }
 
-void draw_swatch(const Swatch& swatch, float em, ImU32 ink) {
+void draw_swatch(Gui& gui, const Swatch& swatch, float margin) {
+  const float em = gui.em;
+  const ImU32 ink = packed(gui.colours.ink);
   const float width = width_of(swatch, em);
-  make_room(width);
+  make_room(width, margin);
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const float middle = corner.y + 0.55f * em;
@@ -112,7 +114,8 @@ void draw_swatch(const Swatch& swatch, float em, ImU32 ink) {
     list.AddCircleFilled({corner.x + 1.0f * em, middle}, 0.36f * em, packed(swatch.fill));
   }
   add_rich_text(list, {corner.x + 1.9f * em, corner.y}, ink, swatch.label);
-  ImGui::Dummy({width, 2.4f * em});
+  ImGui::Dummy({width, 1.1f * em});  // two lines of swatches are as high as one of bars
+  note_place(gui, "swatch " + swatch.label);
   ImGui::SameLine();
 }
 
@@ -136,13 +139,13 @@ int legend_rows(const FrameView& view, float width) {
   return rows;
 }
 
-void draw_legends(Gui& gui, const FrameView& view, bool of_first) {
+void draw_legends(Gui& gui, const FrameView& view, bool of_first, float margin) {
   const float em = gui.em;
   const ImU32 ink = packed(gui.colours.ink);
   bool first = of_first;  // the bar whose range can be chosen
   for (const Legend& legend : view.legends) {
     for (const Bar& bar : legend.bars) {
-      const DrawnBar drawn = draw_bar(bar, em, ink);
+      const DrawnBar drawn = draw_bar(bar, em, ink, margin);
       ImGui::SameLine();
       const ImVec2 next = ImGui::GetCursorScreenPos();
       if (std::exchange(first, false)) {
@@ -150,7 +153,7 @@ void draw_legends(Gui& gui, const FrameView& view, bool of_first) {
         ImGui::SetCursorScreenPos(next);
       }
     }
-    for (const Swatch& swatch : legend.swatches) draw_swatch(swatch, em, ink);
+    for (const Swatch& swatch : legend.swatches) draw_swatch(gui, swatch, margin);
   }
   ImGui::NewLine();
 }

@@ -112,6 +112,9 @@ void use_mouse(Gui& gui, const MapPane& pane, const ShownMap& shown) {
   }
 }
 
+/// Whether there is room for the arrow of gravity, right of the legend.
+bool shows_gravity(float width, float em) { return width > 26.0f * em; }
+
 }  // namespace
 
 std::string grain_text(const ViewModel& model, Index grain) {
@@ -159,8 +162,11 @@ void draw_map_pane(Gui& gui, const MapPane& pane, const ImVec2& room) {
   list.AddImage(gui.draw_map(view, pixels, pane.beside ? 1 : 0), shown.corner, end, {0.0f, 0.0f},
                 {1.0f, (end.y - shown.corner.y) / shown_height});
   const ImVec2 under{shown.corner.x + room.x - 1.4f * gui.em, ImGui::GetCursorScreenPos().y + 1.2f * gui.em};
-  if (room.x > 26.0f * gui.em && pane.gravity)
+  if (shows_gravity(room.x, gui.em) && pane.gravity) {
     draw_gravity(under, gui.em, view.tilt - view.turn, packed(gui.colours.ink));
+    note_place(gui, "gravity", {under.x - 1.5f * gui.em, under.y - 1.1f * gui.em},
+               {under.x + 1.1f * gui.em, under.y + 1.1f * gui.em});
+  }
   use_mouse(gui, pane, shown);
 }
 
@@ -172,7 +178,7 @@ void draw_map_area(Gui& gui) {
   const ImVec2 room{std::max(width, 1.0f),
                     std::max(ImGui::GetContentRegionAvail().y - legend_lines * gui.em, 4.0f * gui.em)};
   draw_map_pane(gui, {}, room);
-  draw_legends(gui, gui.model.annotated_map(), true);
+  draw_legends(gui, gui.model.annotated_map(), true, shows_gravity(width, gui.em) ? 3.0f * gui.em : 0.0f);
 }
 
 }  // namespace talus

@@ -52,9 +52,9 @@ float map_area_height(float picture, float em);
 /// All keys.
 void draw_help(Gui& gui);
 
-/// The legends of a view in a row, in the available width.
+/// The legends of a view in a row, in the available width but a margin on the right, px.
 /// The range of the first bar is chosen with the mouse if the view is `of_first` map.
-void draw_legends(Gui& gui, const FrameView& view, bool of_first);
+void draw_legends(Gui& gui, const FrameView& view, bool of_first, float margin = 0.0f);
 /// How many rows they have in a width, px.
 int legend_rows(const FrameView& view, float width);
 

@@ -30,6 +30,24 @@ TEST_F(Replay, a_click_on_the_legend_changes_nothing) {
   EXPECT_FALSE(model_.state.map.range_low || model_.state.map.range_high);
 }
 
+TEST_F(Replay, all_of_the_legend_is_seen_beside_the_arrow_of_gravity) {
+  model_.state.map.layers = {MapKind::clusters, MapKind::forces};
+  for (const int width : {1280, 1400, 1500, 1700}) {
+    gui_.resize(width, 900);
+    gui_.frame();
+    const WidgetPlace gravity = gui_.place("gravity"), below = gui_.place("border");
+    int swatches = 0;
+    for (const Legend& legend : model_.annotated_map().legends)
+      for (const Swatch& swatch : legend.swatches) {
+        const WidgetPlace at = gui_.place("swatch " + swatch.label);
+        EXPECT_LE(at.y1, below.y0) << swatch.label << " at " << width;
+        EXPECT_TRUE(at.x1 <= gravity.x0 || at.y0 >= gravity.y1) << swatch.label << " at " << width;
+        ++swatches;
+      }
+    EXPECT_GE(swatches, 4) << width;
+  }
+}
+
 TEST_F(Replay, a_grain_is_told_in_the_unit_of_the_map) {
   model_.go_to(2);
   const auto told = [&](MapKind kind) {
