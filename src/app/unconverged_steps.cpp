@@ -18,7 +18,7 @@ StepRemark remark_on(const SolverRecord& record, std::int64_t steps) {
   if (usual) return {true, fmt::format("{}; that is usual (docs/solver.md).", text)};
   return {false,
           fmt::format("{}: {} of the deposition, {} of the tilt, {} after failure; one or two "
-                      "in a hundred are usual (docs/solver.md); raise solver.max_iterations",
+                      "in a thousand are usual (docs/solver.md); raise solver.max_iterations",
                       text, record.unconverged_deposition, record.unconverged_tilt, record.unconverged_flow)};
 }
 

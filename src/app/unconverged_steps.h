@@ -9,7 +9,7 @@
 namespace talus {
 
 /// Up to this share of all steps is usual (docs/solver.md).
-inline constexpr double usual_unconverged_share = 0.02;
+inline constexpr double usual_unconverged_share = 0.002;
 
 struct StepRemark {
   bool usual = true;  ///< a plain statement; else a warning

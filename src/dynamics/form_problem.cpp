@@ -1,6 +1,7 @@
 #include "dynamics/form_problem.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace talus {
 namespace {
@@ -56,17 +57,41 @@ double free_normal_velocity(const ContactProblem& problem, Index c) {
   return (problem.vx[b] - problem.vx[a]) * problem.nx[c] + (problem.vy[b] - problem.vy[a]) * problem.ny[c];
 }
 
-/// The gap+/h rule, and the share of an overlap that is taken back (T11). To take back every overlap, however
-/// small, would ask closed loops of contacts for velocities that no motion of rigid bodies has: forces would
-/// flicker, and a solve would take twice the iterations.
-void set_gap_velocities(const Contacts& contacts, const ContactLawParameters& law, double h,
+/// The error of an impulse that the tolerance of a solve allows: so much of the rms of the remembered ones.
+double impulse_of_noise(const Contacts& contacts, double h, double tolerance) {
+  double sum = 0.0;
+  Index bearing = 0;
+  for (Index c = 0; c < contacts.count(); ++c) {
+    const double fn = contacts.fn[c], ft = contacts.ft[c];
+    sum += fn * fn + ft * ft;
+    bearing += fn > 0.0 ? 1 : 0;
+  }
+  return bearing > 0 ? tolerance * h * std::sqrt(sum / bearing) : 0.0;
+}
+
+/// (T11). A gap or an overlap of a contact that bears load is an error of the solver. To take all of them
+/// back at once would ask closed loops of contacts for velocities that no motion of rigid bodies has: forces
+/// would drift along self-stresses, and the solve would not end. So they are taken back no faster than they
+/// arise.
+void set_gap_velocities(const Contacts& contacts, const ContactLawParameters& law, double h, double tolerance,
                         ContactProblem& problem) {
-  const auto count = static_cast<std::size_t>(contacts.count());
-  problem.cn.resize(count);
-  for (std::size_t c = 0; c < count; ++c) {
-    const double gap = contacts.gap[c];
-    const double share = law.overlap_correction * std::min(0.0, gap + law.allowed_overlap);
-    problem.cn[c] = (gap > 0.0 ? gap : share) / h;
+  // What exceeds so many allowed overlaps is more than noise. Gaps are seldom noise: they also open where
+  // grains move past each other.
+  constexpr double gaps_of_noise = 0.05, overlaps_of_noise = 10.0;
+  const double noise = impulse_of_noise(contacts, h, tolerance);
+  problem.cn.resize(static_cast<std::size_t>(contacts.count()));
+  for (Index c = 0; c < contacts.count(); ++c) {
+    const double error = std::fabs(contacts.gap[c]);
+    const bool is_open = contacts.gap[c] > 0.0;
+    const auto velocity_of = [&](double left) {
+      const double velocity = std::max(0.0, error - left) / h;
+      return is_open ? velocity : law.overlap_correction * velocity;
+    };
+    double velocity = velocity_of(is_open ? 0.0 : law.allowed_overlap);
+    if (velocity > 0.0 && !(is_open && contacts.fn[c] == 0.0))
+      velocity = std::max(std::min(velocity, noise * delassus_diagonal(problem, c).normal),
+                          velocity_of((is_open ? gaps_of_noise : overlaps_of_noise) * law.allowed_overlap));
+    problem.cn[c] = is_open ? velocity : -velocity;
   }
 }
 
@@ -131,10 +156,10 @@ void free_velocity(const World& world, double h, ContactProblem& problem) {
 }
 
 void form_problem(const World& world, const Contacts& contacts, const ContactLawParameters& law, double h,
-                  ContactProblem& problem) {
+                  double tolerance, ContactProblem& problem) {
   take_bodies(world, problem);
   take_local_frames(contacts, problem);
-  set_gap_velocities(contacts, law, h, problem);
+  set_gap_velocities(contacts, law, h, tolerance, problem);
   fill(problem.ct, contacts.gap.size(), 0.0);
   if (law.restitution != 0.0 || law.tangential_restitution != 0.0)
     set_restitution(world, contacts, law, h, problem);

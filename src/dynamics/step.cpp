@@ -88,11 +88,9 @@ double largest_overlap(const Contacts& contacts) {
 }
 
 /// The first guess of the solve: the forces that persist from the last step, times h (T18).
-void recall_impulses(const Contacts& last, double h, const ContactProblem& problem, Contacts& contacts,
-                     ContactSolution& solution) {
+void guess_impulses(const Contacts& contacts, double h, const ContactProblem& problem,
+                    ContactSolution& solution) {
   const auto count = static_cast<std::size_t>(contacts.count());
-  contacts.moment.assign(problem.resists_rolling() ? count : 0, 0.0);
-  recall_forces(last, contacts);
   solution.pn.resize(count);
   solution.pt.resize(count);
   for (std::size_t c = 0; c < count; ++c) {
@@ -150,11 +148,14 @@ StageSeconds begin_step(World& world, const StepSettings& settings, StepWorkspac
   clock.end_of(Stage::move);
   detect_contacts(workspace.neighbours, grains, world.boundary, margin, contacts);  // local frames (T3)
   clock.end_of(Stage::detect);
-  free_velocity(world, h, workspace.problem);                         // (T4)
-  form_problem(world, contacts, settings.law, h, workspace.problem);  // (T5), (T8), (T11), (T12)
-  clock.end_of(Stage::assemble);
-  recall_impulses(world.contacts, h, workspace.problem, contacts, workspace.solution);  // (T18)
+  contacts.moment.assign(settings.law.rolling_friction != 0.0 ? contacts.a.size() : 0, 0.0);
+  recall_forces(world.contacts, contacts);  // (T18)
   clock.end_of(Stage::recall);
+  free_velocity(world, h, workspace.problem);  // (T4)
+  form_problem(world, contacts, settings.law, h, settings.solver.tolerance,
+               workspace.problem);  // (T5), (T8), (T11), (T12)
+  guess_impulses(contacts, h, workspace.problem, workspace.solution);
+  clock.end_of(Stage::assemble);
   return seconds;
 }
 

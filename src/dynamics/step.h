@@ -20,10 +20,10 @@ struct StepSettings {
 };
 
 /// The stages of a step, in their order.
-enum class Stage : std::size_t { move, detect, assemble, recall, solve, store, count };
+enum class Stage : std::size_t { move, detect, recall, assemble, solve, store, count };
 inline constexpr std::size_t stage_count = static_cast<std::size_t>(Stage::count);
-inline constexpr std::array<std::string_view, stage_count> stage_names = {"move",   "detect", "assemble",
-                                                                          "recall", "solve",  "store"};
+inline constexpr std::array<std::string_view, stage_count> stage_names = {"move",     "detect", "recall",
+                                                                          "assemble", "solve",  "store"};
 
 /// Wall time of each stage, s; never enters the state.
 using StageSeconds = std::array<double, stage_count>;

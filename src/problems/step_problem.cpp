@@ -82,7 +82,8 @@ StepProblem form_step(World& world, const StepSettings& settings, double closed_
   begin_step(world, settings, workspace);
   if (closed_below > 0.0) {
     close_remembered_contacts(closed_below, workspace.contacts);
-    form_problem(world, workspace.contacts, settings.law, settings.h, workspace.problem);
+    form_problem(world, workspace.contacts, settings.law, settings.h, settings.solver.tolerance,
+                 workspace.problem);
   }
   StepProblem step;
   step.problem = std::move(workspace.problem);

@@ -85,7 +85,7 @@ struct Scenario {
     SolverMethod method = SolverMethod::accelerated;  ///< "accelerated" or "gauss-seidel"
     double tolerance = 3e-7;                          ///< natural-map residual eta asked of each step
     double moving_tolerance = 1e-4;                   ///< the same while the bed moves
-    int max_iterations = 1000;                        ///< in one step
+    int max_iterations = 5000;                        ///< in one step
     double allowed_overlap = 1e-4;                    ///< D: overlaps up to this are left as they are
     double overlap_correction = 0.05;                 ///< share of the rest removed in each step
 

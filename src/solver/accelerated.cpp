@@ -15,15 +15,23 @@ namespace {
 constexpr int sweeps_to_renewal = 128;
 constexpr int first_renewal_cold = 16;
 // The residual is looked at when its estimate is so many times the tolerance; when that was too early, the
-// next time is judged by how the two compared. A little below the tolerance, so that the next steps of a
-// quiet bed find it solved.
+// next time is judged by how the two compared. Where the guess is so near a solution already, the bed is
+// quiet, and a solve goes a little below the tolerance, so that the next steps find theirs solved.
 constexpr double hopeful = 1.1;
 constexpr double cautious = 0.85;
+constexpr double near_solution = 10.0;
+constexpr double ahead = 0.8;
 // With a guess, what is left is smooth: the momentum begins near its largest.
-constexpr double first_theta_warm = 0.07;
-// It begins anew at the first renewal after so many sweeps, as it would otherwise stay away for good once
-// changes stay above the least one of all.
-constexpr int sweeps_of_momentum = 256;
+constexpr double first_theta_warm = 0.1;
+// It begins so at the first renewal after so many sweeps, too, and again each time that they have doubled:
+// begun anew more often it would not last long enough for a tall column.
+constexpr int sweeps_of_momentum = 128;
+// A few contacts that open and slide in turn, round and round, keep some steps from ending, most often where
+// grains hit the bed. The mean over a round is near a solution: after so many sweeps P0 is renewed more
+// often, and becomes the mean of its last values where that has the smaller residual.
+constexpr int sweeps_to_means = 512;
+constexpr int sweeps_between_averaged = 16;
+constexpr int averaged_values = 4;
 
 Momentum warm_momentum() {
   Momentum momentum;
@@ -74,9 +82,15 @@ struct TeamMember {
 
   /// P0 becomes the guess; returns its residual.
   ExactResidual begin() {
-    load_contacts(problem, solution, first_block, last_block, at);
-    wait_for_all();
+    const ExactResidual of_guess = look_at(solution);
     if (member == 0) at.are_loaded = true;
+    return of_guess;
+  }
+
+  /// P0 becomes these impulses; returns their residual.
+  ExactResidual look_at(const ContactSolution& impulses) {
+    load_contacts(problem, impulses, first_block, last_block, at);
+    wait_for_all();
     return look();
   }
 
@@ -127,6 +141,18 @@ struct TeamMember {
     return look();
   }
 
+  void average(int count) { average_impulses(problem, first_block, last_block, at, count, w.mean); }
+
+  /// P0 becomes the mean of its last values, with its residual, where that is less than `now`. Returns
+  /// whether.
+  bool take_mean(ExactResidual& now) {
+    unload_impulses(problem, first_block, last_block, at, solution);
+    const ExactResidual of_mean = look_at(w.mean);
+    const bool is_better = of_mean.residual.eta < now.residual.eta;
+    now = is_better ? of_mean : look_at(solution);
+    return is_better;
+  }
+
   void go_on() {
     linearise_groups(problem, first_block, last_block, at);
     wait_for_all();
@@ -169,8 +195,10 @@ AcceleratedOutcome solve_part(TeamMember& member, double tolerance, int max_iter
   if (at.residual.eta <= tolerance || max_iterations <= 0) return outcome;
   Momentum momentum = at.cold ? Momentum{} : warm_momentum();
   int next_momentum = sweeps_of_momentum;
-  double aim = hopeful * tolerance;
+  const double share = at.residual.eta < near_solution * tolerance ? ahead : 1.0;
+  double aim = share * hopeful * tolerance;
   int interval = at.cold ? first_renewal_cold : sweeps_to_renewal;
+  int averaged = 0;
   if (!member.begin_sweeps()) return outcome;
   for (;;) {
     double estimate = 0.0;
@@ -183,20 +211,30 @@ AcceleratedOutcome solve_part(TeamMember& member, double tolerance, int max_iter
       momentum.update(change, sums.ascent);
     } while (estimate > aim && outcome.iterations < renewal);
     at = member.renew();
-    outcome.residual = at.residual;
-    if (at.residual.eta <= tolerance || outcome.iterations >= max_iterations) return outcome;
     if (estimate > aim)
       interval = std::min(2 * interval, sweeps_to_renewal);
     else if (at.pressed == 0)
-      aim = cautious * tolerance * std::min(hopeful, estimate / at.residual.eta);
+      aim = share * cautious * tolerance * std::min(hopeful, estimate / at.residual.eta);
+    if (outcome.iterations >= next_momentum) {
+      momentum = warm_momentum();
+      next_momentum = 2 * outcome.iterations;
+    }
+    if (outcome.iterations >= sweeps_to_means) {
+      interval = sweeps_between_averaged;
+      member.average(++averaged);
+      if (averaged == averaged_values) {
+        averaged = 0;
+        if (at.residual.eta > tolerance && member.take_mean(at)) momentum = warm_momentum();
+      }
+    }
+    outcome.residual = at.residual;
+    if (at.residual.eta <= tolerance || outcome.iterations >= max_iterations) return outcome;
     if (at.pressed > 0) {
       if (!member.sweep_more()) return outcome;
       momentum = {};
     } else {
       member.go_on();
-      if (outcome.iterations >= next_momentum) momentum = warm_momentum();
     }
-    if (outcome.iterations >= next_momentum) next_momentum = outcome.iterations + sweeps_of_momentum;
   }
 }
 
@@ -221,6 +259,9 @@ AcceleratedOutcome solve_accelerated(const ContactProblem& problem, double toler
   prepare(problem, solution, workspace.linearisation);
   for (auto* field : {&solution.vx, &solution.vy, &solution.omega})
     field->resize(static_cast<std::size_t>(problem.body_count()));
+  workspace.mean.pn.resize(solution.pn.size());
+  workspace.mean.pt.resize(solution.pt.size());
+  workspace.mean.pr.resize(solution.pr.size());
   const auto begin = std::chrono::steady_clock::now();
   AcceleratedOutcome outcome;
   const auto take_part = [&](ThreadTeam* team, int member) {

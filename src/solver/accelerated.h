@@ -17,6 +17,7 @@ namespace talus {
 struct AcceleratedWorkspace {
   Linearisation linearisation;
   std::vector<SweepSums> sums;  ///< one for each part of the sweep
+  ContactSolution mean;         ///< of the last values of P0; without velocities
   std::unique_ptr<ThreadTeam> team;
   TeamChoice choice;           ///< between the team and its first member alone
   std::exception_ptr failure;  ///< what ended the work of a member, for the caller of the team

@@ -12,8 +12,8 @@ namespace {
 // How far a contact goes towards its solution. The modes that limit the momentum are tangential, grains that
 // turn like gears, and noise that sweeps leave behind is least with short steps along the tangent
 // (docs/solver.md).
-constexpr double normal_relaxation = 0.9;
-constexpr double tangential_relaxation = 0.6;
+constexpr double normal_relaxation = 0.85;
+constexpr double tangential_relaxation = 0.5;
 // A contact without an impulse is swept where its bodies separate by less than they move and this, in
 // velocity units.
 constexpr double may_close = 0.2;
@@ -131,7 +131,6 @@ void load_contact(const ContactProblem& problem, const ContactSolution& guess, s
     w.wn[c] = diagonal.normal > 0.0 ? 1.0 / diagonal.normal : 0.0;
     w.wt[c] = diagonal.tangential > 0.0 ? 1.0 / diagonal.tangential : 0.0;
   }
-  w.swept[c] = 0;
   set_impulse(problem, c, guess.pn[c], guess.pt[c], w);
 }
 
@@ -227,7 +226,7 @@ void prepare(const ContactProblem& problem, const ContactSolution& guess, Linear
   w.exact_velocity.resize(static_cast<std::size_t>(problem.body_count()));
   w.exact_force.resize(contacts);
   for (auto* field : {&w.pn, &w.pt, &w.un, &w.ut, &w.wn, &w.wt}) field->resize(contacts);
-  w.swept.resize(contacts);
+  w.swept.assign(contacts, 0);
   w.sums.resize((contacts + contacts_per_block - 1) / contacts_per_block);
   size_rolling(problem, w.rolling);
   link(problem, w);
@@ -323,6 +322,19 @@ void absorb_increments(const ContactProblem& problem, Index first_block, Index l
     if (problem.resists_rolling())
       set_rolling(problem, c, take_rolling_increment(c, w.order.slot[c], w.impulse_unit, w.rolling), w);
   });
+}
+
+void average_impulses(const ContactProblem& problem, Index first_block, Index last_block,
+                      const Linearisation& w, int count, ContactSolution& mean) {
+  const double weight = 1.0 / count;
+  const auto add = [&](const std::vector<double>& value, std::vector<double>& average) {
+    const std::size_t last = block_begin(problem, last_block);
+    for (std::size_t c = block_begin(problem, first_block); c < last; ++c)
+      average[c] = count == 1 ? value[c] : average[c] + weight * (value[c] - average[c]);
+  };
+  add(w.pn, mean.pn);
+  add(w.pt, mean.pt);
+  if (problem.resists_rolling()) add(w.rolling.pr, mean.pr);
 }
 
 void absorb_velocities(Index first, Index last, Linearisation& w) {

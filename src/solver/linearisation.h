@@ -60,8 +60,8 @@ void prepare(const ContactProblem& problem, const ContactSolution& guess, Linear
 // What follows is shared out, but for order_contacts: each member of a team takes some blocks of contacts or
 // some bodies, and waits for the others before the next part.
 
-/// P0 becomes the guess, made admissible.
-void load_contacts(const ContactProblem& problem, const ContactSolution& guess, Index first_block,
+/// P0 becomes these impulses, made admissible.
+void load_contacts(const ContactProblem& problem, const ContactSolution& impulses, Index first_block,
                    Index last_block, Linearisation& w);
 void sum_exact_velocities(const ContactProblem& problem, Index first, Index last, Linearisation& w);
 /// Relative velocities at P0 and sums of blocks.
@@ -94,6 +94,10 @@ void clear_rows(Index first, Index last, Linearisation& w);
 void absorb_increments(const ContactProblem& problem, Index first_block, Index last_block, Linearisation& w);
 void absorb_velocities(Index first, Index last, Linearisation& w);
 void linearise_groups(const ContactProblem& problem, Index first_block, Index last_block, Linearisation& w);
+
+/// Takes P0 into the mean of its last values, as the count-th of them. mean.pn, pt, and pr have their sizes.
+void average_impulses(const ContactProblem& problem, Index first_block, Index last_block,
+                      const Linearisation& w, int count, ContactSolution& mean);
 
 /// P0.
 void unload_impulses(const ContactProblem& problem, Index first_block, Index last_block,

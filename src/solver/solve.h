@@ -15,7 +15,7 @@ enum class SolverKind {
 struct SolverSettings {
   SolverKind kind = SolverKind::accelerated;
   double tolerance = 1e-6;    ///< natural-map residual eta to reach
-  int max_iterations = 1000;  ///< over all contacts, at most
+  int max_iterations = 5000;  ///< over all contacts, at most
   int threads = 1;            ///< of the accelerated solver; the result does not depend on it
 };
 

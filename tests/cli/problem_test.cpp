@@ -13,7 +13,7 @@ namespace talus::test {
 namespace {
 
 const char* const bed =
-    "seed = 5\n[bed]\nlength = 12\ndepth = 5\n[tilt]\nend_angle = 1.0\n[output]\nframe_every = 0.5\n";
+    "seed = 7\n[bed]\nlength = 12\ndepth = 5\n[tilt]\nend_angle = 1.0\n[output]\nframe_every = 0.5\n";
 
 bool h5py(const std::string& arguments, const TemporaryFolder& folder) {
   const std::string command = "cd " + folder.path().string() +

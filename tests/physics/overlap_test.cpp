@@ -12,12 +12,12 @@ namespace {
 
 // The residual bounds what a step lets through: |P'_n - P_n| <= eta ||P||, so U_n >= - W_nn eta ||P||, and a
 // gap shrinks by no more than h times that, as the distance of two disks is convex. With the share alpha of
-// an overlap taken back in each step, d <- (1 - alpha) d + h W_nn eta ||P|| never passes h W_nn eta ||P|| /
-// alpha above the allowed overlap.
+// what is beyond ten allowed overlaps taken back in each step, d <- (1 - alpha) d + h W_nn eta ||P|| never
+// passes h W_nn eta ||P|| / alpha above ten allowed overlaps.
 double overlap_bound(const World& world, const StepSettings& settings, double eta, double impulse) {
   const Grains& g = world.grains;
   const double lightest = *std::max_element(g.inverse_mass.begin(), g.inverse_mass.end());
-  return settings.law.allowed_overlap +
+  return 10.0 * settings.law.allowed_overlap +
          settings.h * 2.0 * lightest * eta * impulse / settings.law.overlap_correction;
 }
 

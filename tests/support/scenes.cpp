@@ -138,11 +138,12 @@ FrozenStep next_problem(const World& world, const StepSettings& settings) {
   FrozenStep frozen;
   NeighbourList list;
   detect_contacts(list, grains, world.boundary, settings.margin, frozen.contacts);
-  free_velocity(midpoint, settings.h, frozen.problem);
-  form_problem(midpoint, frozen.contacts, settings.law, settings.h, frozen.problem);
-  const bool moments = frozen.problem.resists_rolling();
+  const bool moments = settings.law.rolling_friction != 0.0;
   frozen.contacts.moment.assign(moments ? frozen.contacts.a.size() : 0, 0.0);
   recall_forces(world.contacts, frozen.contacts);
+  free_velocity(midpoint, settings.h, frozen.problem);
+  form_problem(midpoint, frozen.contacts, settings.law, settings.h, settings.solver.tolerance,
+               frozen.problem);
   for (std::size_t c = 0; c < frozen.contacts.moment.size(); ++c)
     frozen.guess.pr.push_back(frozen.contacts.moment[c] * settings.h /
                               rolling_length(frozen.problem, static_cast<Index>(c)));

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "contact/detection.h"
 #include "core/trigonometry.h"
 #include "support/scenes.h"
@@ -10,12 +12,14 @@ namespace talus {
 namespace {
 
 constexpr double h = 1e-3;
+constexpr double tolerance = 1e-4;
 
 /// A disk above the plane y = 0 with the gap and the velocity given, and its contact problem.
 struct Scene {
   World world = test::disk_on_plane(0.0);
   ContactLawParameters law;
   ContactProblem problem;
+  std::vector<double> fn, ft;  ///< remembered forces of its first contacts, N; others have none
 
   explicit Scene(double gap, double vy = 0.0) {
     world.grains.y[0] += gap;
@@ -25,8 +29,16 @@ struct Scene {
     Contacts contacts;
     NeighbourList list;
     detect_contacts(list, world.grains, world.boundary, 1.0, contacts);
+    std::copy(fn.begin(), fn.end(), contacts.fn.begin());
+    std::copy(ft.begin(), ft.end(), contacts.ft.begin());
     free_velocity(world, h, problem);
-    form_problem(world, contacts, law, h, problem);
+    form_problem(world, contacts, law, h, tolerance, problem);
+  }
+  /// Gives the contact with the plane the force whose error, as the tolerance allows it, gives the disk this
+  /// velocity in a step.
+  Scene& remembering(double noise_velocity) {
+    fn = {noise_velocity / (tolerance * h * world.grains.inverse_mass[0])};
+    return *this;
   }
   double normal_constant() {
     form_now();
@@ -69,13 +81,56 @@ TEST(FormProblem, a_share_of_an_overlap_is_taken_back) {
   EXPECT_EQ(scene.normal_constant(), 0.0);
 }
 
-TEST(FormProblem, an_allowed_overlap_stays_and_a_share_of_the_rest_is_taken_back) {
+// 0.25 of 2e-4 - 1e-5, in 1e-3 s, are 0.0475 m/s; 0.25 of what is beyond ten allowed overlaps, 0.025 m/s.
+TEST(FormProblem, an_overlap_is_taken_back_as_slowly_as_it_may_arise) {
+  Scene scene(-2e-4);
+  scene.law.overlap_correction = 0.25;
+  scene.law.allowed_overlap = 1e-5;
+  EXPECT_NEAR(scene.remembering(0.1).normal_constant(), -0.0475, 1e-13);
+  EXPECT_NEAR(scene.remembering(0.03).normal_constant(), -0.03, 1e-13);
+  EXPECT_NEAR(scene.remembering(0.01).normal_constant(), -0.025, 1e-13);
+  EXPECT_NEAR(scene.remembering(0.0).normal_constant(), -0.025, 1e-13);
+}
+
+TEST(FormProblem, nothing_allowed_is_no_noise) {
+  Scene gap(2e-4), overlap(-2e-4);
+  overlap.law.overlap_correction = 0.25;
+  EXPECT_NEAR(gap.remembering(0.01).normal_constant(), 0.2, 1e-13);
+  EXPECT_NEAR(overlap.remembering(0.01).normal_constant(), -0.05, 1e-13);
+}
+
+TEST(FormProblem, an_allowed_overlap_stays) {
   Scene scene(-2e-4);
   scene.law.allowed_overlap = 3e-4;
-  EXPECT_EQ(scene.normal_constant(), 0.0);
-  scene.law.allowed_overlap = 1.2e-4;
-  scene.law.overlap_correction = 0.25;
-  EXPECT_NEAR(scene.normal_constant(), -0.02, 1e-13);
+  EXPECT_EQ(scene.remembering(0.1).normal_constant(), 0.0);
+}
+
+// All of 2e-4 in 1e-3 s are 0.2 m/s; what is beyond a twentieth of an allowed overlap, 0.1 m/s.
+TEST(FormProblem, a_small_gap_that_bears_load_closes_as_slowly_as_it_may_arise) {
+  Scene scene(2e-4);
+  scene.law.allowed_overlap = 2e-3;
+  EXPECT_NEAR(scene.remembering(0.3).normal_constant(), 0.2, 1e-13);
+  EXPECT_NEAR(scene.remembering(0.15).normal_constant(), 0.15, 1e-13);
+  EXPECT_NEAR(scene.remembering(0.01).normal_constant(), 0.1, 1e-13);
+  EXPECT_NEAR(scene.remembering(0.0).normal_constant(), 0.2, 1e-13);
+}
+
+// With forces of 3 N along and 4 N across the contact with the plane, the error of an impulse is 5e-4 N h.
+// The glued grain, with a gap and without a force, does not count.
+TEST(FormProblem, the_error_of_an_impulse_is_relative_to_the_rms_of_those_that_bear_load) {
+  Scene scene(-2e-4);
+  add_disk(scene.world.grains, {0.1 + 2.2 * test::radius, test::radius}, test::radius, test::density, true);
+  scene.law.overlap_correction = 1.0;
+  scene.law.allowed_overlap = 1e-4;
+  scene.form_now();
+  ASSERT_EQ(scene.problem.contact_count(), 2);
+  const Index plane = scene.problem.b[0] == 2 ? 0 : 1;
+  scene.fn = scene.ft = {0.0, 0.0};
+  scene.fn[plane] = 3.0;
+  scene.ft[plane] = 4.0;
+  scene.form_now();
+  EXPECT_NEAR(scene.problem.cn[plane], -5.0 * tolerance * h * scene.world.grains.inverse_mass[0], 1e-12);
+  EXPECT_GT(scene.problem.cn[1 - plane], 0.1);
 }
 
 // Restitution asks for U_n >= -e U_n-, so c_n = e U_n-: at 1 m/s and e = 0.5 that is -0.5.

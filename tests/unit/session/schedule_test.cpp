@@ -102,8 +102,8 @@ TEST(Schedule, has_names_of_its_own_in_a_checkpoint) {
             (std::vector<std::string>{"theta_c", "residual_max", "residual_max_rest", "residual_max_moving",
                                       "unconverged_steps_deposition", "unconverged_steps"}));
   EXPECT_EQ(names(plain.timing),
-            (std::vector<std::string>{"deposition", "tilt", "stage_move", "stage_detect", "stage_assemble",
-                                      "stage_recall", "stage_solve", "stage_store"}));
+            (std::vector<std::string>{"deposition", "tilt", "stage_move", "stage_detect", "stage_recall",
+                                      "stage_assemble", "stage_solve", "stage_store"}));
   const Checkpoint full = stored(full_schedule());
   const auto added = [](const std::vector<std::string>& all, std::size_t from) {
     return std::vector<std::string>(all.begin() + static_cast<std::ptrdiff_t>(from), all.end());
