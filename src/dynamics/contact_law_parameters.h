@@ -11,8 +11,7 @@ struct ContactLawParameters {
   double tangential_restitution = 0.0;  ///< e_t: U_t+ = -e_t U_t- of a contact that sticks
   double allowed_overlap = 0.0;         ///< m: overlaps up to this stay as they are
   double overlap_correction = 0.05;     ///< share of what an overlap is above the allowed, taken back in each
-                                        ///< step; an overlap is an error of the solver's, of the order of its
-                                        ///< tolerance
+                                        ///< step, or less (T11)
 };
 
 }  // namespace talus

@@ -75,23 +75,25 @@ double impulse_of_noise(const Contacts& contacts, double h, double tolerance) {
 /// arise.
 void set_gap_velocities(const Contacts& contacts, const ContactLawParameters& law, double h, double tolerance,
                         ContactProblem& problem) {
-  // What exceeds so many allowed overlaps is more than noise. Gaps are seldom noise: they also open where
-  // grains move past each other.
-  constexpr double gaps_of_noise = 0.05, overlaps_of_noise = 10.0;
+  const double allowed = law.allowed_overlap, share = law.overlap_correction;
+  // What exceeds these is more than noise. Gaps are seldom noise: they also open where grains move past each
+  // other.
+  const double gap_of_noise = 0.05 * allowed, overlap_of_noise = 10.0 * allowed;
   const double noise = impulse_of_noise(contacts, h, tolerance);
   problem.cn.resize(static_cast<std::size_t>(contacts.count()));
   for (Index c = 0; c < contacts.count(); ++c) {
-    const double error = std::fabs(contacts.gap[c]);
-    const bool is_open = contacts.gap[c] > 0.0;
-    const auto velocity_of = [&](double left) {
-      const double velocity = std::max(0.0, error - left) / h;
-      return is_open ? velocity : law.overlap_correction * velocity;
-    };
-    double velocity = velocity_of(is_open ? 0.0 : law.allowed_overlap);
-    if (velocity > 0.0 && !(is_open && contacts.fn[c] == 0.0))
-      velocity = std::max(std::min(velocity, noise * delassus_diagonal(problem, c).normal),
-                          velocity_of((is_open ? gaps_of_noise : overlaps_of_noise) * law.allowed_overlap));
-    problem.cn[c] = is_open ? velocity : -velocity;
+    const double gap = contacts.gap[c], overlap = -gap;
+    double& cn = problem.cn[c];
+    if (gap > 0.0 ? contacts.fn[c] == 0.0 : overlap <= allowed) {
+      cn = std::max(0.0, gap) / h;
+      continue;
+    }
+    const double slowly = noise * delassus_diagonal(problem, c).normal;
+    if (gap > 0.0)
+      cn = std::max(std::min(gap / h, slowly), (gap - gap_of_noise) / h);
+    else
+      cn = -std::max(std::min(share * ((overlap - allowed) / h), slowly),
+                     share * ((overlap - overlap_of_noise) / h));
   }
 }
 

@@ -152,8 +152,8 @@ StageSeconds begin_step(World& world, const StepSettings& settings, StepWorkspac
   recall_forces(world.contacts, contacts);  // (T18)
   clock.end_of(Stage::recall);
   free_velocity(world, h, workspace.problem);  // (T4)
-  form_problem(world, contacts, settings.law, h, settings.solver.tolerance,
-               workspace.problem);  // (T5), (T8), (T11), (T12)
+  // (T5), (T8), (T11), (T12)
+  form_problem(world, contacts, settings.law, h, settings.solver.tolerance, workspace.problem);
   guess_impulses(contacts, h, workspace.problem, workspace.solution);
   clock.end_of(Stage::assemble);
   return seconds;

@@ -169,7 +169,7 @@ Keys solver_keys() {
           {{"allowed_overlap", "D", from_to(0.0, 0.01), "overlaps up to this are left as they are"},
            &P::allowed_overlap},
           {{"overlap_correction", "", from_to(0.0, 1.0),
-            "share of the overlap beyond the allowed one that is removed in each step"},
+            "share of the overlap beyond the allowed one that is removed in each step, at most"},
            &P::overlap_correction},
       });
 }
