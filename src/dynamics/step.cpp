@@ -59,6 +59,17 @@ void advance_positions(Grains& grains, const Boundary& boundary, double duration
   if (boundary.periodic) wrap(grains, boundary.length);
 }
 
+/// Where a grain has passed the periodic edge since `image` was taken, its contacts see each other from
+/// there: b touches a from x_b + shift L.
+void follow_images(const Grains& grains, const std::vector<Index>& image, Contacts& contacts) {
+  if (grains.image == image) return;
+  const auto passed = [&grains, &image](Index i) { return grains.image[i] - image[i]; };
+  for (Index c = 0; c < contacts.count(); ++c)
+    if (contacts.b[c] < grains.count())  // a plane has no images
+      contacts.shift[c] =
+          static_cast<std::int8_t>(contacts.shift[c] + passed(contacts.b[c]) - passed(contacts.a[c]));
+}
+
 void copy_positions(const Grains& from, Grains& to) {
   to.x = from.x;
   to.y = from.y;
@@ -175,7 +186,9 @@ StepReport step(World& world, const StepSettings& settings, StepWorkspace& works
   std::swap(world.contacts, workspace.contacts);
   set_velocities(workspace.solution, grains);  // (T6)
   clock.end_of(Stage::store);
+  workspace.image = grains.image;
   advance_positions(grains, world.boundary, 0.5 * h);  // the end of the step (T17)
+  follow_images(grains, workspace.image, world.contacts);
   ++world.step;
   world.time += h;
   report.contacts = world.contacts.count();

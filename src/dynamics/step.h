@@ -38,7 +38,8 @@ struct StepReport {
 
 /// Memory kept between steps; holds no state of the world.
 struct StepWorkspace {
-  Grains before;  ///< where the grains were, to go back to when a step fails
+  Grains before;             ///< where the grains were, to go back to when a step fails
+  std::vector<Index> image;  ///< of the grains at the midpoint
   NeighbourList neighbours;
   Contacts contacts;
   ContactProblem problem;

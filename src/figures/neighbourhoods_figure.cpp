@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/core.h>
+#include <numeric>
 #include <string>
 
 #include "analysis/cells.h"
@@ -12,7 +13,6 @@
 #include "core/trigonometry.h"
 #include "figures/failed_group.h"
 #include "figures/run_means.h"
-#include "pictures/frame_choice.h"
 #include "session/analysis_input.h"
 #include "session/analysis_parameters.h"
 
@@ -21,11 +21,28 @@ namespace {
 
 constexpr double shown_tilt = 10.0;  // deg
 
-/// The frame nearest to 10 deg, or the last before theta_c where that is less.
-std::size_t shown_frame(const FigureRun& run) {
-  const std::size_t repose = repose_frame(run);
-  if (radians(shown_tilt) >= theta_c_of(run)) return repose;
-  return std::min(frame_nearest(run, radians(shown_tilt)), repose);
+/// What is drawn: a grain of a frame.
+struct Shown {
+  std::size_t k = 0;
+  Frame frame;
+  Index grain = 0;
+};
+
+/// The typical grain of the frame nearest to 10 deg that has one, up to the last before theta_c: of a small
+/// bed some frames have none.
+std::optional<Shown> shown_grain(const FigureRun& run) {
+  const RunStatics& statics = run.file->header().statics;
+  std::vector<std::size_t> nearest(repose_frame(run) + 1);
+  std::iota(nearest.begin(), nearest.end(), std::size_t{0});
+  std::ranges::stable_sort(nearest, {}, [&run](std::size_t k) {
+    return std::abs(run.analysis.frames.at(k).tilt - radians(shown_tilt));
+  });
+  for (const std::size_t k : nearest) {
+    Frame frame = analysed_frame(*run.file, from_facts(run.analysis.parameters), k);
+    const auto grain = typical_grain({frame, statics}, run.analysis.frames.at(k).thresholds);
+    if (grain) return Shown{k, std::move(frame), *grain};
+  }
+  return std::nullopt;
 }
 
 bool in_middle_half(double value, double end) { return value >= 0.25 * end && value <= 0.75 * end; }
@@ -117,28 +134,27 @@ std::optional<Figure> neighbourhoods_figure(std::span<const RunGroup> groups) {
   const FigureRun& run = failed->first();
   const RunStatics& statics = run.file->header().statics;
   const double diameter = statics.mean_diameter;
-  const std::size_t k = shown_frame(run);
-  const Frame frame = analysed_frame(*run.file, from_facts(run.analysis.parameters), k);
-  const std::vector<FrameThreshold>& thresholds = run.analysis.frames.at(k).thresholds;
+  const auto found = shown_grain(run);
+  if (!found) return std::nullopt;
+  const auto& [k, frame, grain] = *found;
   const BedFrame bed{frame, statics};
-  const auto grain = typical_grain(bed, thresholds);
-  if (!grain) return std::nullopt;
 
   std::vector<double> lengths;  // D
-  for (const FrameThreshold& at : thresholds) lengths.push_back(at.lc[*grain] / diameter);
+  for (const FrameThreshold& at : run.analysis.frames.at(k).thresholds)
+    lengths.push_back(at.lc[grain] / diameter);
   const double shown = largest_shown(*std::ranges::max_element(lengths), run.analysis.lc_cut / diameter);
   Figure figure;
   figure.name = "fig11-neighbourhoods";
   figure.title = "Growing neighbourhoods of an overloaded grain (paper, Fig. 11)";
-  figure.caption = caption_of(*failed, frame, *grain);
+  figure.caption = caption_of(*failed, frame, grain);
   figure.runs = {run.path};
   figure.wide = true;
   figure.height_over_width = 0.5;
-  figure.tables = {curve_table(neighbourhood_curve(bed, *grain, shown * diameter), diameter),
-                   grains_around(bed, *grain, (0.5 * shown + 0.5) * diameter),
+  figure.tables = {curve_table(neighbourhood_curve(bed, grain, shown * diameter), diameter),
+                   grains_around(bed, grain, (0.5 * shown + 0.5) * diameter),
                    length_table(run.analysis, lengths)};
   set_variable(figure, "shown", shown);
-  set_variable(figure, "grain_radius", statics.radius[*grain] / diameter);
+  set_variable(figure, "grain_radius", statics.radius[grain] / diameter);
   set_variable(figure, "factors", word_list(all_of(&RunThreshold::factor, run.analysis)));
   set_variable(figure, "thresholds", word_list(all_of(&RunThreshold::gamma, run.analysis)));
   set_variable(figure, "lengths", word_list(lengths));

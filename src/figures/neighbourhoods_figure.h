@@ -20,7 +20,8 @@ std::optional<Index> typical_grain(const BedFrame& bed, std::span<const FrameThr
 /// images: x and y from that grain, and radius, in D, and gamma.
 Table grains_around(const BedFrame& bed, Index centre, double distance);
 
-/// Paper, Fig. 11: a grain that is overloaded at about 10 deg, with circles about it, and gamma_l over l.
+/// Paper, Fig. 11: a grain that is overloaded at 10 deg, or at the nearest tilt before failure at which one
+/// is, with circles about it, and gamma_l over l.
 std::optional<Figure> neighbourhoods_figure(std::span<const RunGroup> groups);
 
 }  // namespace talus

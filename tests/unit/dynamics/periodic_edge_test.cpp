@@ -50,6 +50,35 @@ TEST_P(PeriodicEdge, an_impact_across_it_conserves_momentum_and_is_as_in_the_mid
   }
 }
 
+// A pair that flies on together: one of them is beyond the edge at the end of a step, and was not at its
+// midpoint.
+TEST_P(PeriodicEdge, contacts_name_the_image_that_they_are_at_when_the_step_ends) {
+  const StepSettings settings = test::exact_step(GetParam());
+  World world = impact_around(0.5);
+  const double lead = 0.4 * settings.h;  // m, at 1 m/s: passes within the second half of the step only
+  const double distance = world.grains.x[1] - world.grains.x[0];
+  for (const int direction : {1, -1})
+    for (const Index leading : {0, 1}) {
+      World pair = world;
+      Grains& grains = pair.grains;
+      grains.vx = {static_cast<double>(direction), static_cast<double>(direction)};
+      grains.vy = {0.0, 0.0};
+      const double edge = direction > 0 ? 1.0 : 0.0;
+      grains.x[leading] = edge - direction * (0.5 * settings.h + 0.5 * lead);
+      grains.x[1 - leading] = grains.x[leading] + (leading == 0 ? distance : -distance);
+      grains.x[1 - leading] -= std::floor(grains.x[1 - leading]);
+      StepSettings near = settings;
+      near.margin = radius;
+      StepWorkspace workspace;
+      step(pair, near, workspace);
+      ASSERT_NE(grains.image[leading], 0) << direction << ' ' << leading;
+      ASSERT_EQ(pair.contacts.count(), 1);
+      const Index a = pair.contacts.a[0], b = pair.contacts.b[0];
+      EXPECT_NEAR(grains.x[b] + pair.contacts.shift[0] - grains.x[a], a == 0 ? distance : -distance, 1e-6)
+          << direction << ' ' << leading;
+    }
+}
+
 TEST_P(PeriodicEdge, a_grain_that_passes_it_comes_in_at_the_other_side) {
   World world;
   world.gravity = 0.0;
