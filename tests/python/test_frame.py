@@ -41,13 +41,15 @@ def test_contacts_give_the_internal_moments_of_all_free_grains(boundary, request
 
 
 def test_branches_are_as_long_as_the_radii_of_the_grains_that_touch(run):
+    tilt = run.scenario["tilt"]
+    h = tilt["step"] / tilt["rate"]  # s
     for frame in run.frames[::10]:
         contacts = frame.contacts
         assert (contacts.shift != 0).sum() > 3, "no contact across the edge"
         length = np.hypot(*contacts.branch.T)
         # Contacts are those at the midpoint of a step, positions those at its end.
         velocity = frame.velocity[contacts.pair[:, 1]] - frame.velocity[contacts.pair[:, 0]]
-        moved = 1.01 * 0.5 * run.h * np.hypot(*velocity.T)
+        moved = 1.01 * 0.5 * h * np.hypot(*velocity.T)
         assert (np.abs(length - frame.radius[contacts.pair].sum(axis=1)) < moved + 1e-3 * length).all()
         assert (np.hypot(*(contacts.branch / length[:, None] - contacts.normal).T) < moved / length + 1e-3).all()
 
