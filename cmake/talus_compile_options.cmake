@@ -6,7 +6,9 @@ target_compile_options(talus_options INTERFACE
   # Of sources that are compiled as one text, clang compares names that each keeps to itself.
   $<$<NOT:$<AND:$<CXX_COMPILER_ID:Clang>,$<BOOL:${TALUS_UNITY}>>>:-Wshadow>
   # Same bits for every compiler and optimisation level: no fused multiply-add behind our back.
-  -ffp-contract=off)
+  -ffp-contract=off
+  # Nobody reads errno or the flags of the arithmetic: so loops with a square root or a choice vectorise, with the same bits.
+  -fno-math-errno -fno-trapping-math)
 string(TOUPPER "${CMAKE_BUILD_TYPE}" build_type)
 # With a sanitizer gcc warns of faults that are none, as its manual says (array-bounds within std::string, by the length of
 # the path of the sources): there a warning is only that.

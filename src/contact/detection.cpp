@@ -1,65 +1,137 @@
 #include "contact/detection.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace talus {
 namespace {
 
-/// The normal of a contact, from a to b, and its gap; the tangent is the normal turned by +90 degrees (T3).
-struct LocalFrame {
-  Vec2 normal;
-  double gap = 0.0;
-  bool near = false;  ///< the gap is below the margin
+/// Local frames (T3) of some candidates: the normal, from a to b, and the gap; the tangent is the normal
+/// turned by +90 degrees.
+struct LocalFrames {
+  static constexpr std::size_t most = 256;
+  double dx[most], dy[most];  ///< of grains, from a to b
+  double nx[most], ny[most], gap[most];
+  double room[most];  ///< above 0 where the gap is below the margin
 };
 
-LocalFrame local_frame_of_grains(double dx, double dy, double contact_distance, double margin) {
-  const double limit = contact_distance + margin;
-  const double square = dx * dx + dy * dy;
-  const double distance = std::sqrt(square);
-  const Vec2 normal = distance > 0.0 ? Vec2{dx / distance, dy / distance} : Vec2{0.0, 1.0};
-  return {normal, distance - contact_distance, square < limit * limit};
-}
-
-LocalFrame local_frame_with_plane(const Grains& grains, Index a, const Plane& plane, double margin) {
-  const double distance = plane.normal.x * grains.x[a] + plane.normal.y * grains.y[a] - plane.offset;
-  const double gap = distance - grains.radius[a];
-  return {{-plane.normal.x, -plane.normal.y}, gap, gap < margin};  // from the grain to the plane
-}
-
-/// Writes the candidates whose gap is below the margin, and returns their number. Each candidate is written
-/// and then kept or not, without a branch: most are near, and the branch would be unpredictable.
-std::size_t write_near(const NeighbourList& list, const Grains& grains, const Boundary& boundary,
-                       double margin, Contacts& contacts) {
-  const std::size_t candidates = list.a.size();
-  std::size_t count = 0;
-  for (std::size_t k = 0; k < candidates; ++k) {
-    const Index a = list.a[k];
-    const Index b = list.b[k];
-    const std::int8_t shift = list.shift[k];
-    const LocalFrame frame =
-        b < grains.count()
-            ? local_frame_of_grains(grains.x[b] + shift * boundary.length - grains.x[a],
-                                    grains.y[b] - grains.y[a], list.contact_distance[k], margin)
-            : local_frame_with_plane(grains, a, boundary.planes[static_cast<std::size_t>(b - grains.count())],
-                                     margin);
-    contacts.a[count] = a;
-    contacts.b[count] = b;
-    contacts.nx[count] = frame.normal.x;
-    contacts.ny[count] = frame.normal.y;
-    contacts.gap[count] = frame.gap;
-    contacts.shift[count] = shift;
-    count += frame.near ? 1 : 0;
+void take_distances(const NeighbourList& list, const Grains& grains, double length, std::size_t first,
+                    std::size_t count, LocalFrames& frames) {
+  const double offset[] = {-length, 0.0, length};
+  const double *const x = grains.x.data(), *const y = grains.y.data();
+  const Index *const as = list.a.data() + first, *const bs = list.b.data() + first;
+  const std::int8_t* const shift = list.shift.data() + first;
+  const Index last = grains.count() - 1;
+  for (std::size_t k = 0; k < count; ++k) {
+    const Index a = as[k], b = std::min(bs[k], last);  // what a plane gets is not used
+    frames.dx[k] = x[b] + offset[shift[k] + 1] - x[a];
+    frames.dy[k] = y[b] - y[a];
   }
-  return count;
+}
+
+/// All at once, so that the compiler makes several of each of the slow operations.
+void frame_grains(const double* contact_distances, double margin, std::size_t count, LocalFrames& frames) {
+  for (std::size_t k = 0; k < count; ++k) {
+    const double dx = frames.dx[k], dy = frames.dy[k], contact_distance = contact_distances[k];
+    const double limit = contact_distance + margin;
+    const double square = dx * dx + dy * dy;
+    const double distance = std::sqrt(square);
+    const double divisor = distance > 0.0 ? distance : 1.0;
+    const double ny = dy / divisor;
+    frames.nx[k] = dx / divisor;
+    frames.ny[k] = distance > 0.0 ? ny : 1.0;
+    frames.gap[k] = distance - contact_distance;
+    frames.room[k] = limit * limit - square;
+  }
+}
+
+void frame_planes(const NeighbourList& list, const Grains& grains, const Boundary& boundary, double margin,
+                  std::size_t first, std::size_t count, LocalFrames& frames) {
+  if (boundary.planes.empty()) return;
+  for (std::size_t k = 0; k < count; ++k) {
+    if (list.b[first + k] < grains.count()) continue;
+    const Index a = list.a[first + k];
+    const Plane& plane = boundary.planes[static_cast<std::size_t>(list.b[first + k] - grains.count())];
+    const double distance = plane.normal.x * grains.x[a] + plane.normal.y * grains.y[a] - plane.offset;
+    frames.nx[k] = -plane.normal.x;  // from the grain to the plane
+    frames.ny[k] = -plane.normal.y;
+    frames.gap[k] = distance - grains.radius[a];
+    frames.room[k] = margin - frames.gap[k];
+  }
+}
+
+/// Writes the candidates whose gap is below the margin from `written` on, and returns where they end. Each
+/// candidate is written and then kept or not, without a branch: most are near, and the branch would be
+/// unpredictable.
+std::size_t keep_near(const NeighbourList& list, const LocalFrames& frames, std::size_t first,
+                      std::size_t count, std::size_t written, Contacts& contacts) {
+  const Index *const as = list.a.data() + first, *const bs = list.b.data() + first;
+  const std::int8_t* const shifts = list.shift.data() + first;
+  // Copies: what is written could otherwise be the pointers themselves, for all the compiler knows.
+  Index *const a = contacts.a.data(), *const b = contacts.b.data();
+  double *const nx = contacts.nx.data(), *const ny = contacts.ny.data(), *const gap = contacts.gap.data();
+  std::int8_t* const shift = contacts.shift.data();
+  for (std::size_t k = 0; k < count; ++k) {
+    a[written] = as[k];
+    b[written] = bs[k];
+    nx[written] = frames.nx[k];
+    ny[written] = frames.ny[k];
+    gap[written] = frames.gap[k];
+    shift[written] = shifts[k];
+    written += frames.room[k] > 0.0 ? 1 : 0;
+  }
+  return written;
+}
+
+/// Writes what is near of candidates first ... last - 1 from place `first` on; returns where it ends.
+std::size_t write_near(const NeighbourList& list, const Grains& grains, const Boundary& boundary,
+                       double margin, std::size_t first, std::size_t last, Contacts& contacts) {
+  std::size_t written = first;
+  LocalFrames frames;
+  while (first < last) {
+    const std::size_t count = std::min(LocalFrames::most, last - first);
+    take_distances(list, grains, boundary.length, first, count, frames);
+    frame_grains(list.contact_distance.data() + first, margin, count, frames);
+    frame_planes(list, grains, boundary, margin, first, count, frames);
+    written = keep_near(list, frames, first, count, written, contacts);
+    first += count;
+  }
+  return written;
+}
+
+/// Moves what is in places first ... last - 1 down to `to` and on; returns where it ends.
+std::size_t move_down(std::size_t first, std::size_t last, std::size_t to, Contacts& contacts) {
+  const auto move = [=](auto& field) {
+    std::copy(field.begin() + static_cast<std::ptrdiff_t>(first),
+              field.begin() + static_cast<std::ptrdiff_t>(last),
+              field.begin() + static_cast<std::ptrdiff_t>(to));
+  };
+  if (first != to) {
+    for (auto* field : {&contacts.a, &contacts.b}) move(*field);
+    for (auto* field : {&contacts.nx, &contacts.ny, &contacts.gap}) move(*field);
+    move(contacts.shift);
+  }
+  return to + (last - first);
 }
 
 }  // namespace
 
 void detect_contacts(NeighbourList& list, const Grains& grains, const Boundary& boundary, double margin,
-                     Contacts& contacts) {
+                     Contacts& contacts, ThreadTeam* team) {
   update_neighbour_list(list, grains, boundary, margin);
-  contacts.resize(list.a.size());
-  contacts.resize(write_near(list, grains, boundary, margin, contacts));
+  const std::size_t candidates = list.a.size();
+  contacts.resize(candidates);
+  const std::size_t parts = team ? static_cast<std::size_t>(team->size()) : 1;
+  const auto begin_of = [candidates, parts](std::size_t part) { return candidates * part / parts; };
+  list.part_end.resize(parts);
+  share_out(team, parts, [&](std::size_t part, std::size_t) {
+    list.part_end[part] =
+        write_near(list, grains, boundary, margin, begin_of(part), begin_of(part + 1), contacts);
+  });
+  std::size_t count = 0;
+  for (std::size_t part = 0; part < parts; ++part)
+    count = move_down(begin_of(part), list.part_end[part], count, contacts);
+  contacts.resize(count);
 }
 
 }  // namespace talus

@@ -3,13 +3,14 @@
 
 #include "contact/neighbour_list.h"
 #include "core/contacts.h"
+#include "core/thread_team.h"
 
 namespace talus {
 
 /// Writes all pairs with a gap below `margin` (m) at the present positions, sorted by key, with normals and
 /// gaps; recall_forces sets their forces. The conventions are those of Contacts. Two coincident centres get
-/// the normal (0, 1).
+/// the normal (0, 1). Shared out to the team, if there is one; the result is the same.
 void detect_contacts(NeighbourList& list, const Grains& grains, const Boundary& boundary, double margin,
-                     Contacts& contacts);
+                     Contacts& contacts, ThreadTeam* team = nullptr);
 
 }  // namespace talus

@@ -24,7 +24,8 @@ struct NeighbourList {
   // The grains in the order of the cells of a grid, kept so that a rebuild allocates nothing.
   std::vector<Index> cell_start, cell_grain, cell_of_grain;
   std::vector<double> cell_x, cell_y, cell_radius;
-  std::vector<std::int64_t> near;  ///< the neighbours of one grain
+  std::vector<std::int64_t> near;     ///< the neighbours of one grain
+  std::vector<std::size_t> part_end;  ///< of detection by a team: where the contacts of each member end
 };
 
 /// Rebuilds the list if it does not cover pairs up to a gap of `reach` at the present positions. A list

@@ -6,17 +6,18 @@
 namespace talus {
 namespace {
 
-/// Copies without an exact fit: an assignment would allocate for each contact more than ever before.
-template <typename Value>
-void copy(const std::vector<Value>& from, std::vector<Value>& to) {
-  to.resize(from.size());
-  std::copy(from.begin(), from.end(), to.begin());
-}
+/// Contacts first ... last - 1: what one of those who form a problem together sees to.
+struct Part {
+  std::size_t first, last;
+};
 
 template <typename Value>
-void fill(std::vector<Value>& values, std::size_t count, Value value) {
-  values.resize(count);
-  std::fill(values.begin(), values.end(), value);
+void copy(const std::vector<Value>& from, Part part, std::vector<Value>& to) {
+  std::copy(from.data() + part.first, from.data() + part.last, to.data() + part.first);
+}
+
+void fill(std::vector<double>& values, Part part, double value) {
+  std::fill(values.data() + part.first, values.data() + part.last, value);
 }
 
 /// Appends what planes have, which never move.
@@ -33,11 +34,19 @@ void take_bodies(const World& world, ContactProblem& problem) {
     append_planes(world, *field);
 }
 
-void take_local_frames(const Contacts& contacts, ContactProblem& problem) {
-  copy(contacts.a, problem.a);
-  copy(contacts.b, problem.b);
-  copy(contacts.nx, problem.nx);
-  copy(contacts.ny, problem.ny);
+/// Not by assignments, which would allocate for each contact more than ever before.
+void size_contacts(const Contacts& contacts, const ContactLawParameters& law, ContactProblem& problem) {
+  const std::size_t count = contacts.a.size();
+  for (auto* field : {&problem.a, &problem.b}) field->resize(count);
+  for (auto* field : {&problem.nx, &problem.ny, &problem.cn, &problem.ct, &problem.mu}) field->resize(count);
+  problem.rolling_friction.resize(law.rolling_friction != 0.0 ? count : 0);
+}
+
+void take_local_frames(const Contacts& contacts, Part part, ContactProblem& problem) {
+  copy(contacts.a, part, problem.a);
+  copy(contacts.b, part, problem.b);
+  copy(contacts.nx, part, problem.nx);
+  copy(contacts.ny, part, problem.ny);
 }
 
 /// Relative velocity at contact c before the step.
@@ -73,22 +82,20 @@ double impulse_of_noise(const Contacts& contacts, double h, double tolerance) {
 /// back at once would ask closed loops of contacts for velocities that no motion of rigid bodies has: forces
 /// would drift along self-stresses, and the solve would not end. So they are taken back no faster than they
 /// arise.
-void set_gap_velocities(const Contacts& contacts, const ContactLawParameters& law, double h, double tolerance,
-                        ContactProblem& problem) {
+void set_gap_velocities(const Contacts& contacts, const ContactLawParameters& law, double h, double noise,
+                        Part part, ContactProblem& problem) {
   const double allowed = law.allowed_overlap, share = law.overlap_correction;
   // What exceeds these is more than noise. Gaps are seldom noise: they also open where grains move past each
   // other.
   const double gap_of_noise = 0.05 * allowed, overlap_of_noise = 10.0 * allowed;
-  const double noise = impulse_of_noise(contacts, h, tolerance);
-  problem.cn.resize(static_cast<std::size_t>(contacts.count()));
-  for (Index c = 0; c < contacts.count(); ++c) {
+  for (std::size_t c = part.first; c < part.last; ++c) {
     const double gap = contacts.gap[c], overlap = -gap;
     double& cn = problem.cn[c];
     if (gap > 0.0 ? contacts.fn[c] == 0.0 : overlap <= allowed) {
       cn = std::max(0.0, gap) / h;
       continue;
     }
-    const double slowly = noise * delassus_diagonal(problem, c).normal;
+    const double slowly = noise * delassus_diagonal(problem, static_cast<Index>(c)).normal;
     if (gap > 0.0)
       cn = std::max(std::min(gap / h, slowly), (gap - gap_of_noise) / h);
     else
@@ -109,32 +116,26 @@ void set_restitution(const World& world, const Contacts& contacts, const Contact
   }
 }
 
-void set_friction(const World& world, const Contacts& contacts, const ContactLawParameters& law,
+bool touches_wall(const World& world, const Contacts& contacts, std::size_t c) {
+  const Index plane = contacts.b[c] - world.grains.count();
+  return plane >= 0 && world.boundary.planes[static_cast<std::size_t>(plane)].wall;
+}
+
+void set_friction(const World& world, const Contacts& contacts, const ContactLawParameters& law, Part part,
                   ContactProblem& problem) {
-  const auto count = static_cast<std::size_t>(contacts.count());
-  fill(problem.mu, count, law.friction);
+  fill(problem.mu, part, law.friction);
   if (world.boundary.planes.empty()) return;
-  for (std::size_t c = 0; c < count; ++c) {
-    const Index plane = contacts.b[c] - world.grains.count();
-    if (plane >= 0 && world.boundary.planes[static_cast<std::size_t>(plane)].wall)
-      problem.mu[c] = law.wall_friction;
-  }
+  for (std::size_t c = part.first; c < part.last; ++c)
+    if (touches_wall(world, contacts, c)) problem.mu[c] = law.wall_friction;
 }
 
 /// Side walls do not resist rolling.
 void set_rolling_friction(const World& world, const Contacts& contacts, const ContactLawParameters& law,
-                          ContactProblem& problem) {
-  if (law.rolling_friction == 0.0) {
-    problem.rolling_friction.clear();
-    return;
-  }
-  const auto count = static_cast<std::size_t>(contacts.count());
-  fill(problem.rolling_friction, count, law.rolling_friction);
-  for (std::size_t c = 0; c < count; ++c) {
-    const Index plane = contacts.b[c] - world.grains.count();
-    if (plane >= 0 && world.boundary.planes[static_cast<std::size_t>(plane)].wall)
-      problem.rolling_friction[c] = 0.0;
-  }
+                          Part part, ContactProblem& problem) {
+  if (law.rolling_friction == 0.0) return;
+  fill(problem.rolling_friction, part, law.rolling_friction);
+  for (std::size_t c = part.first; c < part.last; ++c)
+    if (touches_wall(world, contacts, c)) problem.rolling_friction[c] = 0.0;
 }
 
 }  // namespace
@@ -158,15 +159,20 @@ void free_velocity(const World& world, double h, ContactProblem& problem) {
 }
 
 void form_problem(const World& world, const Contacts& contacts, const ContactLawParameters& law, double h,
-                  double tolerance, ContactProblem& problem) {
+                  double tolerance, ContactProblem& problem, ThreadTeam* team) {
   take_bodies(world, problem);
-  take_local_frames(contacts, problem);
-  set_gap_velocities(contacts, law, h, tolerance, problem);
-  fill(problem.ct, contacts.gap.size(), 0.0);
+  size_contacts(contacts, law, problem);
+  const double noise = impulse_of_noise(contacts, h, tolerance);
+  share_out(team, contacts.a.size(), [&](std::size_t first, std::size_t last) {
+    const Part part{first, last};
+    take_local_frames(contacts, part, problem);
+    set_gap_velocities(contacts, law, h, noise, part, problem);
+    fill(problem.ct, part, 0.0);
+    set_friction(world, contacts, law, part, problem);
+    set_rolling_friction(world, contacts, law, part, problem);
+  });
   if (law.restitution != 0.0 || law.tangential_restitution != 0.0)
     set_restitution(world, contacts, law, h, problem);
-  set_friction(world, contacts, law, problem);
-  set_rolling_friction(world, contacts, law, problem);
 }
 
 }  // namespace talus

@@ -1,6 +1,7 @@
 #pragma once
 /// From the world and its contacts to the contact problem of one step (docs/theory.md).
 
+#include "core/thread_team.h"
 #include "core/world.h"
 #include "dynamics/contact_law_parameters.h"
 #include "solver/problem.h"
@@ -19,8 +20,9 @@ void free_velocity(const World& world, double h, ContactProblem& problem);
 /// contact bears load, are errors of the solves before: they are taken back no faster than the `tolerance` of
 /// a solve lets them arise, relative to the forces that `contacts` remembers. A contact that the free motion
 /// would close within the step, with U_n- < 0, obeys U_n >= -e_n U_n- instead where that is more (T12).
-/// Tangential part: c_t = e_t U_t- for a contact that is or gets closed.
+/// Tangential part: c_t = e_t U_t- for a contact that is or gets closed. Shared out to the team, if there is
+/// one.
 void form_problem(const World& world, const Contacts& contacts, const ContactLawParameters& law, double h,
-                  double tolerance, ContactProblem& problem);
+                  double tolerance, ContactProblem& problem, ThreadTeam* team = nullptr);
 
 }  // namespace talus

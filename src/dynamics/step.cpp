@@ -36,8 +36,17 @@ void advance(std::vector<double>& position, const std::vector<double>& velocity,
   for (Index i = 0; i < count; ++i) position[i] += duration * velocity[i];
 }
 
+/// Whether all x are in [0, length), as they are in nearly every step.
+bool are_wrapped(const Grains& grains, double length) {
+  std::int64_t within = 0;  // as wide as a double, so that the comparisons vectorise
+  for (Index i = 0; i < grains.free_count; ++i)
+    within += static_cast<std::int64_t>(grains.x[i] >= 0.0) & static_cast<std::int64_t>(grains.x[i] < length);
+  return within == grains.free_count;
+}
+
 /// Brings x back to [0, length).
 void wrap(Grains& grains, double length) {
+  if (are_wrapped(grains, length)) return;
   for (Index i = 0; i < grains.free_count; ++i) {
     while (grains.x[i] < 0.0) {
       grains.x[i] += length;
@@ -99,15 +108,17 @@ double largest_overlap(const Contacts& contacts) {
 }
 
 /// The first guess of the solve: the forces that persist from the last step, times h (T18).
-void guess_impulses(const Contacts& contacts, double h, const ContactProblem& problem,
+void guess_impulses(const Contacts& contacts, double h, const ContactProblem& problem, ThreadTeam* team,
                     ContactSolution& solution) {
   const auto count = static_cast<std::size_t>(contacts.count());
   solution.pn.resize(count);
   solution.pt.resize(count);
-  for (std::size_t c = 0; c < count; ++c) {
-    solution.pn[c] = contacts.fn[c] * h;
-    solution.pt[c] = contacts.ft[c] * h;
-  }
+  share_out(team, count, [&](std::size_t first, std::size_t last) {
+    for (std::size_t c = first; c < last; ++c) {
+      solution.pn[c] = contacts.fn[c] * h;
+      solution.pt[c] = contacts.ft[c] * h;
+    }
+  });
   solution.pr.resize(contacts.moment.size());
   for (std::size_t c = 0; c < solution.pr.size(); ++c)
     solution.pr[c] = contacts.moment[c] * h / rolling_length(problem, static_cast<Index>(c));
@@ -115,11 +126,13 @@ void guess_impulses(const Contacts& contacts, double h, const ContactProblem& pr
 
 /// As mean forces over the step, so that a change of h keeps the memory (T18).
 void store_impulses(const ContactProblem& problem, const ContactSolution& solution, double h,
-                    Contacts& contacts) {
-  for (std::size_t c = 0; c < solution.pn.size(); ++c) {
-    contacts.fn[c] = solution.pn[c] / h;
-    contacts.ft[c] = solution.pt[c] / h;
-  }
+                    ThreadTeam* team, Contacts& contacts) {
+  share_out(team, solution.pn.size(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t c = first; c < last; ++c) {
+      contacts.fn[c] = solution.pn[c] / h;
+      contacts.ft[c] = solution.pt[c] / h;
+    }
+  });
   for (std::size_t c = 0; c < solution.pr.size(); ++c)
     contacts.moment[c] = rolling_length(problem, static_cast<Index>(c)) * solution.pr[c] / h;  // (T41)
 }
@@ -154,18 +167,19 @@ StageSeconds begin_step(World& world, const StepSettings& settings, StepWorkspac
   Grains& grains = world.grains;
   Contacts& contacts = workspace.contacts;
   const double margin = detection_margin(world, settings);
+  ThreadTeam* const team = team_at_hand(workspace.problem, settings.solver, workspace.solver);
   copy_positions(grains, workspace.before);
   advance_positions(grains, world.boundary, 0.5 * h);  // the midpoint (T2)
   clock.end_of(Stage::move);
-  detect_contacts(workspace.neighbours, grains, world.boundary, margin, contacts);  // local frames (T3)
+  detect_contacts(workspace.neighbours, grains, world.boundary, margin, contacts, team);  // local frames (T3)
   clock.end_of(Stage::detect);
   contacts.moment.assign(settings.law.rolling_friction != 0.0 ? contacts.a.size() : 0, 0.0);
   recall_forces(world.contacts, contacts);  // (T18)
   clock.end_of(Stage::recall);
   free_velocity(world, h, workspace.problem);  // (T4)
   // (T5), (T8), (T11), (T12)
-  form_problem(world, contacts, settings.law, h, settings.solver.tolerance, workspace.problem);
-  guess_impulses(contacts, h, workspace.problem, workspace.solution);
+  form_problem(world, contacts, settings.law, h, settings.solver.tolerance, workspace.problem, team);
+  guess_impulses(contacts, h, workspace.problem, team, workspace.solution);
   clock.end_of(Stage::assemble);
   return seconds;
 }
@@ -182,7 +196,8 @@ StepReport step(World& world, const StepSettings& settings, StepWorkspace& works
     copy_positions(workspace.before, grains);
     throw Error(ExitCode::internal, fmt::format("step {}: a velocity is not finite", world.step + 1));
   }
-  store_impulses(workspace.problem, workspace.solution, h, workspace.contacts);  // (T18)
+  ThreadTeam* const team = team_at_hand(workspace.problem, settings.solver, workspace.solver);
+  store_impulses(workspace.problem, workspace.solution, h, team, workspace.contacts);  // (T18)
   std::swap(world.contacts, workspace.contacts);
   set_velocities(workspace.solution, grains);  // (T6)
   clock.end_of(Stage::store);

@@ -95,7 +95,7 @@ struct TeamMember {
   }
 
   ExactResidual look() {
-    sum_exact_velocities(problem, first_body, last_body, at);
+    sum_exact_velocities(problem, kernels, first_body, last_body, at);
     wait_for_all();
     look_at_contacts(problem, kernels, first_block, last_block, at);
     wait_for_all();
@@ -108,6 +108,20 @@ struct TeamMember {
     return load_sweeps();
   }
 
+  /// Lets the first member do what allocates. The others wait: an exception that passed them by would leave
+  /// them waiting for ever. False where it failed.
+  template <typename Do>
+  bool by_first(const Do& what) {
+    if (member == 0) try {
+        what();
+      } catch (...) {
+        at.ordered_swept.clear();  // its groups are not loaded
+        w.failure = std::current_exception();
+      }
+    wait_for_all();
+    return !w.failure;
+  }
+
   bool sweep_more() {
     add_pressed(problem, first_block, last_block, at);
     return load_sweeps();
@@ -115,16 +129,16 @@ struct TeamMember {
 
   bool load_sweeps() {
     wait_for_all();
-    // The others wait: an exception that passed them by would leave them waiting for ever.
-    if (member == 0) try {
-        order_contacts(problem, at);
+    if (!by_first([this] { begin_order_of_contacts(problem, at); })) return false;
+    if (at.have_new_order) {
+      order_contacts(problem, member, size, at);
+      wait_for_all();
+      const bool is_ordered = by_first([this] {
+        end_order_of_contacts(problem, at);
         w.sums.assign(static_cast<std::size_t>(at.order.part_count()), {});
-      } catch (...) {
-        at.ordered_swept.clear();  // its groups are not loaded
-        w.failure = std::current_exception();
-      }
-    wait_for_all();
-    if (w.failure) return false;
+      });
+      if (!is_ordered) return false;
+    }
     first_row = part_begin(at.order.row_count, member, size);
     last_row = part_begin(at.order.row_count, member + 1, size);
     clear_rows(first_row, last_row, at);
@@ -252,6 +266,11 @@ ThreadTeam* team_for(const ContactProblem& problem, AcceleratedWorkspace& w, int
 constexpr int iterations_for_the_rest = 17;
 
 }  // namespace
+
+ThreadTeam* team_at_hand(const ContactProblem& problem, int threads, AcceleratedWorkspace& workspace) {
+  ThreadTeam* const team = team_for(problem, workspace, threads);
+  return team != nullptr && workspace.choice.in_team() ? team : nullptr;
+}
 
 AcceleratedOutcome solve_accelerated(const ContactProblem& problem, double tolerance, int max_iterations,
                                      int threads, AcceleratedWorkspace& workspace,

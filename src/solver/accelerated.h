@@ -5,11 +5,11 @@
 #include <exception>
 #include <memory>
 
+#include "core/thread_team.h"
 #include "solver/linearisation.h"
 #include "solver/problem.h"
 #include "solver/residual.h"
 #include "solver/team_choice.h"
-#include "solver/thread_team.h"
 
 namespace talus {
 
@@ -27,6 +27,9 @@ struct AcceleratedOutcome {
   int iterations = 0;  ///< over all contacts
   Residual residual;
 };
+
+/// The team that would solve this problem at present; null where one thread does.
+ThreadTeam* team_at_hand(const ContactProblem& problem, int threads, AcceleratedWorkspace& workspace);
 
 /// Solves until the natural-map residual is at most `tolerance` or `max_iterations` are spent.
 /// Contacts must be sorted by their first body. `solution` as in solve(). `threads` >= 1.

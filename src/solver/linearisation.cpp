@@ -48,20 +48,23 @@ void link(const ContactProblem& problem, Linearisation& w) {
   for (std::size_t i = 0; i < bodies; ++i)
     w.moves[i] = problem.inverse_mass[i] > 0.0 || problem.inverse_inertia[i] > 0.0 ? 1 : 0;
   w.first_a.assign(bodies + 1, 0);
-  w.first_b.assign(bodies + 1, 0);
-  w.as_b.resize(problem.b.size());
+  w.first_side.assign(bodies + 1, 0);
   for (std::size_t c = 0; c < problem.a.size(); ++c) {
     ++w.first_a[problem.a[c] + 1];
-    ++w.first_b[problem.b[c] + 1];
+    ++w.first_side[problem.b[c] + 1];
   }
   for (std::size_t i = 0; i < bodies; ++i) {
+    const Index sides = w.first_side[i + 1] + w.first_a[i + 1];
     w.first_a[i + 1] += w.first_a[i];
-    w.first_b[i + 1] += w.first_b[i];
+    w.first_side[i + 1] = w.first_side[i] + (sides + sides_at_once - 1) / sides_at_once * sides_at_once;
   }
+  w.sides.assign(static_cast<std::size_t>(w.first_side[bodies]),
+                 2 * static_cast<std::uint32_t>(problem.a.size()));
+  w.next_side = w.first_side;
   for (std::size_t c = 0; c < problem.b.size(); ++c)
-    w.as_b[w.first_b[problem.b[c]]++] = static_cast<Index>(c);
-  for (std::size_t i = bodies; i > 0; --i) w.first_b[i] = w.first_b[i - 1];
-  w.first_b[0] = 0;
+    w.sides[w.next_side[problem.b[c]]++] = 2 * static_cast<std::uint32_t>(c);
+  for (std::size_t c = 0; c < problem.a.size(); ++c)
+    w.sides[w.next_side[problem.a[c]]++] = 2 * static_cast<std::uint32_t>(c) + 1;
   for (auto field : {&ContactProblem::inverse_mass, &ContactProblem::inverse_inertia, &ContactProblem::lever,
                      &ContactProblem::mu, &ContactProblem::rolling_friction})
     w.linked.*field = problem.*field;
@@ -123,15 +126,17 @@ void set_rolling(const ContactProblem& problem, std::size_t c, double pr, Linear
   w.exact_force[c].turn = w.rolling.length[c] * w.rolling.pr[c];
 }
 
-void load_contact(const ContactProblem& problem, const ContactSolution& guess, std::size_t c,
-                  Linearisation& w) {
-  if (w.are_new) {
+/// The inverse diagonals of contacts first ... last - 1: first what is inverted, then in a loop that
+/// vectorises the inverses.
+void load_diagonals(const ContactProblem& problem, std::size_t first, std::size_t last, Linearisation& w) {
+  for (std::size_t c = first; c < last; ++c) {
     const DelassusDiagonal diagonal = delassus_diagonal(problem, static_cast<Index>(c));
-    // Between two bodies that cannot move nothing happens, whatever the impulse.
-    w.wn[c] = diagonal.normal > 0.0 ? 1.0 / diagonal.normal : 0.0;
-    w.wt[c] = diagonal.tangential > 0.0 ? 1.0 / diagonal.tangential : 0.0;
+    w.wn[c] = diagonal.normal;
+    w.wt[c] = diagonal.tangential;
   }
-  set_impulse(problem, c, guess.pn[c], guess.pt[c], w);
+  // Between two bodies that cannot move nothing happens, whatever the impulse.
+  for (double* const inverse : {w.wn.data(), w.wt.data()})
+    for (std::size_t c = first; c < last; ++c) inverse[c] = inverse[c] > 0.0 ? 1.0 / inverse[c] : 0.0;
 }
 
 double speed(const ExactRow& velocity) { return std::fabs(velocity.x) + std::fabs(velocity.y); }
@@ -193,30 +198,46 @@ void for_each_swept(const ContactProblem& problem, Index first_block, Index last
     if (w.swept[c]) what(c);
 }
 
-/// Lanes without a contact get rows that do not move.
-void clear_groups(Index bodies, Linearisation& w) {
+/// Makes room for the groups of the order. What was there is overwritten where there is a contact.
+void size_groups(Linearisation& w) {
   const auto groups = static_cast<std::size_t>(w.order.group_count());
-  const auto clear = [groups](auto& field) {
+  const auto size = [groups](auto& field) {
     // How well groups are filled differs from step to step: some room, so that steady steps allocate nothing.
     if (field.capacity() < groups) field.reserve(groups + groups / 4);
-    field.assign(groups, {});
+    field.resize(groups);
   };
-  clear(w.contacts);
-  clear(w.increment);
-  clear(w.last_move);
+  size(w.contacts);
+  size(w.increment);
+  size(w.last_move);
+  if (!w.rolling.are_there()) return;
+  size(w.rolling.groups);
+  size(w.rolling.increment);
+  size(w.rolling.last_move);
+}
+
+/// Lanes without a contact, of a group of a part, get rows that do not move.
+void clear_group(Index bodies, Index part, Index g, Linearisation& w) {
+  w.contacts[g] = {};
+  w.increment[g] = w.last_move[g] = {};
   if (w.rolling.are_there()) {
-    clear(w.rolling.groups);
-    clear(w.rolling.increment);
-    clear(w.rolling.last_move);
+    w.rolling.groups[g] = {};
+    w.rolling.increment[g] = w.rolling.last_move[g] = {};
   }
-  for (Index part = 0; part < w.order.part_count(); ++part)
-    for (Index g = w.order.part_begin[part]; g < w.order.part_begin[part + 1]; ++g)
-      for (int k = 0; k < lane_count; ++k) {
-        w.contacts[g].a[k] =
-            static_cast<std::uint32_t>(SweepOrder::still_row(bodies, part, 0, k)) * row_bytes;
-        w.contacts[g].b[k] =
-            static_cast<std::uint32_t>(SweepOrder::still_row(bodies, part, 1, k)) * row_bytes;
-      }
+  for (int k = 0; k < lane_count; ++k) {
+    w.contacts[g].a[k] = static_cast<std::uint32_t>(SweepOrder::still_row(bodies, part, 0, k)) * row_bytes;
+    w.contacts[g].b[k] = static_cast<std::uint32_t>(SweepOrder::still_row(bodies, part, 1, k)) * row_bytes;
+  }
+}
+
+/// The few groups that are not full.
+void clear_groups(Index bodies, Linearisation& w) {
+  constexpr Index full = lane_count * groups_abreast;
+  for (Index part = 0; part < w.order.part_count(); ++part) {
+    const Index first = w.order.part_begin[part], last = w.order.part_begin[part + 1];
+    for (Index g = first; g < last; ++g)
+      if (w.order.fill[w.order.first_place[part] + (g - first) / groups_abreast] < full)
+        clear_group(bodies, part, g, w);
+  }
 }
 
 }  // namespace
@@ -224,7 +245,8 @@ void clear_groups(Index bodies, Linearisation& w) {
 void prepare(const ContactProblem& problem, const ContactSolution& guess, Linearisation& w) {
   const auto contacts = static_cast<std::size_t>(problem.contact_count());
   w.exact_velocity.resize(static_cast<std::size_t>(problem.body_count()));
-  w.exact_force.resize(contacts);
+  w.exact_force.resize(contacts + 1);
+  w.exact_force[contacts] = {};
   for (auto* field : {&w.pn, &w.pt, &w.un, &w.ut, &w.wn, &w.wt}) field->resize(contacts);
   w.swept.assign(contacts, 0);
   w.sums.resize((contacts + contacts_per_block - 1) / contacts_per_block);
@@ -235,10 +257,11 @@ void prepare(const ContactProblem& problem, const ContactSolution& guess, Linear
 
 void load_contacts(const ContactProblem& problem, const ContactSolution& guess, Index first_block,
                    Index last_block, Linearisation& w) {
-  const std::size_t last = block_begin(problem, last_block);
-  for (std::size_t c = block_begin(problem, first_block); c < last; ++c) load_contact(problem, guess, c, w);
+  const std::size_t first = block_begin(problem, first_block), last = block_begin(problem, last_block);
+  if (w.are_new) load_diagonals(problem, first, last, w);
+  for (std::size_t c = first; c < last; ++c) set_impulse(problem, c, guess.pn[c], guess.pt[c], w);
   if (!problem.resists_rolling()) return;
-  for (std::size_t c = block_begin(problem, first_block); c < last; ++c) {
+  for (std::size_t c = first; c < last; ++c) {
     if (w.are_new) load_rolling(problem, c, w.rolling);
     set_rolling(problem, c, guess.pr[c], w);
   }
@@ -279,16 +302,24 @@ void add_pressed(const ContactProblem& problem, Index first_block, Index last_bl
     if (w.un[c] < 0.0) w.swept[c] = 1;
 }
 
-void order_contacts(const ContactProblem& problem, Linearisation& w) {
+void begin_order_of_contacts(const ContactProblem& problem, Linearisation& w) {
   const auto chosen = std::count(w.swept.begin(), w.swept.end(), 1);
   if (static_cast<double>(chosen) > nearly_all * problem.contact_count()) std::ranges::fill(w.swept, 1);
   w.have_new_order = w.ordered_swept.empty() || w.ordered_swept != w.swept;
   if (!w.have_new_order) return;
   w.ordered_swept.clear();
-  order_sweep(problem, w.first_a, w.moves, w.swept, w.order);
+  begin_order(problem, w.first_a, w.moves, w.swept, w.order);
+}
+
+void order_contacts(const ContactProblem& problem, int member, int size, Linearisation& w) {
+  order_parts(problem, w.moves, w.swept, member, size, w.order);
+}
+
+void end_order_of_contacts(const ContactProblem& problem, Linearisation& w) {
+  end_order(w.swept, w.order);
+  size_groups(w);
   clear_groups(problem.body_count(), w);
-  const auto rows = static_cast<std::size_t>(w.order.row_count);
-  for (auto* field : {&w.velocity, &w.before}) field->assign(rows, {});
+  for (auto* field : {&w.velocity, &w.before}) field->resize(static_cast<std::size_t>(w.order.row_count));
   w.ordered_swept = w.swept;
 }
 
@@ -358,46 +389,14 @@ void linearise_groups(const ContactProblem& problem, Index first_block, Index la
   });
 }
 
-namespace {
-
-template <bool rolling>
-void sum_velocities(const ContactProblem& problem, Index first, Index last, Linearisation& w) {
-  for (Index i = first; i < last; ++i) {
-    ExactRow sum;
-    for (Index k = w.first_b[i]; k < w.first_b[i + 1]; ++k) {
-      const ExactRow& force = w.exact_force[w.as_b[k]];
-      sum.x += force.x;
-      sum.y += force.y;
-      sum.spin += force.spin;
-      if constexpr (rolling) sum.turn += force.turn;
-    }
-    for (Index c = w.first_a[i]; c < w.first_a[i + 1]; ++c) {
-      const ExactRow& force = w.exact_force[c];
-      sum.x -= force.x;
-      sum.y -= force.y;
-      sum.spin += force.spin;
-      if constexpr (rolling) sum.turn -= force.turn;
-    }
-    const double lever = problem.lever[i];
-    const double mobility = problem.inverse_mass[i];
-    if constexpr (rolling) {
-      const double omega = problem.omega[i] - problem.inverse_inertia[i] * (lever * sum.spin - sum.turn);
-      w.exact_velocity[i] = {problem.vx[i] + mobility * sum.x, problem.vy[i] + mobility * sum.y,
-                             lever * omega, omega};
-    } else {
-      w.exact_velocity[i] = {problem.vx[i] + mobility * sum.x, problem.vy[i] + mobility * sum.y,
-                             lever * (problem.omega[i] - problem.inverse_inertia[i] * lever * sum.spin), 0.0};
-    }
-  }
-}
-
-}  // namespace
-
-void sum_exact_velocities(const ContactProblem& problem, Index first, Index last, Linearisation& w) {
-  if (problem.resists_rolling())
-    sum_velocities<true>(problem, first, last, w);
-  else
-    sum_velocities<false>(problem, first, last, w);
+void sum_exact_velocities(const ContactProblem& problem, const SweepKernels& kernels, Index first, Index last,
+                          Linearisation& w) {
+  const BodySumArrays arrays{w.first_side.data(),         w.sides.data(),
+                             w.exact_force.data(),        problem.vx.data(),
+                             problem.vy.data(),           problem.omega.data(),
+                             problem.inverse_mass.data(), problem.inverse_inertia.data(),
+                             problem.lever.data(),        w.exact_velocity.data()};
+  (problem.resists_rolling() ? kernels.rolling_body_sums : kernels.body_sums)(arrays, first, last);
 }
 
 ExactResidual exact_residual(const Linearisation& w) {

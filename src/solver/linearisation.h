@@ -27,11 +27,14 @@ struct BlockSums {
 struct Linearisation {
   // Double precision, at P0, in the order of the problem.
   std::vector<double> pn, pt, un, ut, wn, wt;
-  std::vector<ExactRow> exact_force, exact_velocity;
+  std::vector<ExactRow> exact_force, exact_velocity;  ///< of a contact more than there are
   std::vector<BlockSums> sums;
-  /// Body i is the first body of contacts first_a[i] ... first_a[i + 1] - 1, and the second body of those
-  /// listed in entries first_b[i] ... first_b[i + 1] - 1 of as_b.
-  std::vector<Index> first_a, first_b, as_b;
+  /// Body i is the first body of contacts first_a[i] ... first_a[i + 1] - 1. All its contacts c are listed in
+  /// entries first_side[i] ... first_side[i + 1] - 1 of sides: as 2 c where it is the second body, then as
+  /// 2 c + 1 where it is the first, and up to a multiple of sides_at_once a contact after the last, without
+  /// an impulse.
+  std::vector<Index> first_a, first_side, next_side;
+  std::vector<std::uint32_t> sides;
   std::vector<std::uint8_t> moves;  ///< whether anything moves the body
   std::vector<std::uint8_t> swept;  ///< whether the contact takes part in the sweeps
 
@@ -57,13 +60,14 @@ struct Linearisation {
 /// Sizes the arrays, links bodies to their contacts, and chooses the units.
 void prepare(const ContactProblem& problem, const ContactSolution& guess, Linearisation& w);
 
-// What follows is shared out, but for order_contacts: each member of a team takes some blocks of contacts or
-// some bodies, and waits for the others before the next part.
+// What follows is shared out, but for the begin and the end of an order: each member of a team takes some
+// blocks of contacts or some bodies, and waits for the others before the next part.
 
 /// P0 becomes these impulses, made admissible.
 void load_contacts(const ContactProblem& problem, const ContactSolution& impulses, Index first_block,
                    Index last_block, Linearisation& w);
-void sum_exact_velocities(const ContactProblem& problem, Index first, Index last, Linearisation& w);
+void sum_exact_velocities(const ContactProblem& problem, const SweepKernels& kernels, Index first, Index last,
+                          Linearisation& w);
 /// Relative velocities at P0 and sums of blocks.
 void look_at_contacts(const ContactProblem& problem, const SweepKernels& kernels, Index first_block,
                       Index last_block, Linearisation& w);
@@ -82,8 +86,11 @@ ExactResidual exact_residual(const Linearisation& w);
 void choose_swept(const ContactProblem& problem, Index first_block, Index last_block, Linearisation& w);
 /// Adds the pressed contacts.
 void add_pressed(const ContactProblem& problem, Index first_block, Index last_block, Linearisation& w);
-/// Puts the contacts to be swept in their order, unless they are; by one member for all.
-void order_contacts(const ContactProblem& problem, Linearisation& w);
+/// The contacts to be swept are put in their order, unless they are: then there is no new order, and nothing
+/// to go on with. One member begins and ends this for all.
+void begin_order_of_contacts(const ContactProblem& problem, Linearisation& w);
+void order_contacts(const ContactProblem& problem, int member, int size, Linearisation& w);
+void end_order_of_contacts(const ContactProblem& problem, Linearisation& w);
 /// Loads what is swept, around P0, without increments.
 void load_groups(const ContactProblem& problem, Index first_block, Index last_block, Linearisation& w);
 void clear_rows(Index first, Index last, Linearisation& w);

@@ -17,15 +17,6 @@ RelativeVelocity relative_velocity(const ContactProblem& problem, const std::vec
 
 }  // namespace
 
-DelassusDiagonal delassus_diagonal(const ContactProblem& problem, Index c) {
-  const Index a = problem.a[c];
-  const Index b = problem.b[c];
-  const double normal = problem.inverse_mass[a] + problem.inverse_mass[b];
-  const double spin = problem.lever[a] * problem.lever[a] * problem.inverse_inertia[a] +
-                      problem.lever[b] * problem.lever[b] * problem.inverse_inertia[b];
-  return {normal, normal + spin};  // (T8)
-}
-
 RelativeVelocity relative_velocity(const ContactProblem& problem, const ContactSolution& at, Index c) {
   return relative_velocity(problem, at.vx, at.vy, at.omega, c);
 }

@@ -50,7 +50,13 @@ struct DelassusDiagonal {
   double normal = 0.0;
   double tangential = 0.0;
 };
-DelassusDiagonal delassus_diagonal(const ContactProblem& problem, Index c);
+inline DelassusDiagonal delassus_diagonal(const ContactProblem& problem, Index c) {
+  const Index a = problem.a[c], b = problem.b[c];
+  const double normal = problem.inverse_mass[a] + problem.inverse_mass[b];
+  const double spin = problem.lever[a] * problem.lever[a] * problem.inverse_inertia[a] +
+                      problem.lever[b] * problem.lever[b] * problem.inverse_inertia[b];
+  return {normal, normal + spin};
+}
 
 /// Relative velocity U at contact c for the given body velocities (T5).
 struct RelativeVelocity {

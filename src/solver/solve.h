@@ -32,6 +32,10 @@ struct SolverWorkspace {
   AcceleratedWorkspace accelerated;
 };
 
+/// The team that would solve this problem at present; null where one thread does, or the solver has none.
+ThreadTeam* team_at_hand(const ContactProblem& problem, const SolverSettings& settings,
+                         SolverWorkspace& workspace);
+
 /// Solves the problem, (T7) with (T9) and (T10), from the first guess in `solution` to the tolerance, and
 /// judges the result by natural_map_residual. The same bits for the same problem and guess.
 SolverReport solve(const ContactProblem& problem, const SolverSettings& settings, SolverWorkspace& workspace,

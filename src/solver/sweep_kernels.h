@@ -124,12 +124,30 @@ using BodyKernel = void (*)(const BodyArrays& arrays, Index first, Index last, f
 /// change (T13, T14).
 using LookKernel = void (*)(const LookArrays& arrays, std::size_t first, std::size_t last, LookSums& sums);
 
+/// Bodies have a few contacts each: in steps of several, the number of steps is nearly always the same, and
+/// predictable.
+inline constexpr int sides_at_once = 4;
+
+/// What the velocities of bodies are summed from.
+struct BodySumArrays {
+  const Index* first_side;  ///< the contacts of body i are first_side[i] ... first_side[i + 1] - 1 of sides
+  const std::uint32_t* sides;  ///< 2 c of the second body of contact c, 2 c + 1 of the first
+  const ExactRow* force;       ///< impulses of the contacts
+  const double *vx, *vy, *omega, *inverse_mass, *inverse_inertia, *lever;
+  ExactRow* velocity;  ///< out
+};
+/// v = v_free + M^-1 H P (T6) of bodies first ... last - 1.
+using BodySumKernel = void (*)(const BodySumArrays& arrays, Index first, Index last);
+
 struct SweepKernels {
   ContactKernel contacts;
   BodyKernel bodies;
   LookKernel look;
-  ContactKernel rolling_contacts;  ///< of contacts that resist rolling
+  BodySumKernel body_sums;
+  // Of contacts that resist rolling.
+  ContactKernel rolling_contacts;
   LookKernel rolling_look;
+  BodySumKernel rolling_body_sums;
 };
 
 /// The fastest kernels that this processor has.

@@ -35,7 +35,7 @@ struct SweepOrder {
   Index group_count() const { return part_begin.back(); }
 
   // Memory to work in: places are groups side by side before those that stay empty are left out.
-  std::vector<Index> part, owner, first_place, room;
+  std::vector<Index> domain, part, owner, first_place, room;
   std::vector<std::uint8_t> fill;
   std::array<std::vector<Index>, phases> next_place;
 };
@@ -46,6 +46,17 @@ struct SweepOrder {
 void order_sweep(const ContactProblem& problem, const std::vector<Index>& first_a,
                  const std::vector<std::uint8_t>& moves, const std::vector<std::uint8_t>& swept,
                  SweepOrder& order);
+
+// The same by a team: one member begins the order, all of them order parts, and one ends it.
+
+void begin_order(const ContactProblem& problem, const std::vector<Index>& first_a,
+                 const std::vector<std::uint8_t>& moves, const std::vector<std::uint8_t>& swept,
+                 SweepOrder& order);
+/// Puts the contacts of a member's parts, in their order, into the first place with room after all that share
+/// a body with them, and gives them slots, counted from the first place of their part.
+void order_parts(const ContactProblem& problem, const std::vector<std::uint8_t>& moves,
+                 const std::vector<std::uint8_t>& swept, int member, int size, SweepOrder& order);
+void end_order(const std::vector<std::uint8_t>& swept, SweepOrder& order);
 
 /// How many members of a team find work in each phase of a sweep.
 int most_members(const ContactProblem& problem);

@@ -14,12 +14,16 @@ void raise_envelope(std::vector<double>& height, double spacing, bool periodic, 
   const auto count = static_cast<Index>(height.size());
   const auto first = static_cast<Index>(std::ceil((centre.x - radius) / spacing - 0.5));
   const auto last = static_cast<Index>(std::floor((centre.x + radius) / spacing - 0.5));
+  const double highest = centre.y + radius;
   for (Index k = first; k <= last; ++k) {
     if (!periodic && (k < 0 || k >= count)) continue;
+    Index place = k;
+    while (place < 0) place += count;
+    while (place >= count) place -= count;
+    double& sample = height[static_cast<std::size_t>(place)];
+    if (sample >= highest) continue;
     const double offset = (k + 0.5) * spacing - centre.x;
-    const double top = centre.y + std::sqrt(std::max(0.0, radius * radius - offset * offset));
-    double& sample = height[static_cast<std::size_t>(((k % count) + count) % count)];
-    sample = std::max(sample, top);
+    sample = std::max(sample, centre.y + std::sqrt(std::max(0.0, radius * radius - offset * offset)));
   }
 }
 
@@ -29,7 +33,8 @@ std::vector<double> free_surface(const Grains& grains, const Boundary& boundary,
   std::vector<double> height(static_cast<std::size_t>(std::ceil(boundary.length / spacing)), 0.0);
   if (height.empty()) return height;
   const double step = boundary.length / static_cast<double>(height.size());
-  for (Index i = 0; i < grains.free_count; ++i)
+  // The last grains first: they are at the surface, and most of the others below what they leave.
+  for (Index i = grains.free_count - 1; i >= 0; --i)
     raise_envelope(height, step, boundary.periodic, {grains.x[i], grains.y[i]}, grains.radius[i]);
   return height;
 }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "support/scenes.h"
@@ -95,6 +96,27 @@ TEST(Detection, normals_are_unit_and_lead_to_the_other_centre) {
     EXPECT_NEAR(g.x[a] + distance * contacts.nx[c], g.x[b] + contacts.shift[c] * world.boundary.length,
                 1e-15);
     EXPECT_NEAR(g.y[a] + distance * contacts.ny[c], g.y[b], 1e-15);
+  }
+}
+
+// More candidates than are framed at once, and planes between them.
+TEST(Detection, a_team_finds_the_contacts_of_one_thread) {
+  World world = test::random_cloud(5, 900, true, 30.0 * radius);
+  world.boundary.planes = {{{0.0, 1.0}, 4.0 * radius, false}};
+  const Contacts alone = detect(world, 0.1 * radius);
+  ASSERT_GT(alone.count(), 1000);
+  ASSERT_GT(std::ranges::count(alone.b, world.grains.count()), 10);
+  NeighbourList list;
+  for (const int size : {1, 2, 3, 5}) {
+    ThreadTeam team(size);
+    Contacts contacts;
+    detect_contacts(list, world.grains, world.boundary, 0.1 * radius, contacts, &team);
+    EXPECT_EQ(contacts.a, alone.a) << size;
+    EXPECT_EQ(contacts.b, alone.b) << size;
+    EXPECT_EQ(contacts.shift, alone.shift) << size;
+    EXPECT_EQ(contacts.nx, alone.nx) << size;
+    EXPECT_EQ(contacts.ny, alone.ny) << size;
+    EXPECT_EQ(contacts.gap, alone.gap) << size;
   }
 }
 

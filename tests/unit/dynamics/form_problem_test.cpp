@@ -160,6 +160,30 @@ TEST(FormProblem, tangential_restitution_enters_where_the_contact_closes) {
   EXPECT_EQ(scene.problem.ct[0], 0.0);
 }
 
+TEST(FormProblem, a_team_forms_the_problem_of_one_thread) {
+  World world = test::random_cloud(5, 900, true, 30.0 * test::radius);
+  world.boundary.planes = {{{0.0, 1.0}, 4.0 * test::radius, true}};
+  Contacts contacts;
+  NeighbourList list;
+  detect_contacts(list, world.grains, world.boundary, 0.1 * test::radius, contacts);
+  for (std::size_t c = 0; c < contacts.fn.size(); c += 3) contacts.fn[c] = 1.0 + static_cast<double>(c);
+  ContactLawParameters law;
+  law.rolling_friction = 0.1;
+  ContactProblem alone, together;
+  free_velocity(world, h, alone);
+  form_problem(world, contacts, law, h, tolerance, alone);
+  ThreadTeam team(3);
+  free_velocity(world, h, together);
+  form_problem(world, contacts, law, h, tolerance, together, &team);
+  EXPECT_EQ(together.a, alone.a);
+  EXPECT_EQ(together.b, alone.b);
+  for (const auto field : {&ContactProblem::nx, &ContactProblem::ny, &ContactProblem::cn, &ContactProblem::ct,
+                           &ContactProblem::mu, &ContactProblem::rolling_friction}) {
+    EXPECT_EQ(together.*field, alone.*field);
+    EXPECT_EQ((alone.*field).size(), contacts.a.size());
+  }
+}
+
 TEST(FormProblem, walls_have_the_friction_of_walls) {
   Scene scene(0.0);
   scene.law.friction = 0.4;

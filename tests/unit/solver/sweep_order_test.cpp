@@ -90,6 +90,24 @@ TEST_P(OrderOfSweep, has_one_slot_for_each_contact) {
   EXPECT_EQ(static_cast<Index>(slots.size()), swept);
 }
 
+// The parts one member after another, the last one first: none may need what another one leaves.
+TEST_P(OrderOfSweep, is_that_of_a_team) {
+  constexpr int size = 3;
+  SweepOrder order;
+  begin_order(graph_.problem, graph_.first_a, graph_.moves, graph_.swept, order);
+  for (int member = size - 1; member >= 0; --member)
+    order_parts(graph_.problem, graph_.moves, graph_.swept, member, size, order);
+  end_order(graph_.swept, order);
+  EXPECT_EQ(order.part_begin, order_.part_begin);
+  EXPECT_EQ(order.row_count, order_.row_count);
+  for (Index c = 0; c < graph_.problem.contact_count(); ++c) {
+    if (!graph_.swept[c]) continue;
+    ASSERT_EQ(order.slot[c], order_.slot[c]) << "contact " << c;
+    ASSERT_EQ(order.row_a[c], order_.row_a[c]) << "contact " << c;
+    ASSERT_EQ(order.row_b[c], order_.row_b[c]) << "contact " << c;
+  }
+}
+
 TEST_P(OrderOfSweep, never_has_a_body_twice_in_groups_side_by_side) {
   std::set<std::pair<Index, Index>> met;
   for_each_end([&](Index c, Index body) {

@@ -1,4 +1,4 @@
-#include "solver/thread_team.h"
+#include "core/thread_team.h"
 
 namespace talus {
 namespace {

@@ -52,4 +52,16 @@ inline int part_begin(int count, int member, int size) {
   return static_cast<int>(static_cast<long long>(count) * member / size);
 }
 
+/// Calls what(first, last) for parts that together are 0 ... count - 1: on each member of the team for its
+/// own, or once where there is none. `what` must not throw.
+template <class Do>
+void share_out(ThreadTeam* team, std::size_t count, const Do& what) {
+  if (team == nullptr) return what(std::size_t{0}, count);
+  const std::size_t size = static_cast<std::size_t>(team->size());
+  team->run([&what, count, size](int member) {
+    const auto own = static_cast<std::size_t>(member);
+    what(count * own / size, count * (own + 1) / size);
+  });
+}
+
 }  // namespace talus
