@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Builds the benchmarks and writes every result to bench/results/: bench/run.sh [PART...]
-# Parts: solver, scale, siconos, siconos_si, siconos_dense, paper, crowded, frames, ensemble, store, render, view; all of them with no argument.
+# Parts: solver, scale, siconos, siconos_si, siconos_dense, paper, dem, crowded, frames, ensemble, store, render, view; all of them with no argument.
 set -euo pipefail
 
 cd -- "$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")/.."
@@ -109,6 +109,18 @@ paper() {
   keep paper.md
 }
 
+dem() {
+  local version
+  version=$(dpkg-query -W -f '${Version}' lammps 2>/dev/null || echo "not found")
+  {
+    heading "The tilt by springs and dashpots" "bench/dem_bench.py $build/talus"
+    echo "LAMMPS: Debian $version"
+    echo
+    /usr/bin/python3 bench/dem_bench.py "$build/talus" 2>/dev/null
+  } >"$results/dem.md.part"
+  keep dem.md
+}
+
 crowded() {
   {
     heading "A run beside other processes" "bench/run_crowded.py $build/talus"
@@ -170,7 +182,7 @@ view() {
 }
 
 parts=("$@")
-((${#parts[@]} > 0)) || parts=(solver scale siconos siconos_si siconos_dense paper crowded frames ensemble store render view)
+((${#parts[@]} > 0)) || parts=(solver scale siconos siconos_si siconos_dense paper dem crowded frames ensemble store render view)
 build
 mkdir -p "$results"
 for part in "${parts[@]}"; do
