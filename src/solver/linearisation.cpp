@@ -20,6 +20,9 @@ constexpr double may_close = 0.2;
 // Where so large a share would be swept, all are: their order can stay from step to step.
 constexpr double nearly_all = 0.85;
 
+// What sweeps walk through stays in the caches up to about this size: 100 000 contacts.
+constexpr std::size_t cached_bytes = std::size_t{8} << 20;
+
 constexpr auto row_bytes = static_cast<std::uint32_t>(sizeof(Row));
 
 /// Where the eight values of a field of its group have that of a contact.
@@ -438,6 +441,7 @@ void unload_velocities(const ContactProblem& problem, Index first, Index last, c
 
 ContactArrays contact_arrays(Linearisation& w) {
   ContactArrays arrays{w.contacts.data(), w.increment.data(), w.last_move.data(), w.velocity.data()};
+  arrays.reads_ahead = w.contacts.size() * (sizeof(ContactGroup) + 2 * sizeof(ImpulseGroup)) > cached_bytes;
   if (w.rolling.are_there()) {
     arrays.rolling = w.rolling.groups.data();
     arrays.rolling_increment = w.rolling.increment.data();

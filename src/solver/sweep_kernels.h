@@ -77,6 +77,8 @@ struct ContactArrays {
   ImpulseGroup* increment;  ///< in: p of the last sweep; out: the new p
   ImpulseGroup* last_move;  ///< in: what the last sweep added to p; out: what this one has added
   Row* velocity;            ///< of the bodies; in: due to y = p + momentum * last_move; out: due to the new p
+  /// Whether to ask memory for groups before their turn: pays where they do not stay in the caches.
+  bool reads_ahead = false;
   // Where contacts resist rolling; else null.
   const RollingGroup* rolling = nullptr;
   RollingImpulses* rolling_increment = nullptr;

@@ -141,6 +141,19 @@ TEST(SweepKernels, give_the_same_bits_whatever_the_processor) {
   EXPECT_EQ(baseline.sums.ascent, fastest.sums.ascent);
 }
 
+TEST(SweepKernels, give_the_same_bits_where_they_read_ahead) {
+  Scene near = random_scene(20, 64);
+  Scene ahead = near;
+  ContactArrays arrays = ahead.contact_arrays();
+  arrays.reads_ahead = true;
+  sweep_kernels().contacts(near.contact_arrays(), 0, near.groups(), beta, near.sums);
+  sweep_kernels().contacts(arrays, 0, ahead.groups(), beta, ahead.sums);
+  EXPECT_TRUE(same_bits(near.increment, ahead.increment));
+  EXPECT_TRUE(same_bits(near.last_move, ahead.last_move));
+  EXPECT_TRUE(same_bits(near.velocity, ahead.velocity));
+  EXPECT_EQ(near.sums.change, ahead.sums.change);
+}
+
 /// The same contacts, which resist rolling.
 struct RollingScene {
   Scene scene = random_scene(20, 64);
