@@ -187,7 +187,7 @@ build
 mkdir -p "$results"
 for part in "${parts[@]}"; do
   case $part in
-    solver | scale | siconos | siconos_si | siconos_dense | paper | crowded | frames | ensemble | store | render | view) "$part" ;;
+    solver | scale | siconos | siconos_si | siconos_dense | paper | dem | crowded | frames | ensemble | store | render | view) "$part" ;;
     *) printf 'bench/run.sh: error: no part "%s"; they are listed at the top of this file\n' "$part" >&2 && exit 64 ;;
   esac
   printf '%s: done after %d s\n' "$part" "$SECONDS"
