@@ -141,6 +141,23 @@ TEST(SweepKernels, give_the_same_bits_whatever_the_processor) {
   EXPECT_EQ(baseline.sums.ascent, fastest.sums.ascent);
 }
 
+// Members of a team begin at any row.
+TEST(SweepKernels, extrapolate_bodies_in_parts_of_any_length) {
+  for (const SweepKernels& kernels : {sweep_kernels_baseline(), sweep_kernels()}) {
+    Scene whole = random_scene(20, 64);
+    Scene parts = whole;
+    kernels.bodies(whole.body_arrays(), 0, whole.rows(), beta);
+    Index first = 0;
+    for (const Index count : {1, 2, 5, 0, 7}) {
+      kernels.bodies(parts.body_arrays(), first, first + count, beta);
+      first += count;
+    }
+    kernels.bodies(parts.body_arrays(), first, parts.rows(), beta);
+    EXPECT_TRUE(same_bits(whole.velocity, parts.velocity));
+    EXPECT_TRUE(same_bits(whole.before, parts.before));
+  }
+}
+
 TEST(SweepKernels, give_the_same_bits_where_they_read_ahead) {
   Scene near = random_scene(20, 64);
   Scene ahead = near;
