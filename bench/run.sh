@@ -116,7 +116,7 @@ dem() {
     heading "The tilt by springs and dashpots" "bench/dem_bench.py $build/talus"
     echo "LAMMPS: Debian $version"
     echo
-    /usr/bin/python3 bench/dem_bench.py "$build/talus" 2>/dev/null
+    /usr/bin/python3 bench/dem_bench.py "$build/talus"
   } >"$results/dem.md.part"
   keep dem.md
 }

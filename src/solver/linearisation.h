@@ -27,12 +27,12 @@ struct BlockSums {
 struct Linearisation {
   // Double precision, at P0, in the order of the problem.
   std::vector<double> pn, pt, un, ut, wn, wt;
-  std::vector<ExactRow> exact_force, exact_velocity;  ///< of a contact more than there are
+  std::vector<ExactRow> exact_force;  ///< of one contact more than there are, without an impulse
+  std::vector<ExactRow> exact_velocity;
   std::vector<BlockSums> sums;
   /// Body i is the first body of contacts first_a[i] ... first_a[i + 1] - 1. All its contacts c are listed in
   /// entries first_side[i] ... first_side[i + 1] - 1 of sides: as 2 c where it is the second body, then as
-  /// 2 c + 1 where it is the first, and up to a multiple of sides_at_once a contact after the last, without
-  /// an impulse.
+  /// 2 c + 1 where it is the first, and up to a multiple of sides_at_once the contact after the last.
   std::vector<Index> first_a, first_side, next_side;
   std::vector<std::uint32_t> sides;
   std::vector<std::uint8_t> moves;  ///< whether anything moves the body

@@ -140,14 +140,6 @@ void end_order(const std::vector<std::uint8_t>& swept, SweepOrder& order) {
     if (swept[c]) order.slot[c] += lane_count * order.part_begin[order.part[c]];
 }
 
-void order_sweep(const ContactProblem& problem, const std::vector<Index>& first_a,
-                 const std::vector<std::uint8_t>& moves, const std::vector<std::uint8_t>& swept,
-                 SweepOrder& order) {
-  begin_order(problem, first_a, moves, swept, order);
-  order_parts(problem, moves, swept, 0, 1, order);
-  end_order(swept, order);
-}
-
 int most_members(const ContactProblem& problem) { return (domains_for(problem.contact_count()) + 1) / 2; }
 
 }  // namespace talus

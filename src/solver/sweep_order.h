@@ -40,15 +40,11 @@ struct SweepOrder {
   std::array<std::vector<Index>, phases> next_place;
 };
 
-/// Orders the contacts with swept[c] != 0; the others have no slot. `first_a[i]` is the number of contacts
-/// whose first body is before body i; moves[i] is 0 for a body that nothing moves. Contacts must be sorted by
-/// their first body.
-void order_sweep(const ContactProblem& problem, const std::vector<Index>& first_a,
-                 const std::vector<std::uint8_t>& moves, const std::vector<std::uint8_t>& swept,
-                 SweepOrder& order);
+// Contacts with swept[c] != 0 are ordered; the others have no slot. One member of a team begins, all of them
+// order parts, and one ends.
 
-// The same by a team: one member begins the order, all of them order parts, and one ends it.
-
+/// Shares the contacts out to parts. `first_a[i]` is the number of contacts whose first body is before body
+/// i; moves[i] is 0 for a body that nothing moves. Contacts must be sorted by their first body.
 void begin_order(const ContactProblem& problem, const std::vector<Index>& first_a,
                  const std::vector<std::uint8_t>& moves, const std::vector<std::uint8_t>& swept,
                  SweepOrder& order);
@@ -56,6 +52,7 @@ void begin_order(const ContactProblem& problem, const std::vector<Index>& first_
 /// a body with them, and gives them slots, counted from the first place of their part.
 void order_parts(const ContactProblem& problem, const std::vector<std::uint8_t>& moves,
                  const std::vector<std::uint8_t>& swept, int member, int size, SweepOrder& order);
+/// Puts the parts one after another.
 void end_order(const std::vector<std::uint8_t>& swept, SweepOrder& order);
 
 /// How many members of a team find work in each phase of a sweep.

@@ -46,7 +46,9 @@ Graph graph(Index bodies, Index contacts_each, Index reach) {
 
 SweepOrder order_of(const Graph& graph) {
   SweepOrder order;
-  order_sweep(graph.problem, graph.first_a, graph.moves, graph.swept, order);
+  begin_order(graph.problem, graph.first_a, graph.moves, graph.swept, order);
+  order_parts(graph.problem, graph.moves, graph.swept, 0, 1, order);
+  end_order(graph.swept, order);
   return order;
 }
 
