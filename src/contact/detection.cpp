@@ -118,7 +118,7 @@ std::size_t move_down(std::size_t first, std::size_t last, std::size_t to, Conta
 
 void detect_contacts(NeighbourList& list, const Grains& grains, const Boundary& boundary, double margin,
                      Contacts& contacts, ThreadTeam* team) {
-  update_neighbour_list(list, grains, boundary, margin);
+  update_neighbour_list(list, grains, boundary, margin, team);
   const std::size_t candidates = list.a.size();
   contacts.resize(candidates);
   const std::size_t parts = team ? static_cast<std::size_t>(team->size()) : 1;

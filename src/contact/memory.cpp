@@ -10,9 +10,9 @@ bool before(const Contacts& one, Index c, const Contacts& other, Index d) {
   return one.a[c] < other.a[d] || (one.a[c] == other.a[d] && one.b[c] < other.b[d]);
 }
 
-/// The number of consecutive contacts, from c and from d on, that belong to the same pairs.
-Index persisting(const Contacts& contacts, Index c, const Contacts& previous, Index d) {
-  const Index longest = std::min(contacts.count() - c, previous.count() - d);
+/// The number of consecutive contacts, from c to the last and from d on, that belong to the same pairs.
+Index persisting(const Contacts& contacts, Index c, Index last, const Contacts& previous, Index d) {
+  const Index longest = std::min(last - c, previous.count() - d);
   Index run = 0;
   while (run < longest && contacts.a[c + run] == previous.a[d + run] &&
          contacts.b[c + run] == previous.b[d + run])
@@ -27,15 +27,33 @@ void copy_forces(const Contacts& previous, Index d, Index run, Contacts& contact
   if constexpr (moments) std::copy_n(previous.moment.begin() + d, run, contacts.moment.begin() + c);
 }
 
+/// The first contact from c on that does not belong to the pair of the one before it.
+Index begin_of_pair(const Contacts& contacts, Index c) {
+  while (0 < c && c < contacts.count() && !before(contacts, c - 1, contacts, c)) ++c;
+  return c;
+}
+
+/// The first contact in `previous` that does not come before contact c of the other list.
+Index first_not_before(const Contacts& previous, const Contacts& contacts, Index c) {
+  Index first = 0, last = previous.count();
+  while (first < last) {
+    const Index middle = first + (last - first) / 2;
+    if (before(previous, middle, contacts, c))
+      first = middle + 1;
+    else
+      last = middle;
+  }
+  return first;
+}
+
+/// Contacts c ... count - 1, of whole pairs.
 template <bool moments>
-void recall(const Contacts& previous, Contacts& contacts) {
-  const Index count = contacts.count();
+void recall(const Contacts& previous, Contacts& contacts, Index c, Index count) {
   const Index old_count = previous.count();
-  Index c = 0;
-  Index old = 0;
+  Index old = c < count ? first_not_before(previous, contacts, c) : 0;
   while (c < count) {
     // Nearly all contacts persist, so the merge proceeds in long runs.
-    const Index run = persisting(contacts, c, previous, old);
+    const Index run = persisting(contacts, c, count, previous, old);
     copy_forces<moments>(previous, old, run, contacts, c);
     c += run;
     old += run;
@@ -49,11 +67,16 @@ void recall(const Contacts& previous, Contacts& contacts) {
 
 }  // namespace
 
-void recall_forces(const Contacts& previous, Contacts& contacts) {
-  if (contacts.moment.empty() || previous.moment.empty())
-    recall<false>(previous, contacts);
-  else
-    recall<true>(previous, contacts);
+void recall_forces(const Contacts& previous, Contacts& contacts, ThreadTeam* team) {
+  const bool moments = !contacts.moment.empty() && !previous.moment.empty();
+  share_out(team, contacts.a.size(), [&](std::size_t first, std::size_t last) {
+    const Index begin = begin_of_pair(contacts, static_cast<Index>(first));
+    const Index end = begin_of_pair(contacts, static_cast<Index>(last));
+    if (moments)
+      recall<true>(previous, contacts, begin, end);
+    else
+      recall<false>(previous, contacts, begin, end);
+  });
 }
 
 }  // namespace talus

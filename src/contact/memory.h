@@ -2,6 +2,7 @@
 /// Contact memory: forces that persist from step to step (T18).
 
 #include "core/contacts.h"
+#include "core/thread_team.h"
 
 namespace talus {
 
@@ -9,7 +10,7 @@ namespace talus {
 /// has none. The same with moments, where `contacts` has room for them, which must be zero before. Both lists
 /// are sorted by key, so this is a merge. The shift is ignored, since it changes when a grain wraps around
 /// the periodic edge. Where one pair has several contacts through different images, in a bed of a few grains'
-/// length, they are matched in order.
-void recall_forces(const Contacts& previous, Contacts& contacts);
+/// length, they are matched in order. Shared out to the team, if there is one.
+void recall_forces(const Contacts& previous, Contacts& contacts, ThreadTeam* team = nullptr);
 
 }  // namespace talus

@@ -1,7 +1,9 @@
 #include "contact/neighbour_list.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <new>
 
 namespace talus {
 namespace {
@@ -16,13 +18,14 @@ struct Grid {
 bool covers(const NeighbourList& list, const Grains& grains, double reach) {
   if (list.reach < reach || list.x.size() != grains.x.size()) return false;
   const double limit = 0.25 * list.skin * list.skin;
+  std::int64_t within = 0;  // as wide as a double, so that the comparisons vectorise
   for (std::size_t i = 0; i < grains.x.size(); ++i) {
     const double dx = grains.x[i] - list.x[i];
     const double dy = grains.y[i] - list.y[i];
     // A grain that wrapped around the periodic edge seems to have moved far, and its shifts are stale too.
-    if (!(dx * dx + dy * dy <= limit)) return false;
+    within += static_cast<std::int64_t>(dx * dx + dy * dy <= limit);
   }
-  return true;
+  return within == static_cast<std::int64_t>(grains.x.size());
 }
 
 /// A position that is not a number has a cell too: the step goes on to find it and to report it.
@@ -109,8 +112,8 @@ void search_cells(const NeighbourList& list, const Grains& grains, Index first_c
   search.end = end;
 }
 
-void search_grains(const NeighbourList& list, const Grains& grains, const Boundary& boundary,
-                   const Grid& grid, Search& search) {
+void search_cells_around(const NeighbourList& list, const Grains& grains, const Boundary& boundary,
+                         const Grid& grid, Search& search) {
   const Index row = list.cell_of_grain[search.a] / grid.columns;
   const Index column = list.cell_of_grain[search.a] % grid.columns;
   const Index last = grid.columns - 1;
@@ -144,25 +147,83 @@ void sort_neighbours(std::int64_t* first, std::int64_t* end) {
   }
 }
 
-void append(NeighbourList& list, const Grains& grains, Index a, std::int64_t neighbour) {
-  const Index b = body_of(neighbour);
-  list.a.push_back(a);
-  list.b.push_back(b);
-  list.shift.push_back(shift_of(neighbour));
-  list.contact_distance.push_back(grains.radius[a] + (b < grains.count() ? grains.radius[b] : 0.0));
+/// Writes the neighbours of grains first ... last - 1 one after another, and tells where those of each grain
+/// begin, counted from the first of these grains. Returns where the last ones end.
+std::size_t search_grains(NeighbourList& list, const Grains& grains, const Boundary& boundary,
+                          const Grid& grid, double range, std::size_t first, std::size_t last,
+                          std::vector<std::int64_t>& found) {
+  // A grain sees each other one through at most three images; one place more holds what is not kept.
+  const std::size_t most = 3 * grains.x.size() + boundary.planes.size() + 1;
+  std::size_t end = 0;
+  for (std::size_t a = first; a < last; ++a) {
+    list.first_found[a] = end;
+    if (found.size() < end + most) found.resize(2 * end + most);
+    std::int64_t* const begin = found.data() + end;
+    Search search{.a = static_cast<Index>(a), .range = range, .end = begin};
+    search_cells_around(list, grains, boundary, grid, search);
+    search_planes(grains, boundary, search);
+    sort_neighbours(begin, search.end);
+    end += static_cast<std::size_t>(search.end - begin);
+  }
+  return end;
+}
+
+/// Puts the neighbours of grains first ... last - 1 into the list. `place` is that of the first one.
+void list_neighbours(NeighbourList& list, const Grains& grains, std::size_t first, std::size_t last,
+                     const std::vector<std::int64_t>& found, std::size_t place) {
+  const std::int64_t* neighbour = found.data();
+  for (std::size_t a = first; a < last; ++a)
+    for (; place < list.first_found[a + 1]; ++place, ++neighbour) {
+      const Index b = body_of(*neighbour);
+      list.a[place] = static_cast<Index>(a);
+      list.b[place] = b;
+      list.shift[place] = shift_of(*neighbour);
+      list.contact_distance[place] = grains.radius[a] + (b < grains.count() ? grains.radius[b] : 0.0);
+    }
+}
+
+/// Finds all pairs up to a gap of `range`, each member of a team those of its grains.
+void list_pairs(NeighbourList& list, const Grains& grains, const Boundary& boundary, const Grid& grid,
+                double range, ThreadTeam* team) {
+  const auto count = static_cast<std::size_t>(grains.free_count);
+  const std::size_t parts = team ? static_cast<std::size_t>(team->size()) : 1;
+  const auto begin_of = [count, parts](std::size_t part) { return count * part / parts; };
+  list.found.resize(parts);
+  list.part_end.resize(parts);
+  list.first_found.resize(count + 1);
+  std::atomic<bool> lacks_memory =
+      false;  // an exception would end the program where a member does not catch it
+  share_out(team, parts, [&](std::size_t part, std::size_t) {
+    try {
+      list.part_end[part] = search_grains(list, grains, boundary, grid, range, begin_of(part),
+                                          begin_of(part + 1), list.found[part]);
+    } catch (const std::bad_alloc&) {
+      lacks_memory = true;
+    }
+  });
+  if (lacks_memory) throw std::bad_alloc();
+  std::size_t total = 0;
+  for (std::size_t part = 0; part < parts; ++part) {
+    for (std::size_t a = begin_of(part); a < begin_of(part + 1); ++a) list.first_found[a] += total;
+    total += list.part_end[part];
+  }
+  list.first_found[count] = total;
+  for (auto* field : {&list.a, &list.b}) field->resize(total);
+  list.shift.resize(total);
+  list.contact_distance.resize(total);
+  share_out(team, parts, [&](std::size_t part, std::size_t) {
+    const std::size_t first = begin_of(part);
+    list_neighbours(list, grains, first, begin_of(part + 1), list.found[part], list.first_found[first]);
+  });
 }
 
 }  // namespace
 
-void update_neighbour_list(NeighbourList& list, const Grains& grains, const Boundary& boundary,
-                           double reach) {
+void update_neighbour_list(NeighbourList& list, const Grains& grains, const Boundary& boundary, double reach,
+                           ThreadTeam* team) {
   if (covers(list, grains, reach)) return;
+  list.x.clear();  // covers nothing, should memory be missing
   list.a.clear();
-  list.b.clear();
-  list.shift.clear();
-  list.contact_distance.clear();
-  list.x = grains.x;
-  list.y = grains.y;
   if (grains.count() == 0) return;
   const double largest = *std::max_element(grains.radius.begin(), grains.radius.end());
   // Doubling the skin halves the rebuilds and adds 5 % of candidates: here both cost the same.
@@ -172,15 +233,9 @@ void update_neighbour_list(NeighbourList& list, const Grains& grains, const Boun
   const double range = list.reach + list.skin;
   const Grid grid = make_grid(grains, boundary, 2.0 * largest + range);
   fill_cells(list, grains, grid);
-  // A grain sees each other one through at most three images; one place more holds what is not kept.
-  list.near.resize(3 * grains.x.size() + boundary.planes.size() + 1);
-  for (Index a = 0; a < grains.free_count; ++a) {
-    Search search{.a = a, .range = range, .end = list.near.data()};
-    search_grains(list, grains, boundary, grid, search);
-    search_planes(grains, boundary, search);
-    sort_neighbours(list.near.data(), search.end);
-    for (const std::int64_t* n = list.near.data(); n != search.end; ++n) append(list, grains, a, *n);
-  }
+  list_pairs(list, grains, boundary, grid, range, team);
+  list.x = grains.x;
+  list.y = grains.y;
   ++list.rebuilds;
 }
 

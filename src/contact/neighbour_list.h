@@ -6,6 +6,7 @@
 
 #include "core/boundary.h"
 #include "core/grains.h"
+#include "core/thread_team.h"
 
 namespace talus {
 
@@ -24,12 +25,15 @@ struct NeighbourList {
   // The grains in the order of the cells of a grid, kept so that a rebuild allocates nothing.
   std::vector<Index> cell_start, cell_grain, cell_of_grain;
   std::vector<double> cell_x, cell_y, cell_radius;
-  std::vector<std::int64_t> near;     ///< the neighbours of one grain
+  std::vector<std::vector<std::int64_t>> found;  ///< by each member of a team: the neighbours of its grains
+  std::vector<std::size_t> first_found;          ///< of each free grain, and where those of the last one end
   std::vector<std::size_t> part_end;  ///< of detection by a team: where the contacts of each member end
 };
 
 /// Rebuilds the list if it does not cover pairs up to a gap of `reach` at the present positions. A list
-/// belongs to one world: it does not notice changed radii, planes or lengths.
-void update_neighbour_list(NeighbourList& list, const Grains& grains, const Boundary& boundary, double reach);
+/// belongs to one world: it does not notice changed radii, planes or lengths. Shared out to the team, if
+/// there is one; the result is the same.
+void update_neighbour_list(NeighbourList& list, const Grains& grains, const Boundary& boundary, double reach,
+                           ThreadTeam* team = nullptr);
 
 }  // namespace talus

@@ -64,4 +64,19 @@ void share_out(ThreadTeam* team, std::size_t count, const Do& what) {
   });
 }
 
+/// Does two things that do not depend on each other: on two members of the team at once, or one after the
+/// other where there are none. They must not throw.
+template <class First, class Second>
+void do_both(ThreadTeam* team, const First& first, const Second& second) {
+  if (team == nullptr || team->size() == 1) {
+    first();
+    second();
+    return;
+  }
+  team->run([&](int member) {
+    if (member == 0) first();
+    if (member == 1) second();
+  });
+}
+
 }  // namespace talus

@@ -20,18 +20,33 @@ void fill(std::vector<double>& values, Part part, double value) {
   std::fill(values.data() + part.first, values.data() + part.last, value);
 }
 
-/// Appends what planes have, which never move.
-void append_planes(const World& world, std::vector<double>& values) {
-  values.resize(values.size() + world.boundary.planes.size(), 0.0);
+/// With room for the planes, which never move.
+void size_bodies(const World& world, ContactProblem& problem) {
+  const auto grains = static_cast<std::size_t>(world.grains.count());
+  for (auto* field : {&problem.vx, &problem.vy, &problem.omega, &problem.inverse_mass,
+                      &problem.inverse_inertia, &problem.lever}) {
+    field->resize(grains);
+    field->resize(grains + world.boundary.planes.size(), 0.0);
+  }
 }
 
-/// What the diagonal of the Delassus operator is made of (T8).
-void take_bodies(const World& world, ContactProblem& problem) {
-  problem.inverse_mass = world.grains.inverse_mass;
-  problem.inverse_inertia = world.grains.inverse_inertia;
-  problem.lever = world.grains.radius;
-  for (auto* field : {&problem.inverse_mass, &problem.inverse_inertia, &problem.lever})
-    append_planes(world, *field);
+/// Free velocities, and what the diagonal of the Delassus operator is made of (T8).
+void take_grains(const World& world, double h, ContactProblem& problem) {
+  const Grains& grains = world.grains;
+  const Part all{0, static_cast<std::size_t>(grains.count())};
+  const Vec2 gravity = gravity_vector(world);
+  const Vec2 fall{h * gravity.x, h * gravity.y};
+  for (std::size_t i = all.first; i < all.last; ++i) {
+    const bool moves = grains.inverse_mass[i] > 0.0;
+    const double vx = grains.vx[i] + fall.x;  // (T4)
+    const double vy = grains.vy[i] + fall.y;
+    problem.vx[i] = moves ? vx : 0.0;
+    problem.vy[i] = moves ? vy : 0.0;
+  }
+  copy(grains.omega, all, problem.omega);
+  copy(grains.inverse_mass, all, problem.inverse_mass);
+  copy(grains.inverse_inertia, all, problem.inverse_inertia);
+  copy(grains.radius, all, problem.lever);
 }
 
 /// Not by assignments, which would allocate for each contact more than ever before.
@@ -140,29 +155,15 @@ void set_rolling_friction(const World& world, const Contacts& contacts, const Co
 
 }  // namespace
 
-void free_velocity(const World& world, double h, ContactProblem& problem) {
-  const Grains& grains = world.grains;
-  const auto count = static_cast<std::size_t>(grains.count());
-  const Vec2 gravity = gravity_vector(world);
-  const Vec2 fall{h * gravity.x, h * gravity.y};
-  problem.vx.resize(count);
-  problem.vy.resize(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    const bool moves = grains.inverse_mass[i] > 0.0;
-    const double vx = grains.vx[i] + fall.x;  // (T4)
-    const double vy = grains.vy[i] + fall.y;
-    problem.vx[i] = moves ? vx : 0.0;
-    problem.vy[i] = moves ? vy : 0.0;
-  }
-  problem.omega = grains.omega;
-  for (auto* field : {&problem.vx, &problem.vy, &problem.omega}) append_planes(world, *field);
-}
-
 void form_problem(const World& world, const Contacts& contacts, const ContactLawParameters& law, double h,
                   double tolerance, ContactProblem& problem, ThreadTeam* team) {
-  take_bodies(world, problem);
+  size_bodies(world, problem);
   size_contacts(contacts, law, problem);
-  const double noise = impulse_of_noise(contacts, h, tolerance);
+  double noise = 0.0;
+  // The sum of the noise is one chain of additions, in an order that must not depend on the team.
+  do_both(
+      team, [&] { noise = impulse_of_noise(contacts, h, tolerance); },
+      [&] { take_grains(world, h, problem); });
   share_out(team, contacts.a.size(), [&](std::size_t first, std::size_t last) {
     const Part part{first, last};
     take_local_frames(contacts, part, problem);

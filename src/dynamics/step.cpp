@@ -1,6 +1,8 @@
 #include "dynamics/step.h"
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <fmt/core.h>
@@ -32,21 +34,20 @@ class StageClock {
 };
 
 void advance(std::vector<double>& position, const std::vector<double>& velocity, double duration,
-             Index count) {
-  for (Index i = 0; i < count; ++i) position[i] += duration * velocity[i];
+             std::size_t first, std::size_t last) {
+  for (std::size_t i = first; i < last; ++i) position[i] += duration * velocity[i];
 }
 
 /// Whether all x are in [0, length), as they are in nearly every step.
-bool are_wrapped(const Grains& grains, double length) {
+bool are_wrapped(const Grains& grains, double length, std::size_t first, std::size_t last) {
   std::int64_t within = 0;  // as wide as a double, so that the comparisons vectorise
-  for (Index i = 0; i < grains.free_count; ++i)
+  for (std::size_t i = first; i < last; ++i)
     within += static_cast<std::int64_t>(grains.x[i] >= 0.0) & static_cast<std::int64_t>(grains.x[i] < length);
-  return within == grains.free_count;
+  return within == static_cast<std::int64_t>(last - first);
 }
 
 /// Brings x back to [0, length).
 void wrap(Grains& grains, double length) {
-  if (are_wrapped(grains, length)) return;
   for (Index i = 0; i < grains.free_count; ++i) {
     while (grains.x[i] < 0.0) {
       grains.x[i] += length;
@@ -59,19 +60,19 @@ void wrap(Grains& grains, double length) {
   }
 }
 
-/// Moves the free grains along their present velocities, (T2) and (T17); x stays in [0, length) of a periodic
-/// bed.
-void advance_positions(Grains& grains, const Boundary& boundary, double duration) {
-  advance(grains.x, grains.vx, duration, grains.free_count);
-  advance(grains.y, grains.vy, duration, grains.free_count);
-  advance(grains.angle, grains.omega, duration, grains.free_count);
-  if (boundary.periodic) wrap(grains, boundary.length);
+/// Moves some free grains along their present velocities, (T2) and (T17). Returns whether x is still in
+/// [0, length) of a periodic bed.
+bool advance_positions(Grains& grains, const Boundary& boundary, double duration, std::size_t first,
+                       std::size_t last) {
+  advance(grains.x, grains.vx, duration, first, last);
+  advance(grains.y, grains.vy, duration, first, last);
+  advance(grains.angle, grains.omega, duration, first, last);
+  return !boundary.periodic || are_wrapped(grains, boundary.length, first, last);
 }
 
 /// Where a grain has passed the periodic edge since `image` was taken, its contacts see each other from
 /// there: b touches a from x_b + shift L.
 void follow_images(const Grains& grains, const std::vector<Index>& image, Contacts& contacts) {
-  if (grains.image == image) return;
   const auto passed = [&grains, &image](Index i) { return grains.image[i] - image[i]; };
   for (Index c = 0; c < contacts.count(); ++c)
     if (contacts.b[c] < grains.count())  // a plane has no images
@@ -79,32 +80,82 @@ void follow_images(const Grains& grains, const std::vector<Index>& image, Contac
           static_cast<std::int8_t>(contacts.shift[c] + passed(contacts.b[c]) - passed(contacts.a[c]));
 }
 
-void copy_positions(const Grains& from, Grains& to) {
-  to.x = from.x;
-  to.y = from.y;
-  to.angle = from.angle;
-  to.image = from.image;
+/// Of some free grains; the others never move.
+void copy_positions(const Grains& from, std::size_t first, std::size_t last, Grains& to) {
+  const auto copy = [first, last](const auto& values, auto& copies) {
+    std::copy(values.data() + first, values.data() + last, copies.data() + first);
+  };
+  copy(from.x, to.x);
+  copy(from.y, to.y);
+  copy(from.angle, to.angle);
+  copy(from.image, to.image);
 }
 
-/// Largest of count values, not less than 0, in four strands: one would wait for each comparison.
+std::size_t free_grains(const World& world) { return static_cast<std::size_t>(world.grains.free_count); }
+
+/// To the midpoint (T2). `before` gets where the free grains were.
+void begin_motion(World& world, double h, ThreadTeam* team, Grains& before) {
+  const std::size_t count = free_grains(world);
+  for (auto* field : {&before.x, &before.y, &before.angle}) field->resize(count);
+  before.image.resize(count);
+  std::atomic<bool> within = true;
+  share_out(team, count, [&](std::size_t first, std::size_t last) {
+    copy_positions(world.grains, first, last, before);
+    if (!advance_positions(world.grains, world.boundary, 0.5 * h, first, last)) within = false;
+  });
+  if (!within) wrap(world.grains, world.boundary.length);
+}
+
+/// From the midpoint to the end of the step (T17), along the velocities of the solution. `image` is memory to
+/// work in.
+void end_motion(const ContactSolution& solution, World& world, double h, ThreadTeam* team,
+                std::vector<Index>& image) {
+  Grains& grains = world.grains;
+  std::atomic<bool> within = true;
+  share_out(team, free_grains(world), [&](std::size_t first, std::size_t last) {
+    std::copy(solution.vx.data() + first, solution.vx.data() + last, grains.vx.data() + first);  // (T6)
+    std::copy(solution.vy.data() + first, solution.vy.data() + last, grains.vy.data() + first);
+    std::copy(solution.omega.data() + first, solution.omega.data() + last, grains.omega.data() + first);
+    if (!advance_positions(grains, world.boundary, 0.5 * h, first, last)) within = false;
+  });
+  if (within) return;
+  image = grains.image;
+  wrap(grains, world.boundary.length);
+  follow_images(grains, image, world.contacts);
+}
+
+/// The largest of some values, not less than 0, in four strands: one would wait for each comparison.
 template <typename Value>
-double largest(Index count, Value value) {
+double largest(std::size_t first, std::size_t last, const Value& value) {
   std::array<double, 4> strand{};
-  Index i = 0;
-  for (; i + 4 <= count; i += 4)
-    for (Index k = 0; k < 4; ++k) strand[k] = std::max(strand[k], value(i + k));
-  for (; i < count; ++i) strand[0] = std::max(strand[0], value(i));
+  std::size_t i = first;
+  for (; i + 4 <= last; i += 4)
+    for (std::size_t k = 0; k < 4; ++k) strand[k] = std::max(strand[k], value(i + k));
+  for (; i < last; ++i) strand[0] = std::max(strand[0], value(i));
   return *std::max_element(strand.begin(), strand.end());
 }
 
-double largest_velocity(const Grains& grains) {
-  return std::sqrt(largest(grains.free_count, [&grains](Index i) {
+template <typename Value>
+double largest(ThreadTeam* team, std::size_t count, const Value& value) {
+  std::atomic<double> of_all = 0.0;
+  share_out(team, count, [&](std::size_t first, std::size_t last) {
+    const double own = largest(first, last, value);
+    double known = of_all;
+    while (own > known && !of_all.compare_exchange_weak(known, own)) {
+    }
+  });
+  return of_all;
+}
+
+double largest_velocity(const Grains& grains, ThreadTeam* team) {
+  return std::sqrt(largest(team, static_cast<std::size_t>(grains.free_count), [&grains](std::size_t i) {
     return grains.vx[i] * grains.vx[i] + grains.vy[i] * grains.vy[i];
   }));
 }
 
 double largest_overlap(const Contacts& contacts) {
-  return largest(contacts.count(), [&contacts](Index c) { return -contacts.gap[c]; });
+  return largest(std::size_t{0}, contacts.gap.size(),
+                 [&contacts](std::size_t c) { return -contacts.gap[c]; });
 }
 
 /// The first guess of the solve: the forces that persist from the last step, times h (T18).
@@ -137,25 +188,26 @@ void store_impulses(const ContactProblem& problem, const ContactSolution& soluti
     contacts.moment[c] = rolling_length(problem, static_cast<Index>(c)) * solution.pr[c] / h;  // (T41)
 }
 
-void set_velocities(const ContactSolution& solution, Grains& grains) {
-  std::copy_n(solution.vx.begin(), grains.free_count, grains.vx.begin());
-  std::copy_n(solution.vy.begin(), grains.free_count, grains.vy.begin());
-  std::copy_n(solution.omega.begin(), grains.free_count, grains.omega.begin());
-}
-
-bool finite(const std::vector<double>& values) {
+bool finite(const std::vector<double>& values, std::size_t first, std::size_t last) {
   std::int64_t count = 0;  // as wide as a double, so that the comparisons vectorise
-  for (double value : values) count += std::fabs(value) <= std::numeric_limits<double>::max() ? 1 : 0;
-  return count == static_cast<std::int64_t>(values.size());
+  for (std::size_t i = first; i < last; ++i)
+    count += std::fabs(values[i]) <= std::numeric_limits<double>::max() ? 1 : 0;
+  return count == static_cast<std::int64_t>(last - first);
 }
 
-bool finite(const ContactSolution& solution) {
-  return finite(solution.vx) && finite(solution.vy) && finite(solution.omega);
+bool finite(const ContactSolution& solution, ThreadTeam* team) {
+  std::atomic<bool> all = true;
+  share_out(team, solution.vx.size(), [&](std::size_t first, std::size_t last) {
+    for (const auto* field : {&solution.vx, &solution.vy, &solution.omega})
+      if (!finite(*field, first, last)) all = false;
+  });
+  return all;
 }
 
 /// Two grains can approach by twice the largest velocity, to which gravity adds g h within the step; m.
-double detection_margin(const World& world, const StepSettings& settings) {
-  return settings.margin + 2.0 * settings.h * (largest_velocity(world.grains) + world.gravity * settings.h);
+double detection_margin(const World& world, const StepSettings& settings, ThreadTeam* team) {
+  return settings.margin +
+         2.0 * settings.h * (largest_velocity(world.grains, team) + world.gravity * settings.h);
 }
 
 }  // namespace
@@ -166,18 +218,16 @@ StageSeconds begin_step(World& world, const StepSettings& settings, StepWorkspac
   const double h = settings.h;
   Grains& grains = world.grains;
   Contacts& contacts = workspace.contacts;
-  const double margin = detection_margin(world, settings);
   ThreadTeam* const team = team_at_hand(workspace.problem, settings.solver, workspace.solver);
-  copy_positions(grains, workspace.before);
-  advance_positions(grains, world.boundary, 0.5 * h);  // the midpoint (T2)
+  const double margin = detection_margin(world, settings, team);
+  begin_motion(world, h, team, workspace.before);
   clock.end_of(Stage::move);
   detect_contacts(workspace.neighbours, grains, world.boundary, margin, contacts, team);  // local frames (T3)
   clock.end_of(Stage::detect);
   contacts.moment.assign(settings.law.rolling_friction != 0.0 ? contacts.a.size() : 0, 0.0);
-  recall_forces(world.contacts, contacts);  // (T18)
+  recall_forces(world.contacts, contacts, team);  // (T18)
   clock.end_of(Stage::recall);
-  free_velocity(world, h, workspace.problem);  // (T4)
-  // (T5), (T8), (T11), (T12)
+  // (T4), (T5), (T8), (T11), (T12)
   form_problem(world, contacts, settings.law, h, settings.solver.tolerance, workspace.problem, team);
   guess_impulses(contacts, h, workspace.problem, team, workspace.solution);
   clock.end_of(Stage::assemble);
@@ -189,26 +239,23 @@ StepReport step(World& world, const StepSettings& settings, StepWorkspace& works
   report.seconds = begin_step(world, settings, workspace);
   StageClock clock(report.seconds);
   const double h = settings.h;
-  Grains& grains = world.grains;
   report.solver = solve(workspace.problem, settings.solver, workspace.solver, workspace.solution);  // (T7)
   clock.end_of(Stage::solve);
-  if (!finite(workspace.solution)) {
-    copy_positions(workspace.before, grains);
+  ThreadTeam* const team = team_at_hand(workspace.problem, settings.solver, workspace.solver);
+  if (!finite(workspace.solution, team)) {
+    copy_positions(workspace.before, 0, free_grains(world), world.grains);
     throw Error(ExitCode::internal, fmt::format("step {}: a velocity is not finite", world.step + 1));
   }
-  ThreadTeam* const team = team_at_hand(workspace.problem, settings.solver, workspace.solver);
   store_impulses(workspace.problem, workspace.solution, h, team, workspace.contacts);  // (T18)
   std::swap(world.contacts, workspace.contacts);
-  set_velocities(workspace.solution, grains);  // (T6)
   clock.end_of(Stage::store);
-  workspace.image = grains.image;
-  advance_positions(grains, world.boundary, 0.5 * h);  // the end of the step (T17)
-  follow_images(grains, workspace.image, world.contacts);
+  end_motion(workspace.solution, world, h, team, workspace.image);
   ++world.step;
   world.time += h;
   report.contacts = world.contacts.count();
-  report.largest_overlap = largest_overlap(world.contacts);
-  report.rms_velocity = rms_velocity(grains);
+  do_both(
+      team, [&] { report.largest_overlap = largest_overlap(world.contacts); },
+      [&] { report.rms_velocity = rms_velocity(world.grains); });
   clock.end_of(Stage::move);
   return report;
 }

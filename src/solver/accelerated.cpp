@@ -122,6 +122,18 @@ struct TeamMember {
     return !w.failure;
   }
 
+  bool order_contacts() {
+    find_parts(problem, at.moves, at.swept, member, size, at.order);
+    wait_for_all();
+    if (!by_first([this] { open_order(problem, at.moves, at.swept, at.order); })) return false;
+    order_parts(problem, at.moves, at.swept, member, size, at.order);
+    wait_for_all();
+    return by_first([this] {
+      end_order_of_contacts(problem, at);
+      w.sums.assign(static_cast<std::size_t>(at.order.part_count()), {});
+    });
+  }
+
   bool sweep_more() {
     add_pressed(problem, first_block, last_block, at);
     return load_sweeps();
@@ -129,16 +141,8 @@ struct TeamMember {
 
   bool load_sweeps() {
     wait_for_all();
-    if (!by_first([this] { begin_order_of_contacts(problem, at); })) return false;
-    if (at.have_new_order) {
-      order_contacts(problem, member, size, at);
-      wait_for_all();
-      const bool is_ordered = by_first([this] {
-        end_order_of_contacts(problem, at);
-        w.sums.assign(static_cast<std::size_t>(at.order.part_count()), {});
-      });
-      if (!is_ordered) return false;
-    }
+    if (!by_first([this] { begin_order_of_contacts(problem, size, at); })) return false;
+    if (at.have_new_order && !order_contacts()) return false;
     first_row = part_begin(at.order.row_count, member, size);
     last_row = part_begin(at.order.row_count, member + 1, size);
     clear_rows(first_row, last_row, at);
@@ -275,7 +279,9 @@ ThreadTeam* team_at_hand(const ContactProblem& problem, int threads, Accelerated
 AcceleratedOutcome solve_accelerated(const ContactProblem& problem, double tolerance, int max_iterations,
                                      int threads, AcceleratedWorkspace& workspace,
                                      ContactSolution& solution) {
-  prepare(problem, solution, workspace.linearisation);
+  ThreadTeam* const useful = team_for(problem, workspace, threads);
+  ThreadTeam* const team = useful != nullptr && workspace.choice.in_team() ? useful : nullptr;
+  prepare(problem, solution, team, workspace.linearisation);
   for (auto* field : {&solution.vx, &solution.vy, &solution.omega})
     field->resize(static_cast<std::size_t>(problem.body_count()));
   workspace.mean.pn.resize(solution.pn.size());
@@ -283,20 +289,19 @@ AcceleratedOutcome solve_accelerated(const ContactProblem& problem, double toler
   workspace.mean.pr.resize(solution.pr.size());
   const auto begin = std::chrono::steady_clock::now();
   AcceleratedOutcome outcome;
-  const auto take_part = [&](ThreadTeam* team, int member) {
+  auto take_part = [&](int member) {
     TeamMember part(problem, solution, workspace, team, member);
     const AcceleratedOutcome mine = solve_part(part, tolerance, max_iterations);
     part.unload();
     if (member == 0) outcome = mine;
   };
-  ThreadTeam* const team = team_for(problem, workspace, threads);
-  if (team != nullptr && workspace.choice.in_team())
-    team->run([&](int member) { take_part(team, member); });
+  if (team != nullptr)
+    team->run(take_part);
   else
-    take_part(nullptr, 0);
+    take_part(0);
   if (workspace.failure) std::rethrow_exception(std::exchange(workspace.failure, nullptr));
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
-  if (team != nullptr)
+  if (useful != nullptr)
     workspace.choice.add(taken.count(), static_cast<double>(problem.contact_count()) *
                                             (outcome.iterations + iterations_for_the_rest));
   return outcome;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "solver/contact_law.h"
 
@@ -34,45 +35,69 @@ Slot slot_of(const Linearisation& w, std::size_t c) {
   return {w.order.slot[c] / lane_count, w.order.slot[c] % lane_count};
 }
 
-bool is_linked(const ContactProblem& problem, const ContactProblem& linked) {
-  return problem.a == linked.a && problem.b == linked.b && problem.mu == linked.mu &&
-         problem.inverse_mass == linked.inverse_mass && problem.inverse_inertia == linked.inverse_inertia &&
-         problem.lever == linked.lever && problem.rolling_friction == linked.rolling_friction;
+/// Brings `linked` up to the problem; returns whether it was so before.
+bool follow_contacts(const ContactProblem& problem, ContactProblem& linked) {
+  const bool same = problem.a == linked.a && problem.b == linked.b && problem.mu == linked.mu &&
+                    problem.rolling_friction == linked.rolling_friction;
+  if (same) return true;
+  linked.a = problem.a;
+  linked.b = problem.b;
+  linked.mu = problem.mu;
+  linked.rolling_friction = problem.rolling_friction;
+  return false;
 }
 
-/// The contacts of each body: as a they are consecutive, as b they are listed.
-void link(const ContactProblem& problem, Linearisation& w) {
+bool follow_bodies(const ContactProblem& problem, ContactProblem& linked) {
+  const bool same = problem.inverse_mass == linked.inverse_mass &&
+                    problem.inverse_inertia == linked.inverse_inertia && problem.lever == linked.lever;
+  if (same) return true;
+  linked.inverse_mass = problem.inverse_mass;
+  linked.inverse_inertia = problem.inverse_inertia;
+  linked.lever = problem.lever;
+  return false;
+}
+
+/// The contacts of each body: as a they are consecutive, as b they are listed. Each member of the team sees
+/// to some of the bodies, and looks at all contacts.
+void link(const ContactProblem& problem, Linearisation& w, ThreadTeam* team) {
   const auto bodies = static_cast<std::size_t>(problem.body_count());
-  w.are_new = !w.are_loaded || w.first_a.size() != bodies + 1 || !is_linked(problem, w.linked);
+  const bool were_loaded = std::exchange(w.are_loaded, false);  // not while memory may be missing
+  const bool same_contacts = follow_contacts(problem, w.linked);
+  const bool same_bodies = follow_bodies(problem, w.linked);
+  w.are_loaded = were_loaded && w.first_a.size() == bodies + 1 && same_contacts && same_bodies;
+  w.are_new = !w.are_loaded;
   if (!w.are_new) return;
-  w.are_loaded = false;
   w.ordered_swept.clear();
   w.moves.resize(bodies);
-  for (std::size_t i = 0; i < bodies; ++i)
-    w.moves[i] = problem.inverse_mass[i] > 0.0 || problem.inverse_inertia[i] > 0.0 ? 1 : 0;
-  w.first_a.assign(bodies + 1, 0);
-  w.first_side.assign(bodies + 1, 0);
-  for (std::size_t c = 0; c < problem.a.size(); ++c) {
-    ++w.first_a[problem.a[c] + 1];
-    ++w.first_side[problem.b[c] + 1];
-  }
+  for (auto* field : {&w.first_a, &w.first_side, &w.first_own_side}) field->assign(bodies + 1, 0);
+  share_out(team, bodies, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i)
+      w.moves[i] = problem.inverse_mass[i] > 0.0 || problem.inverse_inertia[i] > 0.0 ? 1 : 0;
+    for (const Index a : problem.a)
+      if (first <= static_cast<std::size_t>(a) && static_cast<std::size_t>(a) < last) ++w.first_a[a + 1];
+    for (const Index b : problem.b)
+      if (first <= static_cast<std::size_t>(b) && static_cast<std::size_t>(b) < last) ++w.first_own_side[b];
+  });
   for (std::size_t i = 0; i < bodies; ++i) {
-    const Index sides = w.first_side[i + 1] + w.first_a[i + 1];
+    const Index sides = w.first_own_side[i] + w.first_a[i + 1];
+    w.first_own_side[i] += w.first_side[i];
     w.first_a[i + 1] += w.first_a[i];
     w.first_side[i + 1] = w.first_side[i] + (sides + sides_at_once - 1) / sides_at_once * sides_at_once;
   }
-  w.sides.assign(static_cast<std::size_t>(w.first_side[bodies]),
-                 2 * static_cast<std::uint32_t>(problem.a.size()));
-  w.next_side = w.first_side;
-  for (std::size_t c = 0; c < problem.b.size(); ++c)
-    w.sides[w.next_side[problem.b[c]]++] = 2 * static_cast<std::uint32_t>(c);
-  for (std::size_t c = 0; c < problem.a.size(); ++c)
-    w.sides[w.next_side[problem.a[c]]++] = 2 * static_cast<std::uint32_t>(c) + 1;
-  for (auto field : {&ContactProblem::inverse_mass, &ContactProblem::inverse_inertia, &ContactProblem::lever,
-                     &ContactProblem::mu, &ContactProblem::rolling_friction})
-    w.linked.*field = problem.*field;
-  w.linked.b = problem.b;
-  w.linked.a = problem.a;
+  w.sides.resize(static_cast<std::size_t>(w.first_side[bodies]));
+  w.next_side.resize(bodies);
+  share_out(team, bodies, [&](std::size_t first, std::size_t last) {
+    std::copy(w.first_side.data() + first, w.first_side.data() + last, w.next_side.data() + first);
+    for (std::size_t c = 0; c < problem.b.size(); ++c) {
+      const auto b = static_cast<std::size_t>(problem.b[c]);
+      if (first <= b && b < last) w.sides[w.next_side[b]++] = 2 * static_cast<std::uint32_t>(c);
+    }
+    for (std::size_t i = first; i < last; ++i) {
+      std::uint32_t* side = w.sides.data() + w.first_own_side[i];
+      for (Index c = w.first_a[i]; c < w.first_a[i + 1]; ++c) *side++ = 2 * static_cast<std::uint32_t>(c) + 1;
+      std::fill(side, w.sides.data() + w.first_side[i + 1], 2 * static_cast<std::uint32_t>(problem.a.size()));
+    }
+  });
 }
 
 /// In four strands: one would wait for each addition.
@@ -85,21 +110,39 @@ double sum_of_squares(const std::vector<double>& values) {
   return (strand[0] + strand[1]) + (strand[2] + strand[3]);
 }
 
-/// Units in which neither impulses nor velocities are large: single precision has room below one, to 1e-38,
-/// not above.
-void choose_units(const ContactProblem& problem, const ContactSolution& guess, Linearisation& w) {
+/// The mean body of those that move.
+void take_mean_body(const ContactProblem& problem, Linearisation& w) {
   double inverse_mass = 0.0;
-  int moving = 0;
+  w.moving = 0;
   for (double each : problem.inverse_mass) {
     inverse_mass += each;
-    moving += each > 0.0 ? 1 : 0;
+    w.moving += each > 0.0 ? 1 : 0;
   }
-  w.mobility_unit = moving > 0 ? inverse_mass / moving : 1.0;
-  const double velocity = std::sqrt(sum_of_squares(problem.vx) + sum_of_squares(problem.vy) +
-                                    sum_of_squares(problem.cn) + sum_of_squares(problem.ct));
-  const double impulse = std::sqrt((sum_of_squares(guess.pn) + sum_of_squares(guess.pt)) /
-                                   static_cast<double>(std::max<std::size_t>(1, guess.pn.size())));
-  const double largest = std::max(impulse, velocity / w.mobility_unit / std::sqrt(std::max(1, moving)));
+  w.mobility_unit = w.moving > 0 ? inverse_mass / w.moving : 1.0;
+}
+
+/// Units in which neither impulses nor velocities are large: single precision has room below one, to 1e-38,
+/// not above.
+void choose_units(const ContactProblem& problem, const ContactSolution& guess, ThreadTeam* team,
+                  Linearisation& w) {
+  double vx = 0.0, vy = 0.0, cn = 0.0, ct = 0.0, pn = 0.0, pt = 0.0;
+  do_both(
+      team,
+      [&] {
+        if (w.are_new) take_mean_body(problem, w);
+        vx = sum_of_squares(problem.vx);
+        pn = sum_of_squares(guess.pn);
+        pt = sum_of_squares(guess.pt);
+      },
+      [&] {
+        vy = sum_of_squares(problem.vy);
+        cn = sum_of_squares(problem.cn);
+        ct = sum_of_squares(problem.ct);
+      });
+  const double velocity = std::sqrt(vx + vy + cn + ct);
+  const double impulse =
+      std::sqrt((pn + pt) / static_cast<double>(std::max<std::size_t>(1, guess.pn.size())));
+  const double largest = std::max(impulse, velocity / w.mobility_unit / std::sqrt(std::max(1, w.moving)));
   w.impulse_unit = largest > 0.0 ? largest : 1.0;
   w.velocity_unit = w.impulse_unit * w.mobility_unit;
 }
@@ -245,7 +288,8 @@ void clear_groups(Index bodies, Linearisation& w) {
 
 }  // namespace
 
-void prepare(const ContactProblem& problem, const ContactSolution& guess, Linearisation& w) {
+void prepare(const ContactProblem& problem, const ContactSolution& guess, ThreadTeam* team,
+             Linearisation& w) {
   const auto contacts = static_cast<std::size_t>(problem.contact_count());
   w.exact_velocity.resize(static_cast<std::size_t>(problem.body_count()));
   w.exact_force.resize(contacts + 1);
@@ -254,8 +298,8 @@ void prepare(const ContactProblem& problem, const ContactSolution& guess, Linear
   w.swept.assign(contacts, 0);
   w.sums.resize((contacts + contacts_per_block - 1) / contacts_per_block);
   size_rolling(problem, w.rolling);
-  link(problem, w);
-  choose_units(problem, guess, w);
+  link(problem, w, team);
+  choose_units(problem, guess, team, w);
 }
 
 void load_contacts(const ContactProblem& problem, const ContactSolution& guess, Index first_block,
@@ -305,21 +349,17 @@ void add_pressed(const ContactProblem& problem, Index first_block, Index last_bl
     if (w.un[c] < 0.0) w.swept[c] = 1;
 }
 
-void begin_order_of_contacts(const ContactProblem& problem, Linearisation& w) {
+void begin_order_of_contacts(const ContactProblem& problem, int size, Linearisation& w) {
   const auto chosen = std::count(w.swept.begin(), w.swept.end(), 1);
   if (static_cast<double>(chosen) > nearly_all * problem.contact_count()) std::ranges::fill(w.swept, 1);
   w.have_new_order = w.ordered_swept.empty() || w.ordered_swept != w.swept;
   if (!w.have_new_order) return;
   w.ordered_swept.clear();
-  begin_order(problem, w.first_a, w.moves, w.swept, w.order);
-}
-
-void order_contacts(const ContactProblem& problem, int member, int size, Linearisation& w) {
-  order_parts(problem, w.moves, w.swept, member, size, w.order);
+  begin_order(problem, w.first_a, size, w.order);
 }
 
 void end_order_of_contacts(const ContactProblem& problem, Linearisation& w) {
-  end_order(w.swept, w.order);
+  end_order(w.order);
   size_groups(w);
   clear_groups(problem.body_count(), w);
   for (auto* field : {&w.velocity, &w.before}) field->resize(static_cast<std::size_t>(w.order.row_count));
@@ -327,6 +367,8 @@ void end_order_of_contacts(const ContactProblem& problem, Linearisation& w) {
 }
 
 void load_groups(const ContactProblem& problem, Index first_block, Index last_block, Linearisation& w) {
+  if (w.have_new_order)
+    place_slots(w.swept, block_begin(problem, first_block), block_begin(problem, last_block), w.order);
   const InverseUnits units = inverse_units(w);
   for_each_swept(problem, first_block, last_block, w, [&](std::size_t c) {
     load_group(problem, c, units, w);

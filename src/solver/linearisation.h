@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/thread_team.h"
 #include "solver/problem.h"
 #include "solver/residual.h"
 #include "solver/rolling_contacts.h"
@@ -31,9 +32,10 @@ struct Linearisation {
   std::vector<ExactRow> exact_velocity;
   std::vector<BlockSums> sums;
   /// Body i is the first body of contacts first_a[i] ... first_a[i + 1] - 1. All its contacts c are listed in
-  /// entries first_side[i] ... first_side[i + 1] - 1 of sides: as 2 c where it is the second body, then as
-  /// 2 c + 1 where it is the first, and up to a multiple of sides_at_once the contact after the last.
-  std::vector<Index> first_a, first_side, next_side;
+  /// entries first_side[i] ... first_side[i + 1] - 1 of sides: as 2 c where it is the second body, then, from
+  /// first_own_side[i] on, as 2 c + 1 where it is the first, and up to a multiple of sides_at_once the
+  /// contact after the last.
+  std::vector<Index> first_a, first_side, first_own_side, next_side;
   std::vector<std::uint32_t> sides;
   std::vector<std::uint8_t> moves;  ///< whether anything moves the body
   std::vector<std::uint8_t> swept;  ///< whether the contact takes part in the sweeps
@@ -55,10 +57,11 @@ struct Linearisation {
   bool have_new_order = true;  ///< nothing that was loaded into groups can stay
   /// Units of the single precision: impulse (N s), and velocity (m/s) that it gives a mean body.
   double impulse_unit = 1.0, velocity_unit = 1.0, mobility_unit = 1.0;
+  Index moving = 0;  ///< bodies with a mass
 };
 
-/// Sizes the arrays, links bodies to their contacts, and chooses the units.
-void prepare(const ContactProblem& problem, const ContactSolution& guess, Linearisation& w);
+/// Sizes the arrays, links bodies to their contacts, and chooses the units. The team helps, if there is one.
+void prepare(const ContactProblem& problem, const ContactSolution& guess, ThreadTeam* team, Linearisation& w);
 
 // What follows is shared out, but for the begin and the end of an order: each member of a team takes some
 // blocks of contacts or some bodies, and waits for the others before the next part.
@@ -87,9 +90,8 @@ void choose_swept(const ContactProblem& problem, Index first_block, Index last_b
 /// Adds the pressed contacts.
 void add_pressed(const ContactProblem& problem, Index first_block, Index last_block, Linearisation& w);
 /// The contacts to be swept are put in their order, unless they are: then there is no new order, and nothing
-/// to go on with. One member begins and ends this for all.
-void begin_order_of_contacts(const ContactProblem& problem, Linearisation& w);
-void order_contacts(const ContactProblem& problem, int member, int size, Linearisation& w);
+/// to go on with but to load groups. One member begins this for all, and ends it.
+void begin_order_of_contacts(const ContactProblem& problem, int size, Linearisation& w);
 void end_order_of_contacts(const ContactProblem& problem, Linearisation& w);
 /// Loads what is swept, around P0, without increments.
 void load_groups(const ContactProblem& problem, Index first_block, Index last_block, Linearisation& w);

@@ -5,11 +5,14 @@
 #include <cstdlib>
 #include <numeric>
 
+#include "core/thread_team.h"
+
 namespace talus {
 namespace {
 
 constexpr Index lanes = lane_count * groups_abreast;
-constexpr Index most_domains = 64;
+constexpr Index most_domains = SweepOrder::most_domains;
+constexpr Index of_two_domains = -1;  // in place of the part of a contact, before that is known
 
 /// Few, so that waves run through the bed in one sweep; so many that a phase has work for several threads.
 Index domains_for(Index contacts) {
@@ -30,31 +33,28 @@ void share_bodies(const std::vector<Index>& first_a, long long contacts, Index d
   }
 }
 
-/// The part of each contact.
-void share_out(const ContactProblem& problem, const std::vector<Index>& first_a,
-               const std::vector<std::uint8_t>& moves, const std::vector<std::uint8_t>& swept, Index domains,
-               SweepOrder& order) {
-  const auto contacts = static_cast<std::size_t>(problem.contact_count());
-  const Index even_domains = (domains + 1) / 2;
-  share_bodies(first_a, problem.contact_count(), domains, order);
-  const auto part_of = [&](Index domain) { return domain / 2 + (domain % 2 == 0 ? 0 : even_domains); };
-  order.part.resize(contacts);
-  order.owner.assign(static_cast<std::size_t>(problem.body_count()), -1);
-  for (std::size_t c = 0; c < contacts; ++c) {
-    if (!swept[c]) continue;
-    const Index a = problem.a[c], b = problem.b[c];
-    const Index in_a = order.domain[moves[a] ? a : b], in_b = order.domain[moves[b] ? b : a];
-    order.part[c] = part_of(in_a);
-    if (in_a == in_b) continue;
-    order.part[c] = domains;
-    if (std::abs(in_a - in_b) != 1) continue;
-    // A body of an odd domain meets one even neighbour only, in its phase.
-    const Index even = in_a % 2 == 0 ? in_a : in_b;
-    Index& owner = order.owner[in_a % 2 == 0 ? b : a];
-    if (owner < 0) owner = even;
-    if (owner == even) order.part[c] = part_of(even);
-  }
-  order.phase_begin = {0, even_domains, domains, domains + 1};
+/// Even domains come first.
+Index part_of(Index domain, Index domains) { return domain / 2 + (domain % 2 == 0 ? 0 : (domains + 1) / 2); }
+
+/// The domains of the two bodies of a contact: a body that does not move is in that of the other.
+struct TwoDomains {
+  Index a, b;
+};
+TwoDomains domains_of(const ContactProblem& problem, const std::vector<std::uint8_t>& moves, std::size_t c,
+                      const SweepOrder& order) {
+  const Index a = problem.a[c], b = problem.b[c];
+  return {order.domain[moves[a] ? a : b], order.domain[moves[b] ? b : a]};
+}
+
+/// The part of a contact between two domains, of which earlier contacts have not left it another one.
+Index part_between(const ContactProblem& problem, std::size_t c, TwoDomains in, Index domains,
+                   SweepOrder& order) {
+  if (std::abs(in.a - in.b) != 1) return domains;
+  // A body of an odd domain meets one even neighbour only, in its phase.
+  const Index even = in.a % 2 == 0 ? in.a : in.b;
+  Index& owner = order.owner[in.a % 2 == 0 ? problem.b[c] : problem.a[c]];
+  if (owner < 0) owner = even;
+  return owner == even ? part_of(even, domains) : domains;
 }
 
 /// The first place from `place` on that has room; one that has none points to a later one.
@@ -71,48 +71,66 @@ Index first_with_room(std::vector<Index>& room, Index place) {
 
 /// Gives each part as many places for groups side by side as it has contacts, and one more, which stays
 /// empty.
-void make_places(const std::vector<std::uint8_t>& swept, Index parts, SweepOrder& order) {
+void make_places(std::size_t contacts, Index parts, SweepOrder& order) {
   order.first_place.assign(static_cast<std::size_t>(parts) + 1, 0);
-  for (std::size_t c = 0; c < swept.size(); ++c)
-    if (swept[c]) ++order.first_place[order.part[c] + 1];
-  for (Index part = 0; part < parts; ++part) order.first_place[part + 1] += order.first_place[part] + 1;
+  for (Index part = 0; part < parts; ++part) {
+    Index places = 1;
+    for (const auto& share : order.shares) places += share[part];
+    order.first_place[part + 1] = order.first_place[part] + places;
+  }
   const auto places = static_cast<std::size_t>(order.first_place[parts]);
-  order.room.reserve(swept.size() + static_cast<std::size_t>(parts));
-  order.fill.reserve(swept.size() + static_cast<std::size_t>(parts));
+  order.room.reserve(contacts + static_cast<std::size_t>(parts));
+  order.fill.reserve(contacts + static_cast<std::size_t>(parts));
   order.room.resize(places);
   std::iota(order.room.begin(), order.room.end(), 0);
   order.fill.assign(places, 0);
 }
 
-/// Leaves out the places that stay empty: the last ones of each part.
-void close_ranks(SweepOrder& order) {
-  const auto parts = static_cast<Index>(order.first_place.size()) - 1;
-  order.part_begin.assign(1, 0);
-  for (Index part = 0; part < parts; ++part) {
-    const auto begin = order.fill.begin() + order.first_place[part];
-    const auto end = std::find(begin, order.fill.begin() + order.first_place[part + 1], 0);
-    order.part_begin.push_back(order.part_begin.back() + groups_abreast * static_cast<Index>(end - begin));
-  }
-}
-
 }  // namespace
 
-void begin_order(const ContactProblem& problem, const std::vector<Index>& first_a,
-                 const std::vector<std::uint8_t>& moves, const std::vector<std::uint8_t>& swept,
+void begin_order(const ContactProblem& problem, const std::vector<Index>& first_a, int size,
                  SweepOrder& order) {
-  const Index domains = domains_for(problem.contact_count()), parts = domains + 1;
-  for (auto* field : {&order.slot, &order.row_a, &order.row_b}) field->resize(swept.size());
-  share_out(problem, first_a, moves, swept, domains, order);
-  make_places(swept, parts, order);
+  const auto bodies = static_cast<std::size_t>(problem.body_count());
+  const Index domains = domains_for(problem.contact_count());
+  for (auto* field : {&order.slot, &order.row_a, &order.row_b, &order.part}) field->resize(problem.a.size());
+  order.shares.resize(static_cast<std::size_t>(size));
+  share_bodies(first_a, problem.contact_count(), domains, order);
+  order.phase_begin = {0, (domains + 1) / 2, domains, domains + 1};
+  order.owner.assign(bodies, -1);
   // Places are counted from the first of a part: a body that the part has not met waits for none.
-  for (auto& next : order.next_place) next.assign(static_cast<std::size_t>(problem.body_count()), 0);
-  order.row_count = SweepOrder::still_row(problem.body_count(), parts, 0, 0);
+  for (auto& next : order.next_place) next.assign(bodies, 0);
+  order.row_count = SweepOrder::still_row(problem.body_count(), domains + 1, 0, 0);
+}
+
+void find_parts(const ContactProblem& problem, const std::vector<std::uint8_t>& moves,
+                const std::vector<std::uint8_t>& swept, int member, int size, SweepOrder& order) {
+  const Index domains = order.phase_begin[2];
+  std::array<Index, SweepOrder::most_parts> share{};
+  const auto last = static_cast<std::size_t>(part_begin(problem.contact_count(), member + 1, size));
+  for (auto c = static_cast<std::size_t>(part_begin(problem.contact_count(), member, size)); c < last; ++c) {
+    if (!swept[c]) continue;
+    const TwoDomains in = domains_of(problem, moves, c, order);
+    order.part[c] = in.a == in.b ? part_of(in.a, domains) : of_two_domains;
+    if (in.a == in.b) ++share[order.part[c]];
+  }
+  order.shares[static_cast<std::size_t>(member)] = share;
+}
+
+void open_order(const ContactProblem& problem, const std::vector<std::uint8_t>& moves,
+                const std::vector<std::uint8_t>& swept, SweepOrder& order) {
+  const Index domains = order.phase_begin[2];
+  for (std::size_t c = 0; c < swept.size(); ++c) {
+    if (order.part[c] != of_two_domains || !swept[c]) continue;
+    order.part[c] = part_between(problem, c, domains_of(problem, moves, c, order), domains, order);
+    ++order.shares.front()[order.part[c]];
+  }
+  make_places(swept.size(), domains + 1, order);
 }
 
 void order_parts(const ContactProblem& problem, const std::vector<std::uint8_t>& moves,
                  const std::vector<std::uint8_t>& swept, int member, int size, SweepOrder& order) {
   const Index bodies = problem.body_count();
-  std::array<bool, most_domains + 1> is_mine{};
+  std::array<bool, SweepOrder::most_parts> is_mine{};
   for (std::size_t part = 0; part < is_mine.size(); ++part)
     is_mine[part] = static_cast<int>(part) % size == member;
   for (std::size_t c = 0; c < swept.size(); ++c) {
@@ -134,9 +152,20 @@ void order_parts(const ContactProblem& problem, const std::vector<std::uint8_t>&
   }
 }
 
-void end_order(const std::vector<std::uint8_t>& swept, SweepOrder& order) {
-  close_ranks(order);
-  for (std::size_t c = 0; c < swept.size(); ++c)
+void end_order(SweepOrder& order) {
+  const auto parts = static_cast<Index>(order.first_place.size()) - 1;
+  // The places that stay empty, the last ones of each part, are left out.
+  order.part_begin.assign(1, 0);
+  for (Index part = 0; part < parts; ++part) {
+    const auto begin = order.fill.begin() + order.first_place[part];
+    const auto end = std::find(begin, order.fill.begin() + order.first_place[part + 1], 0);
+    order.part_begin.push_back(order.part_begin.back() + groups_abreast * static_cast<Index>(end - begin));
+  }
+}
+
+void place_slots(const std::vector<std::uint8_t>& swept, std::size_t first, std::size_t last,
+                 SweepOrder& order) {
+  for (std::size_t c = first; c < last; ++c)
     if (swept[c]) order.slot[c] += lane_count * order.part_begin[order.part[c]];
 }
 

@@ -20,6 +20,7 @@ namespace talus {
 /// All of this follows from the problem alone, so that the bits of a result do not depend on threads.
 struct SweepOrder {
   static constexpr int phases = 3;
+  static constexpr Index most_domains = 64, most_parts = most_domains + 1;
   std::vector<Index> slot;          ///< of a contact: lane_count * group + lane
   std::vector<Index> row_a, row_b;  ///< rows of its bodies
   std::vector<Index> part_begin;    ///< the groups of part k: part_begin[k] ... part_begin[k + 1] - 1
@@ -36,24 +37,34 @@ struct SweepOrder {
 
   // Memory to work in: places are groups side by side before those that stay empty are left out.
   std::vector<Index> domain, part, owner, first_place, room;
+  std::vector<std::array<Index, most_parts>> shares;  ///< contacts of each part that a member has found
   std::vector<std::uint8_t> fill;
   std::array<std::vector<Index>, phases> next_place;
 };
 
-// Contacts with swept[c] != 0 are ordered; the others have no slot. One member of a team begins, all of them
-// order parts, and one ends.
+// Contacts with swept[c] != 0 are ordered; the others have no slot. All members of a team find parts, order
+// them, and place slots; one begins, opens, and ends. After each of these the others wait.
 
-/// Shares the contacts out to parts. `first_a[i]` is the number of contacts whose first body is before body
-/// i; moves[i] is 0 for a body that nothing moves. Contacts must be sorted by their first body.
-void begin_order(const ContactProblem& problem, const std::vector<Index>& first_a,
-                 const std::vector<std::uint8_t>& moves, const std::vector<std::uint8_t>& swept,
+/// Shares the bodies out to domains, for a team of this size. `first_a[i]` is the number of contacts whose
+/// first body is before body i. Contacts must be sorted by their first body.
+void begin_order(const ContactProblem& problem, const std::vector<Index>& first_a, int size,
                  SweepOrder& order);
+/// Finds the part of each contact between bodies of the same domain, of those that are the member's. moves[i]
+/// is 0 for a body that nothing moves.
+void find_parts(const ContactProblem& problem, const std::vector<std::uint8_t>& moves,
+                const std::vector<std::uint8_t>& swept, int member, int size, SweepOrder& order);
+/// Finds the parts of the other contacts, and gives each part as many places as it can need.
+void open_order(const ContactProblem& problem, const std::vector<std::uint8_t>& moves,
+                const std::vector<std::uint8_t>& swept, SweepOrder& order);
 /// Puts the contacts of a member's parts, in their order, into the first place with room after all that share
 /// a body with them, and gives them slots, counted from the first place of their part.
 void order_parts(const ContactProblem& problem, const std::vector<std::uint8_t>& moves,
                  const std::vector<std::uint8_t>& swept, int member, int size, SweepOrder& order);
 /// Puts the parts one after another.
-void end_order(const std::vector<std::uint8_t>& swept, SweepOrder& order);
+void end_order(SweepOrder& order);
+/// Counts the slots of contacts first ... last - 1 from the first group of all.
+void place_slots(const std::vector<std::uint8_t>& swept, std::size_t first, std::size_t last,
+                 SweepOrder& order);
 
 /// How many members of a team find work in each phase of a sweep.
 int most_members(const ContactProblem& problem);

@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <limits>
+
+#include "core/errors.h"
 #include "support/scenes.h"
 
 namespace talus {
@@ -29,6 +32,19 @@ TEST(Threads, any_number_of_them_gives_the_same_bits) {
     }
     EXPECT_EQ(state_hash(together), state_hash(alone)) << threads << " threads";
   }
+}
+
+TEST(Threads, a_team_whose_step_fails_leaves_the_world_alone) {
+  FallenBed bed;
+  bed.settings.solver.threads = 2;
+  World world = bed.world;
+  StepWorkspace workspace;
+  step(world, bed.settings, workspace);
+  const World before = world;
+  world.gravity = std::numeric_limits<double>::infinity();
+  EXPECT_THROW(step(world, bed.settings, workspace), Error);
+  world.gravity = before.gravity;
+  EXPECT_EQ(state_hash(world), state_hash(before));
 }
 
 TEST(Threads, one_that_goes_on_alone_gives_the_same_bits) {

@@ -141,7 +141,6 @@ FrozenStep next_problem(const World& world, const StepSettings& settings) {
   const bool moments = settings.law.rolling_friction != 0.0;
   frozen.contacts.moment.assign(moments ? frozen.contacts.a.size() : 0, 0.0);
   recall_forces(world.contacts, frozen.contacts);
-  free_velocity(midpoint, settings.h, frozen.problem);
   form_problem(midpoint, frozen.contacts, settings.law, settings.h, settings.solver.tolerance,
                frozen.problem);
   for (std::size_t c = 0; c < frozen.contacts.moment.size(); ++c)

@@ -56,6 +56,30 @@ TEST(Memory, images_of_one_pair_are_matched_in_their_order) {
   EXPECT_EQ(one.fn, (std::vector<double>{1, 3}));
 }
 
+// In parts that begin anywhere, also between the images of a pair.
+TEST(Memory, of_a_team_is_that_of_one_thread) {
+  Random random(7);
+  for (int round = 0; round < 50; ++round) {
+    Pairs before, after;
+    for (Index a = 0; a < 6; ++a)
+      for (Index b = a + 1; b < 8; ++b)
+        for (int image = 0; image < 3; ++image) {
+          if (random.uniform() < 0.4) before.emplace_back(a, b);
+          if (random.uniform() < 0.4) after.emplace_back(a, b);
+        }
+    const Contacts previous = contacts_of(before);
+    Contacts alone = contacts_of(after);
+    recall_forces(previous, alone);
+    for (const int size : {1, 2, 3, 5}) {
+      ThreadTeam team(size);
+      Contacts together = contacts_of(after);
+      recall_forces(previous, together, &team);
+      EXPECT_EQ(together.fn, alone.fn) << size;
+      EXPECT_EQ(together.ft, alone.ft) << size;
+    }
+  }
+}
+
 TEST(Memory, of_random_sets_is_a_lookup_by_pair) {
   Random random(5);
   for (int round = 0; round < 20; ++round) {

@@ -73,8 +73,9 @@ void expect_same(const Contacts& found, const Contacts& expected) {
 }
 
 /// One list through many small moves, a large one and a change of the margin: what it finds is what brute
-/// force finds, and the same to the last bit as through a list made at the moment.
+/// force finds, and the same to the last bit as through a list made at the moment, by a team or alone.
 void follow_a_list(bool periodic, double length, Index count) {
+  ThreadTeam team(3);
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     World world = crowded_world(seed, periodic, length, count);
     NeighbourList list;
@@ -83,7 +84,8 @@ void follow_a_list(bool periodic, double length, Index count) {
       Contacts through_aged, through_fresh;
       NeighbourList fresh;
       detect_contacts(list, world.grains, world.boundary, margin, through_aged);
-      detect_contacts(fresh, world.grains, world.boundary, margin, through_fresh);
+      detect_contacts(fresh, world.grains, world.boundary, margin, through_fresh,
+                      round % 2 ? &team : nullptr);
       EXPECT_EQ(keys_of(through_aged), brute_force(world.grains, world.boundary, margin))
           << "seed " << seed << ", round " << round;
       expect_same(through_aged, through_fresh);

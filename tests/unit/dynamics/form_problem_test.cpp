@@ -31,7 +31,6 @@ struct Scene {
     detect_contacts(list, world.grains, world.boundary, 1.0, contacts);
     std::copy(fn.begin(), fn.end(), contacts.fn.begin());
     std::copy(ft.begin(), ft.end(), contacts.ft.begin());
-    free_velocity(world, h, problem);
     form_problem(world, contacts, law, h, tolerance, problem);
   }
   /// Gives the contact with the plane the force whose error, as the tolerance allows it, gives the disk this
@@ -170,13 +169,17 @@ TEST(FormProblem, a_team_forms_the_problem_of_one_thread) {
   ContactLawParameters law;
   law.rolling_friction = 0.1;
   ContactProblem alone, together;
-  free_velocity(world, h, alone);
   form_problem(world, contacts, law, h, tolerance, alone);
   ThreadTeam team(3);
-  free_velocity(world, h, together);
   form_problem(world, contacts, law, h, tolerance, together, &team);
   EXPECT_EQ(together.a, alone.a);
   EXPECT_EQ(together.b, alone.b);
+  for (const auto field :
+       {&ContactProblem::vx, &ContactProblem::vy, &ContactProblem::omega, &ContactProblem::inverse_mass,
+        &ContactProblem::inverse_inertia, &ContactProblem::lever}) {
+    EXPECT_EQ(together.*field, alone.*field);
+    EXPECT_EQ((alone.*field).size(), world.grains.x.size() + 1);
+  }
   for (const auto field : {&ContactProblem::nx, &ContactProblem::ny, &ContactProblem::cn, &ContactProblem::ct,
                            &ContactProblem::mu, &ContactProblem::rolling_friction}) {
     EXPECT_EQ(together.*field, alone.*field);

@@ -44,11 +44,17 @@ Graph graph(Index bodies, Index contacts_each, Index reach) {
   return graph;
 }
 
-SweepOrder order_of(const Graph& graph) {
+/// By a team, the last member first: none may need what another one leaves.
+SweepOrder order_of(const Graph& graph, int size = 1) {
   SweepOrder order;
-  begin_order(graph.problem, graph.first_a, graph.moves, graph.swept, order);
-  order_parts(graph.problem, graph.moves, graph.swept, 0, 1, order);
-  end_order(graph.swept, order);
+  begin_order(graph.problem, graph.first_a, size, order);
+  for (int member = size - 1; member >= 0; --member)
+    find_parts(graph.problem, graph.moves, graph.swept, member, size, order);
+  open_order(graph.problem, graph.moves, graph.swept, order);
+  for (int member = size - 1; member >= 0; --member)
+    order_parts(graph.problem, graph.moves, graph.swept, member, size, order);
+  end_order(order);
+  place_slots(graph.swept, 0, graph.swept.size(), order);
   return order;
 }
 
@@ -92,14 +98,8 @@ TEST_P(OrderOfSweep, has_one_slot_for_each_contact) {
   EXPECT_EQ(static_cast<Index>(slots.size()), swept);
 }
 
-// The parts one member after another, the last one first: none may need what another one leaves.
 TEST_P(OrderOfSweep, is_that_of_a_team) {
-  constexpr int size = 3;
-  SweepOrder order;
-  begin_order(graph_.problem, graph_.first_a, graph_.moves, graph_.swept, order);
-  for (int member = size - 1; member >= 0; --member)
-    order_parts(graph_.problem, graph_.moves, graph_.swept, member, size, order);
-  end_order(graph_.swept, order);
+  const SweepOrder order = order_of(graph_, 3);
   EXPECT_EQ(order.part_begin, order_.part_begin);
   EXPECT_EQ(order.row_count, order_.row_count);
   for (Index c = 0; c < graph_.problem.contact_count(); ++c) {
