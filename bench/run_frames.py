@@ -43,12 +43,12 @@ def main():
                         help="of the scenario (bed.length=100: half of the paper's bed)")
     parser.add_argument("--repeat", type=int, default=3, help="runs of which the median is told")
     arguments = parser.parse_args()
-    settings = arguments.settings or ["bed.length=100"]
+    settings = arguments.settings or []
     taken = {(talus, maps): [] for talus in arguments.talus for maps in ("", MAPS)}
     for _ in range(arguments.repeat):
         for talus, maps in taken:
             taken[talus, maps].append(seconds(talus, arguments.scenario, settings, maps))
-    print(f"{os.path.basename(arguments.scenario)}, {', '.join(settings)}; medians of {arguments.repeat} runs in turn")
+    print(f"{', '.join([os.path.basename(arguments.scenario), *settings])}; medians of {arguments.repeat} runs in turn")
     print()
     print("| program | maps | takes | shortest, longest | processor time |")
     print("|---|---|--:|--:|--:|")

@@ -147,13 +147,17 @@ void sort_neighbours(std::int64_t* first, std::int64_t* end) {
   }
 }
 
+/// A grain sees each other one through at most three images; one place more holds what is not kept.
+std::size_t most_neighbours(const Grains& grains, const Boundary& boundary) {
+  return 3 * grains.x.size() + boundary.planes.size() + 1;
+}
+
 /// Writes the neighbours of grains first ... last - 1 one after another, and tells where those of each grain
 /// begin, counted from the first of these grains. Returns where the last ones end.
 std::size_t search_grains(NeighbourList& list, const Grains& grains, const Boundary& boundary,
                           const Grid& grid, double range, std::size_t first, std::size_t last,
                           std::vector<std::int64_t>& found) {
-  // A grain sees each other one through at most three images; one place more holds what is not kept.
-  const std::size_t most = 3 * grains.x.size() + boundary.planes.size() + 1;
+  const std::size_t most = most_neighbours(grains, boundary);
   std::size_t end = 0;
   for (std::size_t a = first; a < last; ++a) {
     list.first_found[a] = end;
@@ -188,11 +192,15 @@ void list_pairs(NeighbourList& list, const Grains& grains, const Boundary& bound
   const auto count = static_cast<std::size_t>(grains.free_count);
   const std::size_t parts = team ? static_cast<std::size_t>(team->size()) : 1;
   const auto begin_of = [count, parts](std::size_t part) { return count * part / parts; };
-  list.found.resize(parts);
+  // Room for all that was ever listed, so that nothing is allocated where a team comes and goes.
+  const std::size_t room = list.a.capacity() + most_neighbours(grains, boundary);
+  if (list.found.size() < parts) list.found.resize(parts);
+  for (auto& found : list.found)
+    if (found.size() < room) found.resize(room);
   list.part_end.resize(parts);
   list.first_found.resize(count + 1);
-  std::atomic<bool> lacks_memory =
-      false;  // an exception would end the program where a member does not catch it
+  // An exception that leaves a member of the team would end the program.
+  std::atomic<bool> lacks_memory = false;
   share_out(team, parts, [&](std::size_t part, std::size_t) {
     try {
       list.part_end[part] = search_grains(list, grains, boundary, grid, range, begin_of(part),
@@ -234,8 +242,8 @@ void update_neighbour_list(NeighbourList& list, const Grains& grains, const Boun
   const Grid grid = make_grid(grains, boundary, 2.0 * largest + range);
   fill_cells(list, grains, grid);
   list_pairs(list, grains, boundary, grid, range, team);
-  list.x = grains.x;
   list.y = grains.y;
+  list.x = grains.x;
   ++list.rebuilds;
 }
 

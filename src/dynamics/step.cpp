@@ -220,6 +220,7 @@ StageSeconds begin_step(World& world, const StepSettings& settings, StepWorkspac
   Contacts& contacts = workspace.contacts;
   ThreadTeam* const team = team_at_hand(workspace.problem, settings.solver, workspace.solver);
   const double margin = detection_margin(world, settings, team);
+  workspace.image.reserve(grains.image.size());
   begin_motion(world, h, team, workspace.before);
   clock.end_of(Stage::move);
   detect_contacts(workspace.neighbours, grains, world.boundary, margin, contacts, team);  // local frames (T3)

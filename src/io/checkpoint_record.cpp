@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fmt/core.h>
+#include <utility>
 
 #include "core/hash.h"
 #include "io/record_fields.h"
@@ -67,6 +68,9 @@ void check_contacts(const hdf5::Reader& reader, const std::string& here, const W
     if (c.a[k] < 0 || c.a[k] >= world.grains.count() || c.b[k] <= c.a[k] ||
         static_cast<std::size_t>(c.b[k]) >= bodies)
       reader.refuse(here + "contact_pair", "names a body that does not exist, or one twice");
+  for (std::size_t k = 1; k < c.a.size(); ++k)
+    if (std::pair(c.a[k], c.b[k]) < std::pair(c.a[k - 1], c.b[k - 1]))
+      reader.refuse(here + "contact_pair", "does not ascend");
   if (std::ranges::any_of(c.shift, [](std::int8_t shift) { return std::abs(shift) > 1; }))
     reader.refuse(here + "contact_shift", "holds a value other than -1, 0 and 1");
 }

@@ -226,6 +226,12 @@ std::vector<WrongStart> wrong_starts() {
        [](BranchOrigin& branch) { branch.start.world.boundary.planes[0].offset = 0.05; }},
       {"/branch/contact_pair", [](BranchOrigin& branch) { branch.start.world.contacts.a[0] = -1; }},
       {"/branch/contact_pair", [](BranchOrigin& branch) { branch.start.world.contacts.b[0] = 1000; }},
+      {"/branch/contact_pair",
+       [](BranchOrigin& branch) {
+         Contacts& contacts = branch.start.world.contacts;
+         std::ranges::reverse(contacts.a);
+         std::ranges::reverse(contacts.b);
+       }},
       {"/branch/contact_shift", [](BranchOrigin& branch) { branch.start.world.contacts.shift[0] = 100; }},
       {"/branch/contact_normal", [](BranchOrigin& branch) { branch.start.world.contacts.nx[0] = 1e300; }},
       {"/branch/contact_force", [](BranchOrigin& branch) { branch.start.world.contacts.fn[0] = nan; }},
