@@ -27,7 +27,7 @@ struct NeighbourList {
   std::vector<double> cell_x, cell_y, cell_radius;
   std::vector<std::vector<std::int64_t>> found;  ///< by each member of a team: the neighbours of its grains
   std::vector<std::size_t> first_found;          ///< of each free grain, and where those of the last one end
-  std::vector<std::size_t> part_end;  ///< of detection by a team: where the contacts of each member end
+  std::vector<std::size_t> part_end;             ///< where what a member of the team has written ends
 };
 
 /// Rebuilds the list if it does not cover pairs up to a gap of `reach` at the present positions. A list

@@ -135,7 +135,7 @@ std::vector<DataSetField> checkpoint_fields() {
       {"/checkpoint/plane_offset", float64, "P", "m", "a plane is { r : n.r = offset }"},
       {"/checkpoint/plane_wall", int8, "P", "1", "1 side wall, 0 smooth floor"},
       {"/checkpoint/contact_pair", int32, "C 2", "1",
-       "ids (a, b) of the contacts and near contacts of the last step"},
+       "ids (a, b) of the contacts and near contacts of the last step, ascending"},
       {"/checkpoint/contact_shift", int8, "C", "1", "periodic image of b"},
       {"/checkpoint/contact_normal", float64, "C 2", "1", "unit normal, from a to b"},
       {"/checkpoint/contact_gap", float64, "C", "m", "gap; negative where bodies overlap"},

@@ -122,6 +122,7 @@ struct TeamMember {
     return !w.failure;
   }
 
+  /// False where memory is missing.
   bool order_contacts() {
     find_parts(problem, at.moves, at.swept, member, size, at.order);
     wait_for_all();
@@ -280,7 +281,7 @@ AcceleratedOutcome solve_accelerated(const ContactProblem& problem, double toler
                                      int threads, AcceleratedWorkspace& workspace,
                                      ContactSolution& solution) {
   ThreadTeam* const useful = team_for(problem, workspace, threads);
-  ThreadTeam* const team = useful != nullptr && workspace.choice.in_team() ? useful : nullptr;
+  ThreadTeam* const team = team_at_hand(problem, threads, workspace);
   prepare(problem, solution, team, workspace.linearisation);
   for (auto* field : {&solution.vx, &solution.vy, &solution.omega})
     field->resize(static_cast<std::size_t>(problem.body_count()));

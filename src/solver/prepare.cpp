@@ -1,0 +1,157 @@
+// What is the same for all of a solve: which contacts a body has, and the units of the single precision.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "solver/linearisation.h"
+
+namespace talus {
+namespace {
+
+/// Brings `linked` up to the problem; returns whether it was so before.
+bool follow_contacts(const ContactProblem& problem, ContactProblem& linked) {
+  const bool same = problem.a == linked.a && problem.b == linked.b && problem.mu == linked.mu &&
+                    problem.rolling_friction == linked.rolling_friction;
+  if (same) return true;
+  linked.a = problem.a;
+  linked.b = problem.b;
+  linked.mu = problem.mu;
+  linked.rolling_friction = problem.rolling_friction;
+  return false;
+}
+
+bool follow_bodies(const ContactProblem& problem, ContactProblem& linked) {
+  const bool same = problem.inverse_mass == linked.inverse_mass &&
+                    problem.inverse_inertia == linked.inverse_inertia && problem.lever == linked.lever;
+  if (same) return true;
+  linked.inverse_mass = problem.inverse_mass;
+  linked.inverse_inertia = problem.inverse_inertia;
+  linked.lever = problem.lever;
+  return false;
+}
+
+/// How many contacts each body has as a, in first_a[i + 1], and as b, in first_own_side[i]; and whether
+/// anything moves it. Each member of the team sees to some of the bodies, and looks at all contacts.
+void count_contacts(const ContactProblem& problem, ThreadTeam* team, Linearisation& w) {
+  share_out(team, w.moves.size(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i)
+      w.moves[i] = problem.inverse_mass[i] > 0.0 || problem.inverse_inertia[i] > 0.0 ? 1 : 0;
+    for (const Index a : problem.a)
+      if (first <= static_cast<std::size_t>(a) && static_cast<std::size_t>(a) < last) ++w.first_a[a + 1];
+    for (const Index b : problem.b)
+      if (first <= static_cast<std::size_t>(b) && static_cast<std::size_t>(b) < last) ++w.first_own_side[b];
+  });
+}
+
+/// Where the contacts of each body begin, from how many it has.
+void place_contacts(Linearisation& w) {
+  for (std::size_t i = 0; i < w.moves.size(); ++i) {
+    const Index sides = w.first_own_side[i] + w.first_a[i + 1];
+    w.first_own_side[i] += w.first_side[i];
+    w.first_a[i + 1] += w.first_a[i];
+    w.first_side[i + 1] = w.first_side[i] + (sides + sides_at_once - 1) / sides_at_once * sides_at_once;
+  }
+}
+
+/// Each member of the team sees to some of the bodies, and looks at all contacts.
+void list_sides(const ContactProblem& problem, ThreadTeam* team, Linearisation& w) {
+  const auto none = 2 * static_cast<std::uint32_t>(problem.a.size());
+  share_out(team, w.moves.size(), [&](std::size_t first, std::size_t last) {
+    std::copy(w.first_side.data() + first, w.first_side.data() + last, w.next_side.data() + first);
+    for (std::size_t c = 0; c < problem.b.size(); ++c) {
+      const auto b = static_cast<std::size_t>(problem.b[c]);
+      if (first <= b && b < last) w.sides[w.next_side[b]++] = 2 * static_cast<std::uint32_t>(c);
+    }
+    for (std::size_t i = first; i < last; ++i) {
+      std::uint32_t* side = w.sides.data() + w.first_own_side[i];
+      for (Index c = w.first_a[i]; c < w.first_a[i + 1]; ++c) *side++ = 2 * static_cast<std::uint32_t>(c) + 1;
+      std::fill(side, w.sides.data() + w.first_side[i + 1], none);
+    }
+  });
+}
+
+/// The contacts of each body: as a they are consecutive, as b they are listed.
+void link(const ContactProblem& problem, ThreadTeam* team, Linearisation& w) {
+  const auto bodies = static_cast<std::size_t>(problem.body_count());
+  const bool were_loaded = std::exchange(w.are_loaded, false);  // not while memory may be missing
+  const bool same_contacts = follow_contacts(problem, w.linked);
+  const bool same_bodies = follow_bodies(problem, w.linked);
+  w.are_loaded = were_loaded && w.first_a.size() == bodies + 1 && same_contacts && same_bodies;
+  w.are_new = !w.are_loaded;
+  if (!w.are_new) return;
+  w.ordered_swept.clear();
+  w.moves.resize(bodies);
+  for (auto* field : {&w.first_a, &w.first_side, &w.first_own_side}) field->assign(bodies + 1, 0);
+  count_contacts(problem, team, w);
+  place_contacts(w);
+  w.sides.resize(static_cast<std::size_t>(w.first_side[bodies]));
+  w.next_side.resize(bodies);
+  list_sides(problem, team, w);
+}
+
+/// In four strands: one would wait for each addition.
+double sum_of_squares(const std::vector<double>& values) {
+  std::array<double, 4> strand{};
+  std::size_t i = 0;
+  for (; i + 4 <= values.size(); i += 4)
+    for (std::size_t k = 0; k < 4; ++k) strand[k] += values[i + k] * values[i + k];
+  for (; i < values.size(); ++i) strand[0] += values[i] * values[i];
+  return (strand[0] + strand[1]) + (strand[2] + strand[3]);
+}
+
+/// The mean body of those that move.
+void take_mean_body(const ContactProblem& problem, Linearisation& w) {
+  double inverse_mass = 0.0;
+  w.moving = 0;
+  for (double each : problem.inverse_mass) {
+    inverse_mass += each;
+    w.moving += each > 0.0 ? 1 : 0;
+  }
+  w.mobility_unit = w.moving > 0 ? inverse_mass / w.moving : 1.0;
+}
+
+/// Units in which neither impulses nor velocities are large: single precision has room below one, to 1e-38,
+/// not above.
+void choose_units(const ContactProblem& problem, const ContactSolution& guess, ThreadTeam* team,
+                  Linearisation& w) {
+  double vx = 0.0, vy = 0.0, cn = 0.0, ct = 0.0, pn = 0.0, pt = 0.0;
+  do_both(
+      team,
+      [&] {
+        if (w.are_new) take_mean_body(problem, w);
+        vx = sum_of_squares(problem.vx);
+        pn = sum_of_squares(guess.pn);
+        pt = sum_of_squares(guess.pt);
+      },
+      [&] {
+        vy = sum_of_squares(problem.vy);
+        cn = sum_of_squares(problem.cn);
+        ct = sum_of_squares(problem.ct);
+      });
+  const double velocity = std::sqrt(vx + vy + cn + ct);
+  const double impulse =
+      std::sqrt((pn + pt) / static_cast<double>(std::max<std::size_t>(1, guess.pn.size())));
+  const double largest = std::max(impulse, velocity / w.mobility_unit / std::sqrt(std::max(1, w.moving)));
+  w.impulse_unit = largest > 0.0 ? largest : 1.0;
+  w.velocity_unit = w.impulse_unit * w.mobility_unit;
+}
+
+}  // namespace
+
+void prepare(const ContactProblem& problem, const ContactSolution& guess, ThreadTeam* team,
+             Linearisation& w) {
+  const auto contacts = static_cast<std::size_t>(problem.contact_count());
+  w.exact_velocity.resize(static_cast<std::size_t>(problem.body_count()));
+  w.exact_force.resize(contacts + 1);
+  w.exact_force[contacts] = {};
+  for (auto* field : {&w.pn, &w.pt, &w.un, &w.ut, &w.wn, &w.wt}) field->resize(contacts);
+  w.swept.assign(contacts, 0);
+  w.sums.resize((contacts + contacts_per_block - 1) / contacts_per_block);
+  size_rolling(problem, w.rolling);
+  link(problem, team, w);
+  choose_units(problem, guess, team, w);
+}
+
+}  // namespace talus
