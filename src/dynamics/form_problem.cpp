@@ -49,6 +49,27 @@ void take_grains(const World& world, double h, ContactProblem& problem) {
   copy(grains.radius, all, problem.lever);
 }
 
+/// Contacts of a bed with so many are swept column by column.
+constexpr Index contacts_for_columns = 24'000;
+/// The width of a column, in diameters of the largest grain.
+constexpr double diameters_per_column = 4.0;
+
+void take_columns(const World& world, Index contacts, ContactProblem& problem) {
+  const Grains& grains = world.grains;
+  problem.column.clear();
+  if (contacts < contacts_for_columns) return;
+  const double largest = 2.0 * *std::max_element(grains.radius.begin(), grains.radius.end());
+  const double columns = std::min(std::floor(world.boundary.length / (diameters_per_column * largest)),
+                                  static_cast<double>(grains.count()));
+  if (!(columns >= 1.0)) return;
+  problem.column.resize(problem.vx.size(), 0);  // planes do not move, and are in any column
+  const double columns_per_metre = columns / world.boundary.length;
+  for (std::size_t i = 0; i < grains.x.size(); ++i) {
+    const double at = grains.x[i] * columns_per_metre;  // not a number where the step will find that
+    problem.column[i] = at > 0.0 ? static_cast<Index>(std::min(at, columns - 1.0)) : 0;
+  }
+}
+
 /// Not by assignments, which would allocate for each contact more than ever before.
 void size_contacts(const Contacts& contacts, const ContactLawParameters& law, ContactProblem& problem) {
   const std::size_t count = contacts.a.size();
@@ -163,7 +184,10 @@ void form_problem(const World& world, const Contacts& contacts, const ContactLaw
   // The sum of the noise is one chain of additions, in an order that must not depend on the team.
   do_both(
       team, [&] { noise = impulse_of_noise(contacts, h, tolerance); },
-      [&] { take_grains(world, h, problem); });
+      [&] {
+        take_grains(world, h, problem);
+        take_columns(world, contacts.count(), problem);
+      });
   share_out(team, contacts.a.size(), [&](std::size_t first, std::size_t last) {
     const Part part{first, last};
     take_local_frames(contacts, part, problem);

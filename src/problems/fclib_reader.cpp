@@ -176,6 +176,7 @@ void read_additions(const FclibFile& file, FclibProblem& problem) {
   for (const DataSetField& field : fclib_schema()) {
     if (!field.path.starts_with("/talus/")) continue;
     if (field.path.starts_with("/talus/run/") && !file.has("/talus/run")) continue;  // of an older Talus
+    if (field.path == "/talus/bodies/column" && !file.has(field.path)) continue;     // of a small bed
     const std::size_t size = expected_size(field, problem, bodies);
     const std::string why = field.shape == "1"   ? "a single one"
                             : field.shape == "B" ? "one for each body of /talus/bodies/vx"

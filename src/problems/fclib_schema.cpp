@@ -41,6 +41,7 @@ std::vector<DataSetField> make_schema() {
       {"/talus/bodies/inverse_inertia", float64, "B", "1/(kg m^2)",
        "inverse of the inertia; 0 for a body that does not rotate"},
       {"/talus/bodies/lever", float64, "B", "m", "distance from the centre to every contact; 0 for a plane"},
+      {"/talus/bodies/column", int32, "B", "1", "column of a large bed that the body is in"},
       {"/talus/contacts/a", int32, "C", "1", "first body; ascending"},
       {"/talus/contacts/b", int32, "C", "1", "second body, the one that impulses act on"},
       {"/talus/contacts/nx", float64, "C", "1", "unit normal along the bed, from a to b"},

@@ -51,6 +51,7 @@ constexpr std::array<ToleranceField, 3> tolerance_fields = {{
 
 constexpr const char* first_body = "/talus/contacts/a";
 constexpr const char* second_body = "/talus/contacts/b";
+constexpr const char* column = "/talus/bodies/column";
 
 /// (n, t) of contact 0, (n, t) of contact 1, ...
 template <typename Pair>
@@ -130,6 +131,7 @@ StepProblem step_problem_of(const std::string& path, const FclibProblem& file,
   step.problem.a = file.integers.at(first_body);
   step.problem.b = file.integers.at(second_body);
   step.problem.mu = file.mu;
+  if (file.integers.contains(column)) step.problem.column = file.integers.at(column);
   check_bodies(path, step.problem);
   for (const Impulse& p : guess) {
     step.guess.pn.push_back(p.normal);
@@ -157,6 +159,7 @@ void write_problem(const std::string& path, const StepProblem& step, const std::
       file.reals[field.path] = {(*step.tolerance).*field.value};
   file.integers[first_body] = step.problem.a;
   file.integers[second_body] = step.problem.b;
+  if (!step.problem.column.empty()) file.integers[column] = step.problem.column;
   write_fclib(path, file, flat(guess.u));
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "solver/momentum.h"
+#include "solver/sweep.h"
 
 namespace talus {
 namespace {
@@ -39,15 +40,6 @@ Momentum warm_momentum() {
   return momentum;
 }
 
-SweepSums add_parts(const std::vector<SweepSums>& parts) {
-  SweepSums sum;
-  for (const SweepSums& part : parts) {
-    sum.change += part.change;
-    sum.ascent += part.ascent;
-  }
-  return sum;
-}
-
 /// What one member of the team works on, and all members together wait for.
 struct TeamMember {
   const ContactProblem& problem;
@@ -56,8 +48,8 @@ struct TeamMember {
   Linearisation& at;
   ThreadTeam* team;  ///< null: alone
   int member, size;
-  SweepKernels kernels;
-  Index first_block, last_block, first_body, last_body, first_row = 0, last_row = 0;
+  Index first_block, last_block, first_body, last_body;
+  Sweeper sweeper;
 
   TeamMember(const ContactProblem& of, ContactSolution& of_solution, AcceleratedWorkspace& workspace,
              ThreadTeam* of_team, int of_member)
@@ -68,13 +60,16 @@ struct TeamMember {
         team(of_team),
         member(of_member),
         size(of_team ? of_team->size() : 1),
-        kernels(sweep_kernels()) {
+        sweeper{at, w.sums, team, member, size, sweep_kernels()} {
     const auto blocks = static_cast<int>(at.sums.size());
     first_block = part_begin(blocks, member, size);
     last_block = part_begin(blocks, member + 1, size);
     first_body = part_begin(problem.body_count(), member, size);
     last_body = part_begin(problem.body_count(), member + 1, size);
   }
+
+  Index first_row() const { return part_begin(at.order.row_count, member, size); }
+  Index last_row() const { return part_begin(at.order.row_count, member + 1, size); }
 
   void wait_for_all() const {
     if (team) team->wait_for_all();
@@ -95,9 +90,9 @@ struct TeamMember {
   }
 
   ExactResidual look() {
-    sum_exact_velocities(problem, kernels, first_body, last_body, at);
+    sum_exact_velocities(problem, sweeper.kernels, first_body, last_body, at);
     wait_for_all();
-    look_at_contacts(problem, kernels, first_block, last_block, at);
+    look_at_contacts(problem, sweeper.kernels, first_block, last_block, at);
     wait_for_all();
     return exact_residual(at);
   }
@@ -131,7 +126,7 @@ struct TeamMember {
     wait_for_all();
     return by_first([this] {
       end_order_of_contacts(problem, at);
-      w.sums.assign(static_cast<std::size_t>(at.order.part_count()), {});
+      w.sums.assign(static_cast<std::size_t>(most_sweeps_in_a_row * at.order.part_count()), {});
     });
   }
 
@@ -144,9 +139,7 @@ struct TeamMember {
     wait_for_all();
     if (!by_first([this] { begin_order_of_contacts(problem, size, at); })) return false;
     if (at.have_new_order && !order_contacts()) return false;
-    first_row = part_begin(at.order.row_count, member, size);
-    last_row = part_begin(at.order.row_count, member + 1, size);
-    clear_rows(first_row, last_row, at);
+    clear_rows(first_row(), last_row(), at);
     load_groups(problem, first_block, last_block, at);
     wait_for_all();
     return true;
@@ -155,7 +148,7 @@ struct TeamMember {
   /// P0 becomes the present P; returns its residual.
   ExactResidual renew() {
     absorb_increments(problem, first_block, last_block, at);
-    absorb_velocities(first_row, last_row, at);
+    absorb_velocities(first_row(), last_row(), at);
     wait_for_all();
     return look();
   }
@@ -182,25 +175,6 @@ struct TeamMember {
     unload_impulses(problem, first_block, last_block, at, solution);
     unload_velocities(problem, first_body, last_body, at, solution);
   }
-
-  SweepSums sweep(const Momentum& momentum) {
-    const auto beta = static_cast<float>(momentum.beta);
-    const SweepOrder& order = at.order;
-    const ContactArrays arrays = contact_arrays(at);
-    const ContactKernel sweep_groups =
-        problem.resists_rolling() ? kernels.rolling_contacts : kernels.contacts;
-    kernels.bodies(body_arrays(at), first_row, last_row, beta);
-    wait_for_all();
-    for (int phase = 0; phase < SweepOrder::phases; ++phase) {
-      const Index first = order.phase_begin[phase], parts = order.phase_begin[phase + 1] - first;
-      if (order.part_begin[first] == order.part_begin[first + parts]) continue;
-      for (Index k = first + part_begin(parts, member, size); k < first + part_begin(parts, member + 1, size);
-           ++k)
-        sweep_groups(arrays, order.part_begin[k], order.part_begin[k + 1], beta, w.sums[k]);
-      wait_for_all();
-    }
-    return add_parts(w.sums);
-  }
 };
 
 /// The part of the work of one member of the team. Each keeps a momentum of its own, and all come to the same
@@ -223,11 +197,9 @@ AcceleratedOutcome solve_part(TeamMember& member, double tolerance, int max_iter
     double estimate = 0.0;
     const int renewal = std::min(max_iterations, outcome.iterations + interval);
     do {
-      const SweepSums sums = member.sweep(momentum);
-      ++outcome.iterations;
-      const double change = std::sqrt(sums.change);
-      estimate = change / at.norm;
-      momentum.update(change, sums.ascent);
+      const int count = std::min(sweeps_in_a_row(member.at.order), renewal - outcome.iterations);
+      estimate = sweep(member.sweeper, count, momentum) / at.norm;
+      outcome.iterations += count;
     } while (estimate > aim && outcome.iterations < renewal);
     at = member.renew();
     if (estimate > aim)

@@ -29,6 +29,11 @@ struct Momentum {
       least_change = change;
       return;
     }
+    grow();
+  }
+
+  /// What a sweep does to the momentum that goes on.
+  void grow() {
     const double square = theta * theta;
     const double next = 0.5 * (std::sqrt(square * square + 4.0 * square) - square);
     beta = theta * (1.0 - theta) / (square + next);

@@ -21,20 +21,50 @@ Index domains_for(Index contacts) {
   return std::clamp(2 * (contacts / contacts_for_a_pair), 4, most_domains);
 }
 
-/// The domain of each body: with as many contacts before it as make whole domains.
-void share_bodies(const std::vector<Index>& first_a, long long contacts, Index domains, SweepOrder& order) {
-  const std::size_t bodies = first_a.size() - 1;
-  order.domain.resize(bodies);
-  Index domain = 0;
-  for (std::size_t i = 0; i < bodies; ++i) {  // domain = first_a domains / contacts, without dividing
-    while (domain < domains - 1 && static_cast<long long>(first_a[i]) * domains >= (domain + 1) * contacts)
-      ++domain;
-    order.domain[i] = domain;
-  }
+/// The domain of what begins after so many of the contacts, given that of what came before it: the domain
+/// that has as many contacts before it as make whole domains, contacts_before domains / contacts, without
+/// dividing.
+Index domain_after(long long contacts_before, long long contacts, Index domains, Index domain) {
+  while (domain < domains - 1 && contacts_before * domains >= (domain + 1) * contacts) ++domain;
+  return domain;
 }
 
-/// Even domains come first.
-Index part_of(Index domain, Index domains) { return domain / 2 + (domain % 2 == 0 ? 0 : (domains + 1) / 2); }
+/// Domains of consecutive bodies. Each body has the row of its number.
+void share_bodies(const std::vector<Index>& first_a, long long contacts, Index domains, SweepOrder& order) {
+  Index domain = 0;
+  for (std::size_t i = 0; i < order.domain.size(); ++i)
+    order.domain[i] = domain = domain_after(first_a[i], contacts, domains, domain);
+  std::iota(order.row.begin(), order.row.end(), 0);
+}
+
+/// Domains of consecutive columns. Bodies have rows by domain, so that those of a domain are near each other.
+void share_columns(const std::vector<Index>& column, Index columns, const std::vector<Index>& first_a,
+                   long long contacts, Index domains, SweepOrder& order) {
+  order.of_column.assign(static_cast<std::size_t>(columns), 0);
+  for (std::size_t i = 0; i < column.size(); ++i) order.of_column[column[i]] += first_a[i + 1] - first_a[i];
+  Index domain = 0;
+  long long before = 0;
+  for (Index& of_column : order.of_column) {
+    const Index contacts_of_column = of_column;
+    of_column = domain = domain_after(before, contacts, domains, domain);
+    before += contacts_of_column;
+  }
+  order.first_row.assign(static_cast<std::size_t>(domains) + 1, 0);
+  for (std::size_t i = 0; i < column.size(); ++i) {
+    order.domain[i] = order.of_column[column[i]];
+    ++order.first_row[order.domain[i] + 1];
+  }
+  std::partial_sum(order.first_row.begin(), order.first_row.end(), order.first_row.begin());
+  for (std::size_t i = 0; i < column.size(); ++i) order.row[i] = order.first_row[order.domain[i]]++;
+  std::rotate(order.first_row.begin(), order.first_row.end() - 1, order.first_row.end());
+  order.first_row.front() = 0;
+}
+
+/// Whether domains are next to each other.
+bool are_neighbours(Index a, Index b, const SweepOrder& order) {
+  const Index apart = std::abs(a - b);
+  return apart == 1 || (order.by_columns && apart == order.domain_count() - 1);
+}
 
 /// The domains of the two bodies of a contact: a body that does not move is in that of the other.
 struct TwoDomains {
@@ -47,14 +77,14 @@ TwoDomains domains_of(const ContactProblem& problem, const std::vector<std::uint
 }
 
 /// The part of a contact between two domains, of which earlier contacts have not left it another one.
-Index part_between(const ContactProblem& problem, std::size_t c, TwoDomains in, Index domains,
-                   SweepOrder& order) {
-  if (std::abs(in.a - in.b) != 1) return domains;
+Index part_between(const ContactProblem& problem, std::size_t c, TwoDomains in, SweepOrder& order) {
+  const Index left = order.domain_count();
+  if (!are_neighbours(in.a, in.b, order)) return left;
   // A body of an odd domain meets one even neighbour only, in its phase.
   const Index even = in.a % 2 == 0 ? in.a : in.b;
   Index& owner = order.owner[in.a % 2 == 0 ? problem.b[c] : problem.a[c]];
   if (owner < 0) owner = even;
-  return owner == even ? part_of(even, domains) : domains;
+  return owner == even ? order.part_of(even) : left;
 }
 
 /// The first place from `place` on that has room; one that has none points to a later one.
@@ -94,7 +124,14 @@ void begin_order(const ContactProblem& problem, const std::vector<Index>& first_
   const Index domains = domains_for(problem.contact_count());
   for (auto* field : {&order.slot, &order.row_a, &order.row_b, &order.part}) field->resize(problem.a.size());
   order.shares.resize(static_cast<std::size_t>(size));
-  share_bodies(first_a, problem.contact_count(), domains, order);
+  for (auto* field : {&order.domain, &order.row}) field->resize(bodies);
+  const Index columns =
+      problem.column.empty() ? 0 : *std::max_element(problem.column.begin(), problem.column.end()) + 1;
+  order.by_columns = domains > 1 && columns >= 2 * domains;
+  if (order.by_columns)
+    share_columns(problem.column, columns, first_a, problem.contact_count(), domains, order);
+  else
+    share_bodies(first_a, problem.contact_count(), domains, order);
   order.phase_begin = {0, (domains + 1) / 2, domains, domains + 1};
   order.owner.assign(bodies, -1);
   // Places are counted from the first of a part: a body that the part has not met waits for none.
@@ -104,13 +141,12 @@ void begin_order(const ContactProblem& problem, const std::vector<Index>& first_
 
 void find_parts(const ContactProblem& problem, const std::vector<std::uint8_t>& moves,
                 const std::vector<std::uint8_t>& swept, int member, int size, SweepOrder& order) {
-  const Index domains = order.phase_begin[2];
   std::array<Index, SweepOrder::most_parts> share{};
   const auto last = static_cast<std::size_t>(part_begin(problem.contact_count(), member + 1, size));
   for (auto c = static_cast<std::size_t>(part_begin(problem.contact_count(), member, size)); c < last; ++c) {
     if (!swept[c]) continue;
     const TwoDomains in = domains_of(problem, moves, c, order);
-    order.part[c] = in.a == in.b ? part_of(in.a, domains) : of_two_domains;
+    order.part[c] = in.a == in.b ? order.part_of(in.a) : of_two_domains;
     if (in.a == in.b) ++share[order.part[c]];
   }
   order.shares[static_cast<std::size_t>(member)] = share;
@@ -118,13 +154,12 @@ void find_parts(const ContactProblem& problem, const std::vector<std::uint8_t>& 
 
 void open_order(const ContactProblem& problem, const std::vector<std::uint8_t>& moves,
                 const std::vector<std::uint8_t>& swept, SweepOrder& order) {
-  const Index domains = order.phase_begin[2];
   for (std::size_t c = 0; c < swept.size(); ++c) {
     if (order.part[c] != of_two_domains || !swept[c]) continue;
-    order.part[c] = part_between(problem, c, domains_of(problem, moves, c, order), domains, order);
+    order.part[c] = part_between(problem, c, domains_of(problem, moves, c, order), order);
     ++order.shares.front()[order.part[c]];
   }
-  make_places(swept.size(), domains + 1, order);
+  make_places(swept.size(), order.domain_count() + 1, order);
 }
 
 void order_parts(const ContactProblem& problem, const std::vector<std::uint8_t>& moves,
@@ -147,8 +182,8 @@ void order_parts(const ContactProblem& problem, const std::vector<std::uint8_t>&
     // A body that does not move may be met by several parts of a phase.
     if (moves[a]) next[a] = place - first + 1;
     if (moves[b]) next[b] = place - first + 1;
-    order.row_a[c] = moves[a] ? a : SweepOrder::still_row(bodies, part, 0, lane % lane_count);
-    order.row_b[c] = moves[b] ? b : SweepOrder::still_row(bodies, part, 1, lane % lane_count);
+    order.row_a[c] = moves[a] ? order.row[a] : SweepOrder::still_row(bodies, part, 0, lane % lane_count);
+    order.row_b[c] = moves[b] ? order.row[b] : SweepOrder::still_row(bodies, part, 1, lane % lane_count);
   }
 }
 

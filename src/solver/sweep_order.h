@@ -12,17 +12,20 @@ namespace talus {
 /// Contacts are swept in their order, from the first body to the last, as far as that matters: a contact
 /// comes after all earlier ones that share a body with it. So that this can be done eight contacts at a time
 /// and by several threads,
-///   - bodies are cut into domains of consecutive bodies with about as many contacts each;
+///   - bodies are cut into domains with about as many contacts each: of consecutive columns in large beds
+///     (ContactProblem), else of consecutive bodies;
 ///   - a sweep has three phases: even domains with the contacts between them and their odd neighbours; odd
-///     domains; what is left. The parts of a phase share no body that moves, so they can be swept at once;
+///     domains; what is left, which is nothing where domains are columns. The parts of a phase share no body
+///     that moves, so they can be swept at once;
 ///   - within a part, contacts go in groups of eight, a few groups side by side, that share no body that
 ///     moves; each contact goes in the first group that has room.
 /// All of this follows from the problem alone, so that the bits of a result do not depend on threads.
 struct SweepOrder {
   static constexpr int phases = 3;
-  static constexpr Index most_domains = 64, most_parts = most_domains + 1;
+  static constexpr Index most_domains = 256, most_parts = most_domains + 1;
   std::vector<Index> slot;          ///< of a contact: lane_count * group + lane
   std::vector<Index> row_a, row_b;  ///< rows of its bodies
+  std::vector<Index> first_row;     ///< bodies of domain d have rows first_row[d] ... first_row[d + 1] - 1
   std::vector<Index> part_begin;    ///< the groups of part k: part_begin[k] ... part_begin[k + 1] - 1
   std::array<Index, phases + 1> phase_begin{};  ///< the parts of a phase
   Index row_count = 0;                          ///< bodies, and rows that do not move
@@ -32,11 +35,18 @@ struct SweepOrder {
   static Index still_row(Index bodies, Index part, Index side, Index lane) {
     return bodies + (2 * part + side) * lane_count + lane;
   }
+  Index domain_count() const { return phase_begin[2]; }
+  /// Even domains come first.
+  Index part_of(Index d) const { return d / 2 + (d % 2 == 0 ? 0 : phase_begin[1]); }
+  /// Whether each domain shares contacts with the ones next to it only, the last one with the first.
+  bool is_ring() const { return by_columns && part_begin[phase_begin[2]] == group_count(); }
   Index part_count() const { return static_cast<Index>(part_begin.size()) - 1; }
   Index group_count() const { return part_begin.back(); }
 
+  bool by_columns = false;  ///< domains are of columns
+
   // Memory to work in: places are groups side by side before those that stay empty are left out.
-  std::vector<Index> domain, part, owner, first_place, room;
+  std::vector<Index> domain, row, part, owner, first_place, room, of_column;
   std::vector<std::array<Index, most_parts>> shares;  ///< contacts of each part that a member has found
   std::vector<std::uint8_t> fill;
   std::array<std::vector<Index>, phases> next_place;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "contact/detection.h"
 #include "core/trigonometry.h"
@@ -185,6 +186,38 @@ TEST(FormProblem, a_team_forms_the_problem_of_one_thread) {
     EXPECT_EQ(together.*field, alone.*field);
     EXPECT_EQ((alone.*field).size(), contacts.a.size());
   }
+}
+
+// Sweeps of large beds go by columns, so contacts must not go past the next one.
+TEST(FormProblem, contacts_of_a_large_bed_join_columns_next_to_each_other) {
+  const World world = test::random_cloud(5, 20'000, true, 300.0 * test::radius);
+  Contacts contacts;
+  NeighbourList list;
+  detect_contacts(list, world.grains, world.boundary, 0.1 * test::radius, contacts);
+  ContactProblem problem;
+  form_problem(world, contacts, {}, h, tolerance, problem);
+  ASSERT_EQ(problem.column.size(), problem.vx.size());
+  const Index columns = *std::ranges::max_element(problem.column) + 1;
+  EXPECT_GT(columns, 25);
+  EXPECT_EQ(*std::ranges::min_element(problem.column), 0);
+  Index across_the_edge = 0;
+  for (Index c = 0; c < problem.contact_count(); ++c) {
+    const Index apart = std::abs(problem.column[problem.a[c]] - problem.column[problem.b[c]]);
+    EXPECT_TRUE(apart <= 1 || apart == columns - 1);
+    across_the_edge += apart > 1 ? 1 : 0;
+  }
+  EXPECT_GT(across_the_edge, 0);
+}
+
+TEST(FormProblem, a_small_bed_has_no_columns) {
+  const World world = test::random_cloud(5, 900, true, 300.0 * test::radius);
+  Contacts contacts;
+  NeighbourList list;
+  detect_contacts(list, world.grains, world.boundary, 0.1 * test::radius, contacts);
+  ContactProblem problem;
+  problem.column = {1, 2, 3};  // of a larger one before
+  form_problem(world, contacts, {}, h, tolerance, problem);
+  EXPECT_TRUE(problem.column.empty());
 }
 
 TEST(FormProblem, walls_have_the_friction_of_walls) {

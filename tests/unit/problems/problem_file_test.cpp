@@ -75,6 +75,16 @@ TEST(ProblemFile, a_step_is_read_back_bit_for_bit) {
   EXPECT_EQ(std::memcmp(&stored.step->scales, &step.scales, sizeof step.scales), 0);
 }
 
+TEST(ProblemFile, keeps_the_columns_of_a_large_bed) {
+  const test::TemporaryFolder folder;
+  StepProblem step = falling_bed();
+  write_problem(folder.path("p.h5"), step, "of a small bed");
+  EXPECT_TRUE(read_problem(folder.path("p.h5")).step->problem.column.empty());
+  for (Index i = 0; i < step.problem.body_count(); ++i) step.problem.column.push_back(i / 3);
+  write_problem(folder.path("p.h5"), step, "");
+  EXPECT_EQ(read_problem(folder.path("p.h5")).step->problem.column, step.problem.column);
+}
+
 TEST(ProblemFile, holds_the_local_form_of_the_step) {
   const test::TemporaryFolder folder;
   const StepProblem step = falling_bed();

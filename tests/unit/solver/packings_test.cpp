@@ -110,5 +110,20 @@ TEST_P(Packing, the_same_contacts_of_other_bodies_have_the_same_bits) {
   }
 }
 
+TEST(Columns, that_change_give_a_new_order) {
+  const ContactProblem problem = test::columns_problem(3, 100, 60);
+  ContactProblem turned = problem;
+  for (Index& column : turned.column) column = (column + 1) % 100;
+  const SolverSettings settings = settings_of(SolverKind::accelerated, 1e-8, 20);
+  SolverWorkspace fresh, used;
+  ContactSolution first = test::no_guess(problem), second = first, before = first;
+  solve(turned, settings, fresh, first);
+  solve(problem, settings, used, before);
+  solve(turned, settings, used, second);
+  EXPECT_EQ(first.pn, second.pn);
+  EXPECT_EQ(first.omega, second.omega);
+  EXPECT_NE(first.pn, before.pn) << "then this tests nothing";
+}
+
 }  // namespace
 }  // namespace talus

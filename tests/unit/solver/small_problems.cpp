@@ -1,6 +1,9 @@
 #include "unit/solver/small_problems.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
 #include "core/random.h"
 #include "core/trigonometry.h"
@@ -51,6 +54,42 @@ ContactProblem random_problem(std::uint64_t seed, Index bodies, Index contacts) 
     const double angle = random.uniform(-pi, pi);
     add_contact(problem, a, b, std::cos(angle), std::sin(angle), 0.5, random.uniform(-0.1, 0.1),
                 random.uniform(-0.1, 0.1));
+  }
+  return problem;
+}
+
+ContactProblem columns_problem(std::uint64_t seed, Index columns, Index bodies_each) {
+  Random random(seed);
+  ContactProblem problem;
+  std::vector<Index> next(
+      static_cast<std::size_t>(columns));  // in a shuffled order, another one for each layer
+  std::iota(next.begin(), next.end(), 0);
+  std::vector<std::vector<Index>> ids(next.size());
+  for (Index layer = 0; layer < bodies_each; ++layer) {
+    for (std::size_t k = next.size() - 1; k > 0; --k)
+      std::swap(next[k], next[random.below(static_cast<std::uint32_t>(k) + 1)]);
+    for (const Index column : next) {
+      ids[static_cast<std::size_t>(column)].push_back(problem.body_count());
+      problem.column.push_back(column);
+      add_body(problem, layer == 0 ? 0.0 : random.uniform(0.5, 2.0), random.uniform(0.5, 1.0),
+               random.uniform(-0.1, 0.1), random.uniform(-1.0, 0.0), random.uniform(-0.1, 0.1));
+    }
+  }
+  std::vector<std::pair<Index, Index>> pairs;
+  for (std::size_t column = 0; column < ids.size(); ++column) {
+    const std::vector<Index>&here = ids[column], &right = ids[(column + 1) % ids.size()];
+    for (std::size_t k = 1; k < here.size(); ++k) {
+      pairs.emplace_back(here[k - 1], here[k]);
+      if (k > 1) pairs.emplace_back(here[k - 2], here[k]);
+      pairs.emplace_back(std::minmax(here[k], right[k]));
+      if (k + 1 < here.size() && random.uniform() < 0.5)
+        pairs.emplace_back(std::minmax(here[k], right[k + 1]));
+    }
+  }
+  std::ranges::sort(pairs);
+  for (const auto& [a, b] : pairs) {
+    const double angle = random.uniform(0.25, 0.75) * pi;  // upwards, from the lower one
+    add_contact(problem, a, b, std::cos(angle), std::sin(angle), 0.5, random.uniform(0.0, 0.01));
   }
   return problem;
 }

@@ -18,6 +18,11 @@ ContactProblem one_contact(double vx, double mu);
 /// Bodies with random masses, radii and velocities, some fixed; random contacts between them, no geometry.
 ContactProblem random_problem(std::uint64_t seed, Index bodies, Index contacts);
 
+/// Bodies in the columns of a ring, numbered from the floor upwards with no regard to the column. Each meets
+/// the next two above it, and one or two of the column to its right. Contacts are sorted by their first body;
+/// each column stands on a body that does not move.
+ContactProblem columns_problem(std::uint64_t seed, Index columns, Index bodies_each);
+
 /// No impulses yet.
 ContactSolution no_guess(const ContactProblem& problem);
 

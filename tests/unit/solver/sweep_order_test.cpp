@@ -5,11 +5,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <map>
+#include <numeric>
 #include <set>
 #include <vector>
 
 #include "core/random.h"
+#include "unit/solver/small_problems.h"
 
 namespace talus {
 namespace {
@@ -41,6 +44,18 @@ Graph graph(Index bodies, Index contacts_each, Index reach) {
     }
     graph.first_a[i + 1] = graph.problem.contact_count();
   }
+  return graph;
+}
+
+/// The same of the columns of a ring.
+Graph ring(Index columns, Index bodies_each) {
+  Graph graph{test::columns_problem(5, columns, bodies_each), {}, {}, {}};
+  graph.first_a.assign(graph.problem.vx.size() + 1, 0);
+  for (const Index a : graph.problem.a) ++graph.first_a[a + 1];
+  std::partial_sum(graph.first_a.begin(), graph.first_a.end(), graph.first_a.begin());
+  for (Index i = 0; i < graph.problem.body_count(); ++i)
+    graph.moves.push_back(graph.problem.inverse_mass[i] > 0.0 ? 1 : 0);
+  for (Index c = 0; c < graph.problem.contact_count(); ++c) graph.swept.push_back(c % 7 == 2 ? 0 : 1);
   return graph;
 }
 
@@ -84,7 +99,8 @@ class OrderOfSweep : public testing::TestWithParam<Graph> {
 
 INSTANTIATE_TEST_SUITE_P(Graphs, OrderOfSweep,
                          testing::Values(graph(0, 1, 1), graph(40, 1, 3), graph(3000, 2, 60),
-                                         graph(20000, 2, 400), graph(3000, 2, 3000)));
+                                         graph(20000, 2, 400), graph(3000, 2, 3000), ring(100, 80),
+                                         ring(7, 500)));
 
 TEST_P(OrderOfSweep, has_one_slot_for_each_contact) {
   std::set<Index> slots;
@@ -149,6 +165,54 @@ TEST(OrderOfSweep, fills_its_groups_on_a_large_bed) {
   const Graph large = graph(20000, 2, 400);
   const auto swept = std::ranges::count(large.swept, 1);
   EXPECT_GT(static_cast<double>(swept), 0.9 * lane_count * order_of(large).group_count());
+}
+
+// So that several sweeps can run through the bed as a wave.
+TEST(OrderOfSweep, of_columns_is_a_ring) {
+  const Graph large = ring(100, 80);
+  const SweepOrder order = order_of(large);
+  const Index domains = order.domain_count();
+  ASSERT_TRUE(order.is_ring());
+  ASSERT_EQ(domains, 6);
+  ASSERT_EQ(order.first_row.size(), static_cast<std::size_t>(domains) + 1);
+  EXPECT_EQ(order.first_row.front(), 0);
+  EXPECT_EQ(order.first_row.back(), large.problem.body_count());
+  std::vector<Index> contacts(static_cast<std::size_t>(domains), 0);
+  const auto domain_of_row = [&order](Index row) {
+    return static_cast<Index>(std::ranges::upper_bound(order.first_row, row) - order.first_row.begin()) - 1;
+  };
+  for (Index c = 0; c < large.problem.contact_count(); ++c) {
+    const Index a = large.problem.a[c], b = large.problem.b[c];
+    if (!large.swept[c] || !large.moves[a] || !large.moves[b]) continue;
+    const Index in_a = domain_of_row(order.row_a[c]), in_b = domain_of_row(order.row_b[c]);
+    const Index apart = std::abs(in_a - in_b);
+    EXPECT_TRUE(apart <= 1 || apart == domains - 1) << in_a << " and " << in_b;
+    // A domain is of columns next to each other.
+    for (const auto& [body, domain] : {std::pair(a, in_a), std::pair(b, in_b)})
+      EXPECT_NEAR((large.problem.column[body] + 0.5) / 100.0, (domain + 0.5) / domains, 0.6 / domains);
+    ++contacts[static_cast<std::size_t>(in_a)];
+  }
+  for (const Index of_domain : contacts)
+    EXPECT_NEAR(of_domain * domains, std::ranges::count(large.swept, 1), 0.2 * 100 * 80 * 3);
+}
+
+TEST(OrderOfSweep, with_too_few_columns_goes_by_the_order_of_the_bodies) {
+  const SweepOrder order = order_of(ring(7, 500));
+  EXPECT_FALSE(order.is_ring());
+}
+
+TEST(OrderOfSweep, with_a_contact_across_columns_is_no_ring) {
+  Graph graph = ring(100, 80);
+  const Index far = 50;
+  // The first contact of a body that moves, with one of a column half the ring away.
+  const auto moving = std::ranges::find_if(graph.problem.a, [&](Index a) { return graph.moves[a] != 0; });
+  const auto c = static_cast<std::size_t>(moving - graph.problem.a.begin());
+  graph.swept[c] = 1;
+  const Index column = (graph.problem.column[*moving] + far) % 100;
+  Index b = graph.problem.body_count() - 1;
+  while (graph.problem.column[b] != column) --b;
+  graph.problem.b[c] = b;
+  EXPECT_FALSE(order_of(graph).is_ring());
 }
 
 TEST(OrderOfSweep, has_work_for_several_threads_on_a_large_bed_only) {

@@ -1,0 +1,41 @@
+#pragma once
+/// Sweeps of a team over the contacts: one after another, or several in a wave.
+
+#include <span>
+#include <vector>
+
+#include "core/thread_team.h"
+#include "solver/linearisation.h"
+#include "solver/momentum.h"
+
+namespace talus {
+
+/// So many sweeps may follow each other before the momentum is looked at.
+inline constexpr int most_sweeps_in_a_row = 4;
+
+/// What one member of a team needs to sweep. All members call the functions below together.
+struct Sweeper {
+  Linearisation& at;
+  std::vector<SweepSums>& sums;  ///< of part k in sweep s: entry s * part_count + k
+  ThreadTeam* team;              ///< null: alone
+  int member, size;
+  SweepKernels kernels;
+};
+
+/// How many sweeps follow each other: several in a bed so large that its contacts do not stay in the caches.
+/// Follows from the order alone.
+int sweeps_in_a_row(const SweepOrder& order);
+
+/// Sweeps with beta[s] as the momentum of sweep s (T16), phase by phase.
+void sweep_by_phases(const Sweeper& sweeper, std::span<const float> beta);
+
+/// The same sweeps, to the bit, where domains form a ring: several of them run through the bed as a wave, so
+/// that what is read of a domain serves all of them. There must be at least four domains for each sweep and
+/// member of the team.
+void sweep_in_wave(const Sweeper& sweeper, std::span<const float> beta);
+
+/// The next `count` sweeps, at most most_sweeps_in_a_row, in the faster way, with a momentum that goes on.
+/// Then `momentum` is told what they changed. Returns || p_new - y || of the last one.
+double sweep(const Sweeper& sweeper, int count, Momentum& momentum);
+
+}  // namespace talus
