@@ -40,7 +40,7 @@ struct RunArguments {
   MapOptions maps;
 };
 
-std::string command_line(const RunArguments& arguments) {
+std::string command_line_of(const RunArguments& arguments) {
   std::string line = fmt::format("talus run {} -o {}", arguments.scenario, arguments.output);
   for (const std::string& setting : arguments.settings) line += " --set " + setting;
   return line;
@@ -80,7 +80,7 @@ RunRequest request_of(const RunArguments& arguments) {
   if (!arguments.seed.empty()) request.settings.push_back(fmt::format("seed={}", arguments.seed));
   request.threads = arguments.threads;
   request.overwrite = arguments.overwrite;
-  request.command_line = command_line(arguments);
+  request.command_line = command_line_of(arguments);
   return request;
 }
 

@@ -13,7 +13,7 @@
 namespace talus {
 namespace {
 
-constexpr double same_tilt = 1e-6;  // deg
+constexpr double same_theta = 1e-6;  // deg
 
 /// What is in the file, and how it is called in messages.
 struct Source {
@@ -116,7 +116,7 @@ std::vector<Point> points_of(const StoredVariant& variant, std::size_t m, double
                [&](std::size_t k) { return theta_c - variant.angles_left[k]; });
   std::ranges::stable_sort(points, {}, &Point::theta);
   const auto same = [](const Point& left, const Point& right) {
-    return right.theta - left.theta < same_tilt;
+    return right.theta - left.theta < same_theta;
   };
   points.erase(std::unique(points.begin(), points.end(), same), points.end());
   return points;
