@@ -49,25 +49,33 @@ void take_grains(const World& world, double h, ContactProblem& problem) {
   copy(grains.radius, all, problem.lever);
 }
 
-/// Contacts of a bed with so many are swept column by column.
-constexpr Index contacts_for_columns = 24'000;
-/// The width of a column, in diameters of the largest grain.
-constexpr double diameters_per_column = 4.0;
+/// How many columns a bed with so many contacts has.
+Index columns_of(const World& world, Index contacts) {
+  constexpr Index contacts_for_columns = 24'000;
+  constexpr double width_of_column = 4.0;  // in diameters of the largest grain
+  if (contacts < contacts_for_columns) return 0;
+  const std::vector<double>& radius = world.grains.radius;
+  const double largest = 2.0 * *std::max_element(radius.begin(), radius.end());
+  const double columns = std::floor(world.boundary.length / (width_of_column * largest));
+  return columns >= 1.0 ? static_cast<Index>(std::min(columns, static_cast<double>(radius.size()))) : 0;
+}
 
-void take_columns(const World& world, Index contacts, ContactProblem& problem) {
-  const Grains& grains = world.grains;
-  problem.column.clear();
-  if (contacts < contacts_for_columns) return;
-  const double largest = 2.0 * *std::max_element(grains.radius.begin(), grains.radius.end());
-  const double columns = std::min(std::floor(world.boundary.length / (diameters_per_column * largest)),
-                                  static_cast<double>(grains.count()));
-  if (!(columns >= 1.0)) return;
-  problem.column.resize(problem.vx.size(), 0);  // planes do not move, and are in any column
-  const double columns_per_metre = columns / world.boundary.length;
-  for (std::size_t i = 0; i < grains.x.size(); ++i) {
-    const double at = grains.x[i] * columns_per_metre;  // not a number where the step will find that
-    problem.column[i] = at > 0.0 ? static_cast<Index>(std::min(at, columns - 1.0)) : 0;
+void size_columns(const World& world, Index contacts, ContactProblem& problem) {
+  problem.columns = columns_of(world, contacts);
+  problem.column.resize(problem.columns > 0 ? problem.vx.size() : 0);
+}
+
+void take_columns(const World& world, ContactProblem& problem) {
+  if (problem.columns == 0) return;
+  const std::vector<double>& x = world.grains.x;
+  const double last = problem.columns - 1.0, columns_per_metre = problem.columns / world.boundary.length;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    // A position that is not a number has a column too: the step goes on to find it and to report it.
+    const double at = x[i] * columns_per_metre;
+    problem.column[i] = at > 0.0 ? static_cast<Index>(std::min(at, last)) : 0;
   }
+  std::fill(problem.column.begin() + static_cast<std::ptrdiff_t>(x.size()), problem.column.end(),
+            0);  // planes
 }
 
 /// Not by assignments, which would allocate for each contact more than ever before.
@@ -180,13 +188,14 @@ void form_problem(const World& world, const Contacts& contacts, const ContactLaw
                   double tolerance, ContactProblem& problem, ThreadTeam* team) {
   size_bodies(world, problem);
   size_contacts(contacts, law, problem);
+  size_columns(world, contacts.count(), problem);
   double noise = 0.0;
   // The sum of the noise is one chain of additions, in an order that must not depend on the team.
   do_both(
       team, [&] { noise = impulse_of_noise(contacts, h, tolerance); },
       [&] {
         take_grains(world, h, problem);
-        take_columns(world, contacts.count(), problem);
+        take_columns(world, problem);
       });
   share_out(team, contacts.a.size(), [&](std::size_t first, std::size_t last) {
     const Part part{first, last};

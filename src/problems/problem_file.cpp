@@ -132,6 +132,7 @@ StepProblem step_problem_of(const std::string& path, const FclibProblem& file,
   step.problem.b = file.integers.at(second_body);
   step.problem.mu = file.mu;
   if (file.integers.contains(column)) step.problem.column = file.integers.at(column);
+  for (const Index k : step.problem.column) step.problem.columns = std::max(step.problem.columns, k + 1);
   check_bodies(path, step.problem);
   for (const Impulse& p : guess) {
     step.guess.pn.push_back(p.normal);

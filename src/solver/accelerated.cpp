@@ -68,8 +68,8 @@ struct TeamMember {
     last_body = part_begin(problem.body_count(), member + 1, size);
   }
 
-  Index first_row() const { return part_begin(at.order.row_count, member, size); }
-  Index last_row() const { return part_begin(at.order.row_count, member + 1, size); }
+  Index first_own_row() const { return part_begin(at.order.row_count, member, size); }
+  Index last_own_row() const { return part_begin(at.order.row_count, member + 1, size); }
 
   void wait_for_all() const {
     if (team) team->wait_for_all();
@@ -139,7 +139,7 @@ struct TeamMember {
     wait_for_all();
     if (!by_first([this] { begin_order_of_contacts(problem, size, at); })) return false;
     if (at.have_new_order && !order_contacts()) return false;
-    clear_rows(first_row(), last_row(), at);
+    clear_rows(first_own_row(), last_own_row(), at);
     load_groups(problem, first_block, last_block, at);
     wait_for_all();
     return true;
@@ -148,7 +148,7 @@ struct TeamMember {
   /// P0 becomes the present P; returns its residual.
   ExactResidual renew() {
     absorb_increments(problem, first_block, last_block, at);
-    absorb_velocities(first_row(), last_row(), at);
+    absorb_velocities(first_own_row(), last_own_row(), at);
     wait_for_all();
     return look();
   }

@@ -25,12 +25,13 @@ bool follow_contacts(const ContactProblem& problem, ContactProblem& linked) {
 bool follow_bodies(const ContactProblem& problem, ContactProblem& linked) {
   const bool same = problem.inverse_mass == linked.inverse_mass &&
                     problem.inverse_inertia == linked.inverse_inertia && problem.lever == linked.lever &&
-                    problem.column == linked.column;
+                    problem.column == linked.column && problem.columns == linked.columns;
   if (same) return true;
   linked.inverse_mass = problem.inverse_mass;
   linked.inverse_inertia = problem.inverse_inertia;
   linked.lever = problem.lever;
   linked.column = problem.column;
+  linked.columns = problem.columns;
   return false;
 }
 

@@ -24,10 +24,12 @@ struct ContactProblem {
   std::vector<double> inverse_mass;     ///< 1/kg; 0 for a body that does not move
   std::vector<double> inverse_inertia;  ///< 1/(kg m^2); 0 for a body that does not rotate
   std::vector<double> lever;  ///< r, m: distance from the centre to every contact of the body; 0 for a plane
-  /// In which column of the bed the body is, from one end to the other: contacts join bodies of a column, of
-  /// two next to each other, or of the first and the last. A solver may work on columns side by side. Empty
-  /// in small beds, and where it is not known.
+  /// In which column of the bed the body is, 0 ... columns - 1 from one end to the other: contacts join
+  /// bodies of a column, of two next to each other, or of the first and the last. A solver may work on
+  /// columns side by side. That of a body that does not move does not matter. Empty in small beds, and where
+  /// it is not known.
   std::vector<Index> column;
+  Index columns = 0;
 
   // Contacts.
   std::vector<Index> a, b;

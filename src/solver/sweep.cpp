@@ -1,5 +1,6 @@
 #include "solver/sweep.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -8,7 +9,8 @@ namespace {
 
 // From so many domains on, some 250 000 contacts, a wave pays: smaller beds stay in the last cache.
 constexpr Index domains_for_wave = 64;
-// A wave begins in several places at once. Between two of them it takes so many domains for each sweep.
+// A wave begins in a place for each member of a team. Between two of them it takes so many domains for each
+// sweep.
 constexpr Index domains_for_each = 4;
 
 void wait_for_all(const Sweeper& sweeper) {
@@ -28,9 +30,10 @@ void extrapolate_domain(const Sweeper& sweeper, Index domain, float beta) {
   sweeper.kernels.bodies(body_arrays(sweeper.at), first_row[domain], first_row[domain + 1], beta);
 }
 
-/// The part of a domain in a sweep. A sweep has two halves, the even domains and the odd ones. In its half a
-/// domain meets none but its two neighbours. The bodies of an even domain are extrapolated before it; those
-/// of an odd one, which its neighbours meet before, for the next sweep after it.
+/// The part of a domain in a sweep, whose halves are the even domains and the odd ones. A domain needs what
+/// its two neighbours did in the half before. Bodies of an even domain are extrapolated just before it is
+/// swept; those of an odd one meet its neighbours first, so they are extrapolated for the next sweep as soon
+/// as it has been swept.
 void sweep_domain(const Sweeper& sweeper, Index place, Index half, std::span<const float> beta) {
   const Index domains = sweeper.at.order.domain_count(), domain = (place % domains + domains) % domains;
   const auto sweep = static_cast<std::size_t>(half / 2);
@@ -53,6 +56,10 @@ SweepSums sums_of(const Sweeper& sweeper, int sweep) {
 
 int sweeps_in_a_row(const SweepOrder& order) {
   return order.is_ring() && order.domain_count() >= domains_for_wave ? most_sweeps_in_a_row : 1;
+}
+
+bool fits_wave(const SweepOrder& order, int sweeps, int size) {
+  return order.is_ring() && order.domain_count() >= domains_for_each * sweeps * size;
 }
 
 void sweep_by_phases(const Sweeper& sweeper, std::span<const float> beta) {
@@ -79,17 +86,16 @@ void sweep_in_wave(const Sweeper& sweeper, std::span<const float> beta) {
   const Index halves = 2 * static_cast<Index>(beta.size());
   for (Index domain = left + 1; domain < right; domain += 2) extrapolate_domain(sweeper, domain, beta[0]);
   wait_for_all(sweeper);
-  // First what needs none of the domains of others: with each half one domain less at either end.
-  for (Index front = left; front < right + halves; front += 2)
-    for (Index half = 0; half < halves; ++half)
-      if (const Index place = front - half; left + half <= place && place < right - half)
-        sweep_domain(sweeper, place, half, beta);
+  // A front has a domain in each half, front - half. Those in the halves up to (front - left) / 2 need none
+  // of the domains of others.
+  for (Index front = left; front < right; front += 2)
+    for (Index half = 0; half < std::min(halves, (front - left) / 2 + 1); ++half)
+      sweep_domain(sweeper, front - half, half, beta);
   wait_for_all(sweeper);
-  // Then what is left around the left end.
-  for (Index front = left; front < left + 2 * halves; front += 2)
-    for (Index half = 0; half < halves; ++half)
-      if (const Index place = front - half; left - half <= place && place < left + half)
-        sweep_domain(sweeper, place, half, beta);
+  // The others need what the members on both sides of the left end have done.
+  for (Index front = left; front < left + 2 * (halves - 1); front += 2)
+    for (Index half = (front - left) / 2 + 1; half < halves; ++half)
+      sweep_domain(sweeper, front - half, half, beta);
   wait_for_all(sweeper);
 }
 
@@ -101,7 +107,7 @@ double sweep(const Sweeper& sweeper, int count, Momentum& momentum) {
     ahead.grow();
   }
   const std::span<const float> sweeps(beta.data(), static_cast<std::size_t>(count));
-  if (count > 1 && sweeper.at.order.domain_count() >= domains_for_each * count * sweeper.size)
+  if (count > 1 && fits_wave(sweeper.at.order, count, sweeper.size))
     sweep_in_wave(sweeper, sweeps);
   else
     sweep_by_phases(sweeper, sweeps);

@@ -26,16 +26,19 @@ struct Sweeper {
 /// Follows from the order alone.
 int sweeps_in_a_row(const SweepOrder& order);
 
+/// Whether a wave of so many sweeps has room to begin in a place for each member of a team of this size.
+bool fits_wave(const SweepOrder& order, int sweeps, int size);
+
 /// Sweeps with beta[s] as the momentum of sweep s (T16), phase by phase.
 void sweep_by_phases(const Sweeper& sweeper, std::span<const float> beta);
 
 /// The same sweeps, to the bit, where domains form a ring: several of them run through the bed as a wave, so
-/// that what is read of a domain serves all of them. There must be at least four domains for each sweep and
-/// member of the team.
+/// that what is read of a domain serves all of them. Only where fits_wave().
 void sweep_in_wave(const Sweeper& sweeper, std::span<const float> beta);
 
-/// The next `count` sweeps, at most most_sweeps_in_a_row, in the faster way, with a momentum that goes on.
-/// Then `momentum` is told what they changed. Returns || p_new - y || of the last one.
+/// The next `count` sweeps, at most most_sweeps_in_a_row, in the faster way, each with the momentum that it
+/// has if none before it makes it begin anew. Then `momentum` is told what they changed. Returns || p_new - y
+/// || of the last one.
 double sweep(const Sweeper& sweeper, int count, Momentum& momentum);
 
 }  // namespace talus

@@ -11,19 +11,29 @@ namespace talus {
 namespace {
 
 constexpr Index lanes = lane_count * groups_abreast;
-constexpr Index most_domains = SweepOrder::most_domains;
 constexpr Index of_two_domains = -1;  // in place of the part of a contact, before that is known
 
-/// Few, so that waves run through the bed in one sweep; so many that a phase has work for several threads.
-Index domains_for(Index contacts) {
+struct Domains {
+  Index count;
+  bool by_columns;
+};
+
+/// Few, so that waves run through the bed in one sweep; so many that a phase has work for several threads. A
+/// domain has two columns or more, so that contacts join no domains but neighbours; domains of consecutive
+/// bodies become too thin for that where they are many.
+Domains domains_of(const ContactProblem& problem) {
   constexpr Index contacts_for_four = 1000, contacts_for_a_pair = 8000;
-  if (contacts < contacts_for_four) return 1;
-  return std::clamp(2 * (contacts / contacts_for_a_pair), 4, most_domains);
+  constexpr Index least = 4, most_of_bodies = 64;
+  const Index contacts = problem.contact_count();
+  if (contacts < contacts_for_four) return {1, false};
+  const bool by_columns = problem.columns >= 2 * least;
+  const Index most =
+      by_columns ? std::min(problem.columns / 4 * 2, SweepOrder::most_domains) : most_of_bodies;
+  return {std::clamp(2 * (contacts / contacts_for_a_pair), least, most), by_columns};
 }
 
-/// The domain of what begins after so many of the contacts, given that of what came before it: the domain
-/// that has as many contacts before it as make whole domains, contacts_before domains / contacts, without
-/// dividing.
+/// The domain of what begins after so many of the contacts, given that of what came before it:
+/// contacts_before domains / contacts, found without dividing, since contacts_before never falls.
 Index domain_after(long long contacts_before, long long contacts, Index domains, Index domain) {
   while (domain < domains - 1 && contacts_before * domains >= (domain + 1) * contacts) ++domain;
   return domain;
@@ -38,26 +48,27 @@ void share_bodies(const std::vector<Index>& first_a, long long contacts, Index d
 }
 
 /// Domains of consecutive columns. Bodies have rows by domain, so that those of a domain are near each other.
-void share_columns(const std::vector<Index>& column, Index columns, const std::vector<Index>& first_a,
-                   long long contacts, Index domains, SweepOrder& order) {
-  order.of_column.assign(static_cast<std::size_t>(columns), 0);
-  for (std::size_t i = 0; i < column.size(); ++i) order.of_column[column[i]] += first_a[i + 1] - first_a[i];
+void share_columns(const ContactProblem& problem, const std::vector<Index>& first_a, Index domains,
+                   SweepOrder& order) {
+  const std::vector<Index>& column = problem.column;
+  order.contacts_of_column.assign(static_cast<std::size_t>(problem.columns), 0);
+  for (std::size_t i = 0; i < column.size(); ++i)
+    order.contacts_of_column[column[i]] += first_a[i + 1] - first_a[i];
+  order.domain_of_column.resize(order.contacts_of_column.size());
   Index domain = 0;
   long long before = 0;
-  for (Index& of_column : order.of_column) {
-    const Index contacts_of_column = of_column;
-    of_column = domain = domain_after(before, contacts, domains, domain);
-    before += contacts_of_column;
+  for (std::size_t k = 0; k < order.domain_of_column.size(); ++k) {
+    order.domain_of_column[k] = domain = domain_after(before, problem.contact_count(), domains, domain);
+    before += order.contacts_of_column[k];
   }
   order.first_row.assign(static_cast<std::size_t>(domains) + 1, 0);
   for (std::size_t i = 0; i < column.size(); ++i) {
-    order.domain[i] = order.of_column[column[i]];
-    ++order.first_row[order.domain[i] + 1];
+    order.domain[i] = order.domain_of_column[column[i]];
+    ++order.first_row[order.domain[i]];
   }
-  std::partial_sum(order.first_row.begin(), order.first_row.end(), order.first_row.begin());
-  for (std::size_t i = 0; i < column.size(); ++i) order.row[i] = order.first_row[order.domain[i]]++;
-  std::rotate(order.first_row.begin(), order.first_row.end() - 1, order.first_row.end());
-  order.first_row.front() = 0;
+  std::partial_sum(order.first_row.begin(), order.first_row.end(),
+                   order.first_row.begin());  // where they end
+  for (std::size_t i = column.size(); i-- > 0;) order.row[i] = --order.first_row[order.domain[i]];
 }
 
 /// Whether domains are next to each other.
@@ -66,12 +77,12 @@ bool are_neighbours(Index a, Index b, const SweepOrder& order) {
   return apart == 1 || (order.by_columns && apart == order.domain_count() - 1);
 }
 
-/// The domains of the two bodies of a contact: a body that does not move is in that of the other.
+/// The domains of the two bodies of a contact. A body that does not move is in that of the other.
 struct TwoDomains {
   Index a, b;
 };
-TwoDomains domains_of(const ContactProblem& problem, const std::vector<std::uint8_t>& moves, std::size_t c,
-                      const SweepOrder& order) {
+TwoDomains two_domains(const ContactProblem& problem, const std::vector<std::uint8_t>& moves, std::size_t c,
+                       const SweepOrder& order) {
   const Index a = problem.a[c], b = problem.b[c];
   return {order.domain[moves[a] ? a : b], order.domain[moves[b] ? b : a]};
 }
@@ -121,15 +132,13 @@ void make_places(std::size_t contacts, Index parts, SweepOrder& order) {
 void begin_order(const ContactProblem& problem, const std::vector<Index>& first_a, int size,
                  SweepOrder& order) {
   const auto bodies = static_cast<std::size_t>(problem.body_count());
-  const Index domains = domains_for(problem.contact_count());
+  const auto [domains, by_columns] = domains_of(problem);
   for (auto* field : {&order.slot, &order.row_a, &order.row_b, &order.part}) field->resize(problem.a.size());
   order.shares.resize(static_cast<std::size_t>(size));
   for (auto* field : {&order.domain, &order.row}) field->resize(bodies);
-  const Index columns =
-      problem.column.empty() ? 0 : *std::max_element(problem.column.begin(), problem.column.end()) + 1;
-  order.by_columns = domains > 1 && columns >= 2 * domains;
-  if (order.by_columns)
-    share_columns(problem.column, columns, first_a, problem.contact_count(), domains, order);
+  order.by_columns = by_columns;
+  if (by_columns)
+    share_columns(problem, first_a, domains, order);
   else
     share_bodies(first_a, problem.contact_count(), domains, order);
   order.phase_begin = {0, (domains + 1) / 2, domains, domains + 1};
@@ -145,7 +154,7 @@ void find_parts(const ContactProblem& problem, const std::vector<std::uint8_t>& 
   const auto last = static_cast<std::size_t>(part_begin(problem.contact_count(), member + 1, size));
   for (auto c = static_cast<std::size_t>(part_begin(problem.contact_count(), member, size)); c < last; ++c) {
     if (!swept[c]) continue;
-    const TwoDomains in = domains_of(problem, moves, c, order);
+    const TwoDomains in = two_domains(problem, moves, c, order);
     order.part[c] = in.a == in.b ? order.part_of(in.a) : of_two_domains;
     if (in.a == in.b) ++share[order.part[c]];
   }
@@ -156,7 +165,7 @@ void open_order(const ContactProblem& problem, const std::vector<std::uint8_t>& 
                 const std::vector<std::uint8_t>& swept, SweepOrder& order) {
   for (std::size_t c = 0; c < swept.size(); ++c) {
     if (order.part[c] != of_two_domains || !swept[c]) continue;
-    order.part[c] = part_between(problem, c, domains_of(problem, moves, c, order), order);
+    order.part[c] = part_between(problem, c, two_domains(problem, moves, c, order), order);
     ++order.shares.front()[order.part[c]];
   }
   make_places(swept.size(), order.domain_count() + 1, order);
@@ -204,6 +213,6 @@ void place_slots(const std::vector<std::uint8_t>& swept, std::size_t first, std:
     if (swept[c]) order.slot[c] += lane_count * order.part_begin[order.part[c]];
 }
 
-int most_members(const ContactProblem& problem) { return (domains_for(problem.contact_count()) + 1) / 2; }
+int most_members(const ContactProblem& problem) { return (domains_of(problem).count + 1) / 2; }
 
 }  // namespace talus

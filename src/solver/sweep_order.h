@@ -15,8 +15,8 @@ namespace talus {
 ///   - bodies are cut into domains with about as many contacts each: of consecutive columns in large beds
 ///     (ContactProblem), else of consecutive bodies;
 ///   - a sweep has three phases: even domains with the contacts between them and their odd neighbours; odd
-///     domains; what is left, which is nothing where domains are columns. The parts of a phase share no body
-///     that moves, so they can be swept at once;
+///     domains; what is left, which as a rule is nothing where domains are of columns. The parts of a phase
+///     share no body that moves, so they can be swept at once;
 ///   - within a part, contacts go in groups of eight, a few groups side by side, that share no body that
 ///     moves; each contact goes in the first group that has room.
 /// All of this follows from the problem alone, so that the bits of a result do not depend on threads.
@@ -25,8 +25,9 @@ struct SweepOrder {
   static constexpr Index most_domains = 256, most_parts = most_domains + 1;
   std::vector<Index> slot;          ///< of a contact: lane_count * group + lane
   std::vector<Index> row_a, row_b;  ///< rows of its bodies
-  std::vector<Index> first_row;     ///< bodies of domain d have rows first_row[d] ... first_row[d + 1] - 1
-  std::vector<Index> part_begin;    ///< the groups of part k: part_begin[k] ... part_begin[k + 1] - 1
+  /// Bodies of domain d, of columns, have rows first_row[d] ... first_row[d + 1] - 1.
+  std::vector<Index> first_row;
+  std::vector<Index> part_begin;  ///< the groups of part k: part_begin[k] ... part_begin[k + 1] - 1
   std::array<Index, phases + 1> phase_begin{};  ///< the parts of a phase
   Index row_count = 0;                          ///< bodies, and rows that do not move
 
@@ -46,7 +47,7 @@ struct SweepOrder {
   bool by_columns = false;  ///< domains are of columns
 
   // Memory to work in: places are groups side by side before those that stay empty are left out.
-  std::vector<Index> domain, row, part, owner, first_place, room, of_column;
+  std::vector<Index> domain, row, part, owner, first_place, room, contacts_of_column, domain_of_column;
   std::vector<std::array<Index, most_parts>> shares;  ///< contacts of each part that a member has found
   std::vector<std::uint8_t> fill;
   std::array<std::vector<Index>, phases> next_place;

@@ -197,7 +197,8 @@ TEST(FormProblem, contacts_of_a_large_bed_join_columns_next_to_each_other) {
   ContactProblem problem;
   form_problem(world, contacts, {}, h, tolerance, problem);
   ASSERT_EQ(problem.column.size(), problem.vx.size());
-  const Index columns = *std::ranges::max_element(problem.column) + 1;
+  const Index columns = problem.columns;
+  EXPECT_EQ(*std::ranges::max_element(problem.column), columns - 1);
   EXPECT_GT(columns, 25);
   EXPECT_EQ(*std::ranges::min_element(problem.column), 0);
   Index across_the_edge = 0;
@@ -207,6 +208,10 @@ TEST(FormProblem, contacts_of_a_large_bed_join_columns_next_to_each_other) {
     across_the_edge += apart > 1 ? 1 : 0;
   }
   EXPECT_GT(across_the_edge, 0);
+  ThreadTeam team(3);
+  ContactProblem together;
+  form_problem(world, contacts, {}, h, tolerance, together, &team);
+  EXPECT_EQ(together.column, problem.column);
 }
 
 TEST(FormProblem, a_small_bed_has_no_columns) {
@@ -216,8 +221,10 @@ TEST(FormProblem, a_small_bed_has_no_columns) {
   detect_contacts(list, world.grains, world.boundary, 0.1 * test::radius, contacts);
   ContactProblem problem;
   problem.column = {1, 2, 3};  // of a larger one before
+  problem.columns = 4;
   form_problem(world, contacts, {}, h, tolerance, problem);
   EXPECT_TRUE(problem.column.empty());
+  EXPECT_EQ(problem.columns, 0);
 }
 
 TEST(FormProblem, walls_have_the_friction_of_walls) {

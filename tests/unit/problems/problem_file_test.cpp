@@ -81,8 +81,11 @@ TEST(ProblemFile, keeps_the_columns_of_a_large_bed) {
   write_problem(folder.path("p.h5"), step, "of a small bed");
   EXPECT_TRUE(read_problem(folder.path("p.h5")).step->problem.column.empty());
   for (Index i = 0; i < step.problem.body_count(); ++i) step.problem.column.push_back(i / 3);
+  step.problem.columns = step.problem.column.back() + 1;
   write_problem(folder.path("p.h5"), step, "");
-  EXPECT_EQ(read_problem(folder.path("p.h5")).step->problem.column, step.problem.column);
+  const ContactProblem stored = read_problem(folder.path("p.h5")).step->problem;
+  EXPECT_EQ(stored.column, step.problem.column);
+  EXPECT_EQ(stored.columns, step.problem.columns);
 }
 
 TEST(ProblemFile, holds_the_local_form_of_the_step) {

@@ -110,6 +110,18 @@ TEST_P(Packing, the_same_contacts_of_other_bodies_have_the_same_bits) {
   }
 }
 
+// The residual is that of the bodies, whatever rows the sweeps give them.
+TEST(Columns, are_solved) {
+  const ContactProblem problem = test::columns_problem(3, 100, 60);
+  SolverWorkspace workspace;
+  ContactSolution solution = test::no_guess(problem);
+  const SolverReport report =
+      solve(problem, settings_of(SolverKind::accelerated, 1e-3, 2000), workspace, solution);
+  EXPECT_TRUE(report.converged) << report.residual.eta;
+  EXPECT_TRUE(workspace.accelerated.linearisation.order.by_columns);
+  EXPECT_LE(natural_map_residual(problem, solution).eta, 1.001e-3);
+}
+
 TEST(Columns, that_change_give_a_new_order) {
   const ContactProblem problem = test::columns_problem(3, 100, 60);
   ContactProblem turned = problem;

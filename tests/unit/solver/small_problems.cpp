@@ -61,6 +61,7 @@ ContactProblem random_problem(std::uint64_t seed, Index bodies, Index contacts) 
 ContactProblem columns_problem(std::uint64_t seed, Index columns, Index bodies_each) {
   Random random(seed);
   ContactProblem problem;
+  problem.columns = columns;
   std::vector<Index> next(
       static_cast<std::size_t>(columns));  // in a shuffled order, another one for each layer
   std::iota(next.begin(), next.end(), 0);

@@ -100,7 +100,7 @@ class OrderOfSweep : public testing::TestWithParam<Graph> {
 INSTANTIATE_TEST_SUITE_P(Graphs, OrderOfSweep,
                          testing::Values(graph(0, 1, 1), graph(40, 1, 3), graph(3000, 2, 60),
                                          graph(20000, 2, 400), graph(3000, 2, 3000), ring(100, 80),
-                                         ring(7, 500)));
+                                         ring(10, 800), ring(7, 500)));
 
 TEST_P(OrderOfSweep, has_one_slot_for_each_contact) {
   std::set<Index> slots;
@@ -161,6 +161,15 @@ TEST_P(OrderOfSweep, has_rows_of_their_own_for_bodies_that_do_not_move) {
   }
 }
 
+TEST_P(OrderOfSweep, has_one_row_for_each_body_that_moves) {
+  std::map<Index, Index> row_of_body, body_of_row;
+  for_each_end([&](Index c, Index body) {
+    const Index row = body == graph_.problem.a[c] ? order_.row_a[c] : order_.row_b[c];
+    EXPECT_EQ(row_of_body.try_emplace(body, row).first->second, row);
+    EXPECT_EQ(body_of_row.try_emplace(row, body).first->second, body);
+  });
+}
+
 TEST(OrderOfSweep, fills_its_groups_on_a_large_bed) {
   const Graph large = graph(20000, 2, 400);
   const auto swept = std::ranges::count(large.swept, 1);
@@ -194,6 +203,13 @@ TEST(OrderOfSweep, of_columns_is_a_ring) {
   }
   for (const Index of_domain : contacts)
     EXPECT_NEAR(of_domain * domains, std::ranges::count(large.swept, 1), 0.2 * 100 * 80 * 3);
+}
+
+// Few columns, as of a tall bed: 27 000 contacts would make six domains.
+TEST(OrderOfSweep, of_columns_has_two_of_them_in_a_domain_at_least) {
+  const SweepOrder order = order_of(ring(10, 800));
+  EXPECT_EQ(order.domain_count(), 4);
+  EXPECT_TRUE(order.is_ring());
 }
 
 TEST(OrderOfSweep, with_too_few_columns_goes_by_the_order_of_the_bodies) {
