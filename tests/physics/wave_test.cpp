@@ -110,13 +110,13 @@ TEST(Waves, do_not_change_a_bit_of_a_solve) {
   const auto solve = [&problem](int threads) {
     AcceleratedWorkspace workspace;
     ContactSolution solution = test::no_guess(problem);
-    const AcceleratedOutcome outcome = solve_accelerated(problem, 1e-300, 22, threads, workspace, solution);
-    EXPECT_EQ(outcome.iterations, 22);
+    const AcceleratedOutcome outcome = solve_accelerated(problem, 1e-300, 9, threads, workspace, solution);
+    EXPECT_EQ(outcome.iterations, 9);
     EXPECT_EQ(sweeps_in_a_row(workspace.linearisation.order), most_sweeps_in_a_row);
     return solution;
   };
   const ContactSolution alone = solve(1);
-  for (const int threads : {2, 3, 5}) {
+  for (const int threads : {3, 5}) {
     const ContactSolution in_team = solve(threads);
     expect_same_bits(in_team.pn, alone.pn, "normal impulses");
     expect_same_bits(in_team.pt, alone.pt, "tangential impulses");
