@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "solver/linearisation.h"
@@ -10,29 +11,25 @@
 namespace talus {
 namespace {
 
-/// Brings `linked` up to the problem; returns whether it was so before.
-bool follow_contacts(const ContactProblem& problem, ContactProblem& linked) {
-  const bool same = problem.a == linked.a && problem.b == linked.b && problem.mu == linked.mu &&
-                    problem.rolling_friction == linked.rolling_friction;
-  if (same) return true;
-  linked.a = problem.a;
-  linked.b = problem.b;
-  linked.mu = problem.mu;
-  linked.rolling_friction = problem.rolling_friction;
+/// Brings what is known up to what is now; returns whether it was so before.
+template <typename Value>
+bool follow(const Value& now, Value& known) {
+  if (now == known) return true;
+  known = now;
   return false;
 }
 
-bool follow_bodies(const ContactProblem& problem, ContactProblem& linked) {
-  const bool same = problem.inverse_mass == linked.inverse_mass &&
-                    problem.inverse_inertia == linked.inverse_inertia && problem.lever == linked.lever &&
-                    problem.column == linked.column && problem.columns == linked.columns;
-  if (same) return true;
-  linked.inverse_mass = problem.inverse_mass;
-  linked.inverse_inertia = problem.inverse_inertia;
-  linked.lever = problem.lever;
-  linked.column = problem.column;
-  linked.columns = problem.columns;
-  return false;
+bool follow_contacts(const ContactProblem& now, ContactProblem& known) {
+  const bool same[] = {follow(now.a, known.a), follow(now.b, known.b), follow(now.mu, known.mu),
+                       follow(now.rolling_friction, known.rolling_friction)};
+  return std::ranges::find(same, false) == std::end(same);
+}
+
+bool follow_bodies(const ContactProblem& now, ContactProblem& known) {
+  const bool same[] = {follow(now.inverse_mass, known.inverse_mass),
+                       follow(now.inverse_inertia, known.inverse_inertia), follow(now.lever, known.lever),
+                       follow(now.column, known.column), follow(now.columns, known.columns)};
+  return std::ranges::find(same, false) == std::end(same);
 }
 
 /// How many contacts each body has as a, in first_a[i + 1], and as b, in first_own_side[i]; and whether

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <limits>
 
 #include "contact/detection.h"
 #include "core/trigonometry.h"
@@ -212,6 +213,21 @@ TEST(FormProblem, contacts_of_a_large_bed_join_columns_next_to_each_other) {
   ContactProblem together;
   form_problem(world, contacts, {}, h, tolerance, together, &team);
   EXPECT_EQ(together.column, problem.column);
+}
+
+TEST(FormProblem, what_has_left_a_large_bed_has_a_column) {
+  World world = test::random_cloud(5, 20'000, false, 300.0 * test::radius);
+  Contacts contacts;
+  NeighbourList list;
+  detect_contacts(list, world.grains, world.boundary, 0.1 * test::radius, contacts);
+  world.grains.x[0] = -1.0;
+  world.grains.x[1] = 1e12;
+  world.grains.x[2] = std::numeric_limits<double>::quiet_NaN();
+  ContactProblem problem;
+  form_problem(world, contacts, {}, h, tolerance, problem);
+  EXPECT_EQ(problem.column[0], 0);
+  EXPECT_EQ(problem.column[1], problem.columns - 1);
+  EXPECT_EQ(problem.column[2], 0);
 }
 
 TEST(FormProblem, a_small_bed_has_no_columns) {
