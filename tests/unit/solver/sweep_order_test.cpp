@@ -8,7 +8,9 @@
 #include <cstdlib>
 #include <map>
 #include <numeric>
+#include <ostream>
 #include <set>
+#include <string>
 #include <vector>
 
 #include "core/random.h"
@@ -73,9 +75,24 @@ SweepOrder order_of(const Graph& graph, int size = 1) {
   return order;
 }
 
-class OrderOfSweep : public testing::TestWithParam<Graph> {
+/// A graph that only the test that wants it makes: the program begins anew for each test.
+struct NamedGraph {
+  const char* name;
+  Graph (*make)();
+};
+constexpr NamedGraph graphs[] = {{"none", [] { return graph(0, 1, 1); }},
+                                 {"small", [] { return graph(40, 1, 3); }},
+                                 {"bed", [] { return graph(3000, 2, 60); }},
+                                 {"large_bed", [] { return graph(20000, 2, 400); }},
+                                 {"of_far_contacts", [] { return graph(3000, 2, 3000); }},
+                                 {"ring", [] { return ring(100, 80); }},
+                                 {"ring_of_tall_columns", [] { return ring(10, 800); }},
+                                 {"ring_of_too_few_columns", [] { return ring(7, 500); }}};
+void PrintTo(const NamedGraph& graph, std::ostream* out) { *out << graph.name; }
+
+class OrderOfSweep : public testing::TestWithParam<NamedGraph> {
  protected:
-  const Graph& graph_ = GetParam();
+  const Graph graph_ = GetParam().make();
   const SweepOrder order_ = order_of(graph_);
 
   /// Does something with each contact that is swept, and each of its bodies that moves.
@@ -97,10 +114,8 @@ class OrderOfSweep : public testing::TestWithParam<Graph> {
   }
 };
 
-INSTANTIATE_TEST_SUITE_P(Graphs, OrderOfSweep,
-                         testing::Values(graph(0, 1, 1), graph(40, 1, 3), graph(3000, 2, 60),
-                                         graph(20000, 2, 400), graph(3000, 2, 3000), ring(100, 80),
-                                         ring(10, 800), ring(7, 500)));
+INSTANTIATE_TEST_SUITE_P(Graphs, OrderOfSweep, testing::ValuesIn(graphs),
+                         [](const auto& parameter) { return std::string(parameter.param.name); });
 
 TEST_P(OrderOfSweep, has_one_slot_for_each_contact) {
   std::set<Index> slots;
