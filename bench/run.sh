@@ -9,6 +9,8 @@ readonly scale_sizes=(4000 8000 20000 40000 100000 400000)
 readonly dense_solvers=(nsgs cpg lemke enumeration)
 readonly dense_seconds=300 # that a dense solver may take
 export OPENBLAS_NUM_THREADS=1 # Siconos is measured on one core
+revision=$(git -c safe.directory="$PWD" describe --always --dirty) # before a result changes the tree
+readonly revision
 
 build() {
   cmake --preset bench >/dev/null
@@ -17,9 +19,8 @@ build() {
 
 # heading TITLE COMMAND: what was measured, with what, where, when.
 heading() {
-  local compiler revision
+  local compiler
   compiler=$(sed -n 's/^CMAKE_CXX_COMPILER:.*=//p' "$build/CMakeCache.txt")
-  revision=$(git -c safe.directory="$PWD" describe --always --dirty)
   cat <<TEXT
 # $1
 
