@@ -4,8 +4,11 @@
 
 #include <atomic>
 #include <cstdlib>
+#include <initializer_list>
 #include <new>
 
+#include "contact/detection.h"
+#include "core/thread_team.h"
 #include "core/trigonometry.h"
 #include "support/scenes.h"
 
@@ -97,6 +100,27 @@ TEST_P(Allocation, a_steady_step_allocates_nothing) {
     EXPECT_EQ(allocations_of_steps(world, settings, workspace, 50), 0);
     EXPECT_GE(workspace.neighbours.rebuilds, rebuilds + 10);
   }
+}
+
+// Beside other processes a solve goes on with its team or without, as time tells; here in turn.
+TEST(DetectionAllocation, of_a_team_that_comes_and_goes_is_that_of_its_first_turn) {
+  const StepSettings settings = test::bed_step(1e-3);
+  const World world = test::fallen_bed(test::bed_plan(true, 1600, 100, 5), settings, 400);
+  ThreadTeam two(2);
+  NeighbourList list;
+  Contacts contacts;
+  const auto detect = [&](ThreadTeam* team) {
+    const long before = allocations;
+    list.reach = -1.0;
+    detect_contacts(list, world.grains, world.boundary, settings.margin, contacts, team);
+    return allocations - before;
+  };
+  EXPECT_GT(detect(&two), 0) << "nothing is counted";
+  detect(&two);  // with room for all that was listed
+  for (ThreadTeam* const team : std::initializer_list<ThreadTeam*>{nullptr, &two, nullptr, &two})
+    EXPECT_EQ(detect(team), 0) << (team ? "two threads" : "one");
+  EXPECT_EQ(list.rebuilds, 6);
+  ASSERT_GT(contacts.count(), 2500);
 }
 
 // Whichever allocation of a solve fails, both threads come back, and the workspace can be used again.
