@@ -83,7 +83,7 @@ void hold_until_rest(World& world, double h) {
   StepWorkspace workspace;
   const double rest = Scenario{}.deposition.rest_velocity * world.gravity * h;
   for (int quiet = 0; quiet < quiet_steps;)
-    quiet = step(world, settings, workspace).rms_velocity < rest ? quiet + 1 : 0;
+    quiet = step(world, settings, workspace).motion.rms_velocity < rest ? quiet + 1 : 0;
 }
 
 /// A bed may be in the midst of a rearrangement when it reaches its angle: holds it there, with steps of h,

@@ -51,8 +51,8 @@ RunShown ProgressLine::shown(const RunProgress& progress) {
   shown.time = world.time;
   shown.tilt = degrees(world.tilt);
   shown.residual = report.solver.residual.eta;
-  shown.kinetic_energy = kinetic_energy(world.grains);
-  shown.velocity = report.rms_velocity / (world.gravity * time_step(session.scenario()));
+  shown.kinetic_energy = report.motion.kinetic_energy;
+  shown.velocity = report.motion.rms_velocity / (world.gravity * time_step(session.scenario()));
   shown.contacts = report.contacts;
   shown.seconds = progress.wall_seconds;
   shown.share = share(session, shown);

@@ -19,8 +19,8 @@ void take_distances(const NeighbourList& list, const Grains& grains, double leng
                     std::size_t count, LocalFrames& frames) {
   const double offset[] = {-length, 0.0, length};
   const double *const x = grains.x.data(), *const y = grains.y.data();
-  const Index *const as = list.a.data() + first, *const bs = list.b.data() + first;
-  const std::int8_t* const shift = list.shift.data() + first;
+  const Index *const as = list.pairs.a.data() + first, *const bs = list.pairs.b.data() + first;
+  const std::int8_t* const shift = list.pairs.shift.data() + first;
   const Index last = grains.count() - 1;
   for (std::size_t k = 0; k < count; ++k) {
     const Index a = as[k], b = std::min(bs[k], last);  // what a plane gets is not used
@@ -49,9 +49,9 @@ void frame_planes(const NeighbourList& list, const Grains& grains, const Boundar
                   std::size_t first, std::size_t count, LocalFrames& frames) {
   if (boundary.planes.empty()) return;
   for (std::size_t k = 0; k < count; ++k) {
-    if (list.b[first + k] < grains.count()) continue;
-    const Index a = list.a[first + k];
-    const Plane& plane = boundary.planes[static_cast<std::size_t>(list.b[first + k] - grains.count())];
+    if (list.pairs.b[first + k] < grains.count()) continue;
+    const Index a = list.pairs.a[first + k];
+    const Plane& plane = boundary.planes[static_cast<std::size_t>(list.pairs.b[first + k] - grains.count())];
     const double distance = plane.normal.x * grains.x[a] + plane.normal.y * grains.y[a] - plane.offset;
     frames.nx[k] = -plane.normal.x;  // from the grain to the plane
     frames.ny[k] = -plane.normal.y;
@@ -65,8 +65,8 @@ void frame_planes(const NeighbourList& list, const Grains& grains, const Boundar
 /// unpredictable.
 std::size_t keep_near(const NeighbourList& list, const LocalFrames& frames, std::size_t first,
                       std::size_t count, std::size_t written, Contacts& contacts) {
-  const Index *const as = list.a.data() + first, *const bs = list.b.data() + first;
-  const std::int8_t* const shifts = list.shift.data() + first;
+  const Index *const as = list.pairs.a.data() + first, *const bs = list.pairs.b.data() + first;
+  const std::int8_t* const shifts = list.pairs.shift.data() + first;
   // Copies: what is written could otherwise be the pointers themselves, for all the compiler knows.
   Index *const a = contacts.a.data(), *const b = contacts.b.data();
   double *const nx = contacts.nx.data(), *const ny = contacts.ny.data(), *const gap = contacts.gap.data();
@@ -91,7 +91,7 @@ std::size_t write_near(const NeighbourList& list, const Grains& grains, const Bo
   while (first < last) {
     const std::size_t count = std::min(LocalFrames::most, last - first);
     take_distances(list, grains, boundary.length, first, count, frames);
-    frame_grains(list.contact_distance.data() + first, margin, count, frames);
+    frame_grains(list.pairs.contact_distance.data() + first, margin, count, frames);
     frame_planes(list, grains, boundary, margin, first, count, frames);
     written = keep_near(list, frames, first, count, written, contacts);
     first += count;
@@ -119,7 +119,7 @@ std::size_t move_down(std::size_t first, std::size_t last, std::size_t to, Conta
 void detect_contacts(NeighbourList& list, const Grains& grains, const Boundary& boundary, double margin,
                      Contacts& contacts, ThreadTeam* team) {
   update_neighbour_list(list, grains, boundary, margin, team);
-  const std::size_t candidates = list.a.size();
+  const std::size_t candidates = list.pairs.a.size();
   contacts.resize(candidates);
   const std::size_t parts = team ? static_cast<std::size_t>(team->size()) : 1;
   const auto begin_of = [candidates, parts](std::size_t part) { return candidates * part / parts; };

@@ -3,138 +3,37 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <limits>
 #include <new>
 
 namespace talus {
 namespace {
 
-struct Grid {
-  double x0 = 0.0, y0 = 0.0;
-  double cell_x = 1.0, cell_y = 1.0;
-  Index columns = 1, rows = 1;
-  bool periodic = false;
-};
+// Of the skin: how far a grain may have moved since its pairs were listed, and how far it has when they are
+// listed anew together with those of grains that moved farther.
+constexpr double farthest = 0.5;
+constexpr double far = 0.25;
 
-bool covers(const NeighbourList& list, const Grains& grains, double reach) {
-  if (list.reach < reach || list.x.size() != grains.x.size()) return false;
-  const double limit = 0.25 * list.skin * list.skin;
+bool is_within(const NeighbourList& list, const Grains& grains, std::size_t i, double distance) {
+  const double dx = grains.x[i] - list.x[i];
+  const double dy = grains.y[i] - list.y[i];
+  // A grain that wrapped around the periodic edge seems to have moved far, and its shifts are stale too.
+  return dx * dx + dy * dy <= distance * distance;
+}
+
+bool are_within(const NeighbourList& list, const Grains& grains, double distance) {
   std::int64_t within = 0;  // as wide as a double, so that the comparisons vectorise
-  for (std::size_t i = 0; i < grains.x.size(); ++i) {
-    const double dx = grains.x[i] - list.x[i];
-    const double dy = grains.y[i] - list.y[i];
-    // A grain that wrapped around the periodic edge seems to have moved far, and its shifts are stale too.
-    within += static_cast<std::int64_t>(dx * dx + dy * dy <= limit);
-  }
+  for (std::size_t i = 0; i < grains.x.size(); ++i)
+    within += static_cast<std::int64_t>(is_within(list, grains, i, distance));
   return within == static_cast<std::int64_t>(grains.x.size());
 }
 
-/// A position that is not a number has a cell too: the step goes on to find it and to report it.
-Index clamped(double cell, Index count) {
-  return cell > 0.0 ? static_cast<Index>(std::min(cell, static_cast<double>(count - 1))) : 0;
-}
-
-Index column_of(const Grid& grid, double x) { return clamped((x - grid.x0) / grid.cell_x, grid.columns); }
-Index row_of(const Grid& grid, double y) { return clamped((y - grid.y0) / grid.cell_y, grid.rows); }
-
-Grid make_grid(const Grains& grains, const Boundary& boundary, double cell) {
-  const auto [x_min, x_max] = std::minmax_element(grains.x.begin(), grains.x.end());
-  const auto [y_min, y_max] = std::minmax_element(grains.y.begin(), grains.y.end());
-  // At most a few cells per grain, however far a grain has flown.
-  const double limit = std::max(16.0, 4.0 * grains.count());
-  Grid grid;
-  grid.periodic = boundary.periodic;
-  grid.x0 = grid.periodic ? 0.0 : *x_min;
-  grid.y0 = *y_min;
-  const double width = grid.periodic ? boundary.length : std::max(*x_max - *x_min, cell);
-  const double height = std::max(*y_max - *y_min, cell);
-  grid.columns = clamped(std::floor(width / cell), static_cast<Index>(limit));
-  grid.columns = std::max<Index>(grid.columns, 1);
-  grid.rows = clamped(std::floor(height / cell), static_cast<Index>(std::max(1.0, limit / grid.columns)));
-  grid.rows = std::max<Index>(grid.rows, 1);
-  grid.cell_x = width / grid.columns;
-  grid.cell_y = height / grid.rows;
-  return grid;
-}
-
-/// Counting sort of the grains into cells; within a cell they stay in the order of their ids.
-void fill_cells(NeighbourList& list, const Grains& grains, const Grid& grid) {
-  const auto cells = static_cast<std::size_t>(grid.columns) * grid.rows;
-  list.cell_start.resize(cells + 1);  // not assigned, which would allocate for each additional row of cells
-  std::fill(list.cell_start.begin(), list.cell_start.end(), 0);
-  for (auto* field : {&list.cell_of_grain, &list.cell_grain}) field->resize(grains.x.size());
-  for (auto* field : {&list.cell_x, &list.cell_y, &list.cell_radius}) field->resize(grains.x.size());
-  for (Index i = 0; i < grains.count(); ++i) {
-    list.cell_of_grain[i] = row_of(grid, grains.y[i]) * grid.columns + column_of(grid, grains.x[i]);
-    ++list.cell_start[list.cell_of_grain[i] + 1];
-  }
-  for (std::size_t cell = 0; cell < cells; ++cell) list.cell_start[cell + 1] += list.cell_start[cell];
-  for (Index i = 0; i < grains.count(); ++i) {
-    const Index place = list.cell_start[list.cell_of_grain[i]]++;
-    list.cell_grain[place] = i;
-    list.cell_x[place] = grains.x[i];
-    list.cell_y[place] = grains.y[i];
-    list.cell_radius[place] = grains.radius[i];
-  }
-  for (std::size_t cell = cells; cell > 0; --cell) list.cell_start[cell] = list.cell_start[cell - 1];
-  list.cell_start[0] = 0;
-}
-
-// A neighbour as one number, b first, so that the numbers sort like (b, shift).
-std::int64_t packed(Index b, int shift) { return 4 * static_cast<std::int64_t>(b) + shift + 1; }
-Index body_of(std::int64_t neighbour) { return static_cast<Index>(neighbour / 4); }
-std::int8_t shift_of(std::int64_t neighbour) { return static_cast<std::int8_t>(neighbour % 4 - 1); }
-
-/// The neighbours of one grain as they are found.
-struct Search {
-  Index a = 0;
-  double range = 0.0;
-  std::int64_t* end = nullptr;
-};
-
-/// Adds the grains b > a of adjacent cells of one row, seen through a periodic shift.
-void search_cells(const NeighbourList& list, const Grains& grains, Index first_cell, Index last_cell,
-                  int shift, double length, Search& search) {
-  const Index a = search.a;
-  const double x = grains.x[a];
-  const double y = grains.y[a];
-  const double reach = grains.radius[a];
-  const double offset = shift * length;
-  std::int64_t* end = search.end;
-  for (Index k = list.cell_start[first_cell]; k < list.cell_start[last_cell + 1]; ++k) {
-    const Index b = list.cell_grain[k];
-    const double dx = list.cell_x[k] + offset - x;
-    const double dy = list.cell_y[k] - y;
-    const double limit = reach + list.cell_radius[k] + search.range;
-    // Written in any case and then kept or not: a branch would be unpredictable here.
-    *end = packed(b, shift);
-    end += static_cast<int>(b > a) & static_cast<int>(dx * dx + dy * dy < limit * limit);
-  }
-  search.end = end;
-}
-
-void search_cells_around(const NeighbourList& list, const Grains& grains, const Boundary& boundary,
-                         const Grid& grid, Search& search) {
-  const Index row = list.cell_of_grain[search.a] / grid.columns;
-  const Index column = list.cell_of_grain[search.a] % grid.columns;
-  const Index last = grid.columns - 1;
-  for (Index r = std::max<Index>(row - 1, 0); r <= std::min<Index>(row + 1, grid.rows - 1); ++r) {
-    const Index start = r * grid.columns;
-    search_cells(list, grains, start + std::max<Index>(column - 1, 0), start + std::min(column + 1, last), 0,
-                 boundary.length, search);
-    if (!grid.periodic) continue;
-    if (column == 0) search_cells(list, grains, start + last, start + last, -1, boundary.length, search);
-    if (column == last) search_cells(list, grains, start, start, 1, boundary.length, search);
-  }
-}
-
-void search_planes(const Grains& grains, const Boundary& boundary, Search& search) {
-  const Index a = search.a;
-  for (std::size_t k = 0; k < boundary.planes.size(); ++k) {
-    const Plane& plane = boundary.planes[k];
-    const double distance = plane.normal.x * grains.x[a] + plane.normal.y * grains.y[a] - plane.offset;
-    if (distance - grains.radius[a] < search.range)
-      *search.end++ = packed(grains.count() + static_cast<Index>(k), 0);
-  }
+void set_pair(const Grains& grains, std::size_t place, Index a, Index b, std::int8_t shift,
+              CandidatePairs& pairs) {
+  pairs.a[place] = a;
+  pairs.b[place] = b;
+  pairs.shift[place] = shift;
+  pairs.contact_distance[place] = grains.radius[a] + (b < grains.count() ? grains.radius[b] : 0.0);
 }
 
 /// Sorts the neighbours of one grain. They are few, so insertion sort is fastest.
@@ -147,24 +46,19 @@ void sort_neighbours(std::int64_t* first, std::int64_t* end) {
   }
 }
 
-/// A grain sees each other one through at most three images; one place more holds what is not kept.
-std::size_t most_neighbours(const Grains& grains, const Boundary& boundary) {
-  return 3 * grains.x.size() + boundary.planes.size() + 1;
-}
-
 /// Writes the neighbours of grains first ... last - 1 one after another, and tells where those of each grain
 /// begin, counted from the first of these grains. Returns where the last ones end.
-std::size_t search_grains(NeighbourList& list, const Grains& grains, const Boundary& boundary,
-                          const Grid& grid, double range, std::size_t first, std::size_t last,
-                          std::vector<std::int64_t>& found) {
+std::size_t find_neighbours(NeighbourList& list, const Grains& grains, const Boundary& boundary, double range,
+                            std::size_t first, std::size_t last, std::vector<std::int64_t>& found) {
   const std::size_t most = most_neighbours(grains, boundary);
   std::size_t end = 0;
   for (std::size_t a = first; a < last; ++a) {
     list.first_found[a] = end;
     if (found.size() < end + most) found.resize(2 * end + most);
     std::int64_t* const begin = found.data() + end;
-    Search search{.a = static_cast<Index>(a), .range = range, .end = begin};
-    search_cells_around(list, grains, boundary, grid, search);
+    const auto grain = static_cast<Index>(a);
+    NeighbourSearch search{.a = grain, .least = grain + 1, .range = range, .end = begin};
+    search_grains(list.cells, grains, search);
     search_planes(grains, boundary, search);
     sort_neighbours(begin, search.end);
     end += static_cast<std::size_t>(search.end - begin);
@@ -178,22 +72,18 @@ void list_neighbours(NeighbourList& list, const Grains& grains, std::size_t firs
   const std::int64_t* neighbour = found.data();
   for (std::size_t a = first; a < last; ++a)
     for (; place < list.first_found[a + 1]; ++place, ++neighbour) {
-      const Index b = body_of(*neighbour);
-      list.a[place] = static_cast<Index>(a);
-      list.b[place] = b;
-      list.shift[place] = shift_of(*neighbour);
-      list.contact_distance[place] = grains.radius[a] + (b < grains.count() ? grains.radius[b] : 0.0);
+      set_pair(grains, place, static_cast<Index>(a), body_of(*neighbour), shift_of(*neighbour), list.pairs);
     }
 }
 
 /// Finds all pairs up to a gap of `range`, each member of a team those of its grains.
-void list_pairs(NeighbourList& list, const Grains& grains, const Boundary& boundary, const Grid& grid,
-                double range, ThreadTeam* team) {
+void list_pairs(NeighbourList& list, const Grains& grains, const Boundary& boundary, double range,
+                ThreadTeam* team) {
   const auto count = static_cast<std::size_t>(grains.free_count);
   const std::size_t parts = team ? static_cast<std::size_t>(team->size()) : 1;
   const auto begin_of = [count, parts](std::size_t part) { return count * part / parts; };
   // Room for all that was ever listed, so that nothing is allocated where a team comes and goes.
-  const std::size_t room = list.a.capacity() + most_neighbours(grains, boundary);
+  const std::size_t room = list.pairs.a.capacity() + most_neighbours(grains, boundary);
   if (list.found.size() < parts) list.found.resize(parts);
   for (auto& found : list.found)
     if (found.size() < room) found.resize(room);
@@ -203,8 +93,8 @@ void list_pairs(NeighbourList& list, const Grains& grains, const Boundary& bound
   std::atomic<bool> lacks_memory = false;
   share_out(team, parts, [&](std::size_t part, std::size_t) {
     try {
-      list.part_end[part] = search_grains(list, grains, boundary, grid, range, begin_of(part),
-                                          begin_of(part + 1), list.found[part]);
+      list.part_end[part] = find_neighbours(list, grains, boundary, range, begin_of(part), begin_of(part + 1),
+                                            list.found[part]);
     } catch (const std::bad_alloc&) {
       lacks_memory = true;
     }
@@ -216,35 +106,173 @@ void list_pairs(NeighbourList& list, const Grains& grains, const Boundary& bound
     total += list.part_end[part];
   }
   list.first_found[count] = total;
-  for (auto* field : {&list.a, &list.b}) field->resize(total);
-  list.shift.resize(total);
-  list.contact_distance.resize(total);
+  list.pairs.resize(total);
   share_out(team, parts, [&](std::size_t part, std::size_t) {
     const std::size_t first = begin_of(part);
     list_neighbours(list, grains, first, begin_of(part + 1), list.found[part], list.first_found[first]);
   });
 }
 
-}  // namespace
-
-void update_neighbour_list(NeighbourList& list, const Grains& grains, const Boundary& boundary, double reach,
-                           ThreadTeam* team) {
-  if (covers(list, grains, reach)) return;
-  list.x.clear();  // covers nothing, should memory be missing
-  list.a.clear();
-  if (grains.count() == 0) return;
+/// Grid cells that a search up to a gap of `range` can use.
+void sort_into_cells(const Grains& grains, const Boundary& boundary, double range, NeighbourList& list) {
   const double largest = *std::max_element(grains.radius.begin(), grains.radius.end());
+  sort_into_cells(grains, boundary, 2.0 * largest + range, list.cells);
+}
+
+/// The pairs of so many grains are listed anew; where more have moved, the whole list is.
+std::size_t most_renewed(const Grains& grains) { return grains.x.size() / 8; }
+
+/// So that renewals allocate nothing, as a rule.
+void make_room_for_renewals(NeighbourList& list, const Grains& grains, const Boundary& boundary) {
+  const std::size_t pairs = list.pairs.count();
+  list.moved.reserve(most_renewed(grains) + 1);
+  list.has_moved.reserve(grains.x.size() + boundary.planes.size());
+  list.renewed.reserve(pairs);
+  for (CandidatePairs* const each : {&list.pairs, &list.next}) each->reserve(pairs + pairs / 8);
+}
+
+void rebuild(NeighbourList& list, const Grains& grains, const Boundary& boundary, double reach,
+             ThreadTeam* team) {
+  list.x.clear();  // holds no pair of any grain, should memory be missing
+  list.pairs.resize(0);
+  if (grains.count() == 0) return;
   // Doubling the skin halves the rebuilds and adds 5 % of candidates: here both cost the same.
-  list.skin = 0.2 * largest;
-  // While the bed moves fast the reach changes from step to step; some room above it saves rebuilds.
-  list.reach = 1.25 * reach;
+  list.skin = 0.2 * *std::max_element(grains.radius.begin(), grains.radius.end());
+  list.reach = reach;
   const double range = list.reach + list.skin;
-  const Grid grid = make_grid(grains, boundary, 2.0 * largest + range);
-  fill_cells(list, grains, grid);
-  list_pairs(list, grains, boundary, grid, range, team);
+  sort_into_cells(grains, boundary, range, list);
+  list_pairs(list, grains, boundary, range, team);
+  make_room_for_renewals(list, grains, boundary);
+  list.free_count = grains.free_count;
   list.y = grains.y;
   list.x = grains.x;
   ++list.rebuilds;
+}
+
+/// Free grains that have arrived come behind those that there were: bodies behind them have other numbers
+/// now, and they themselves were nowhere.
+void let_in_arrivals(NeighbourList& list, const Grains& grains) {
+  const Index first = list.free_count, arrived = grains.free_count - first;
+  if (arrived == 0) return;
+  for (auto* field : {&list.x, &list.y})  // both, or none of them, should memory be missing
+    if (field->capacity() < grains.x.size()) field->reserve(2 * grains.x.size());
+  for (auto* field : {&list.x, &list.y})
+    field->insert(field->begin() + first, static_cast<std::size_t>(arrived),
+                  std::numeric_limits<double>::quiet_NaN());
+  for (Index& b : list.pairs.b)
+    if (b >= first) b += arrived;
+  list.free_count = grains.free_count;
+}
+
+/// Whether the list is that of these grains, but for some that have arrived since, and as wide as it should
+/// be, but not so wide that it holds many pairs in vain.
+bool fits(const NeighbourList& list, const Grains& grains, double reach) {
+  const auto arrived = static_cast<std::ptrdiff_t>(grains.x.size() - list.x.size());
+  return !list.x.empty() && arrived >= 0 && arrived == grains.free_count - list.free_count &&
+         reach <= list.reach && list.reach + list.skin <= 1.5 * (reach + list.skin);
+}
+
+/// Finds the grains whose pairs have to be listed anew, and with them those that soon would. False where they
+/// are too many for that to pay.
+bool find_moved(NeighbourList& list, const Grains& grains, const Boundary& boundary) {
+  const std::size_t most = most_renewed(grains);
+  list.has_moved.assign(grains.x.size() + boundary.planes.size(), 0);
+  list.moved.clear();
+  for (std::size_t i = 0; i < grains.x.size(); ++i) {
+    if (is_within(list, grains, i, far * list.skin)) continue;
+    list.has_moved[i] = 1;
+    list.moved.push_back(static_cast<Index>(i));
+    if (list.moved.size() > most) return false;
+  }
+  return true;
+}
+
+/// The pairs of the grains that have moved, sorted by key. The other grain of a pair may be `far` from where
+/// it was when its own were listed, and go as far as it may to the other side.
+void search_moved(NeighbourList& list, const Grains& grains, const Boundary& boundary) {
+  const double range = list.reach + (farthest + far + farthest) * list.skin;
+  sort_into_cells(grains, boundary, range, list);
+  std::vector<std::int64_t>& found = list.found.front();
+  if (const std::size_t most = most_neighbours(grains, boundary); found.size() < most) found.resize(2 * most);
+  list.renewed.clear();
+  for (const Index grain : list.moved) {
+    NeighbourSearch search{.a = grain, .least = 0, .range = range, .end = found.data()};
+    search_grains(list.cells, grains, search);
+    search_planes(grains, boundary, search);
+    for (const std::int64_t* neighbour = found.data(); neighbour != search.end; ++neighbour) {
+      const Index other = body_of(*neighbour), shift = shift_of(*neighbour);
+      if (other > grain)
+        list.renewed.push_back({grain, other, shift});
+      else if (!list.has_moved[other])  // else it has found this one, or is the grain itself
+        list.renewed.push_back({other, grain, -shift});
+    }
+  }
+  std::ranges::sort(list.renewed);
+}
+
+/// Copies pairs first ... last - 1 of one list to the end of another.
+void append(const CandidatePairs& from, std::size_t first, std::size_t last, CandidatePairs& to) {
+  const auto add = [first, last](const auto& values, auto& more) {
+    more.insert(more.end(), values.begin() + static_cast<std::ptrdiff_t>(first),
+                values.begin() + static_cast<std::ptrdiff_t>(last));
+  };
+  add(from.a, to.a);
+  add(from.b, to.b);
+  add(from.shift, to.shift);
+  add(from.contact_distance, to.contact_distance);
+}
+
+/// The list without the pairs of the grains that have moved, and with those that were found.
+void merge_renewed(NeighbourList& list, const Grains& grains) {
+  const CandidatePairs& old = list.pairs;
+  CandidatePairs& next = list.next;
+  next.resize(0);
+  const auto is_renewed = [&](std::size_t k) { return list.has_moved[old.a[k]] | list.has_moved[old.b[k]]; };
+  std::size_t k = 0;
+  const auto keep_until = [&](Index a, Index b) {
+    while (k < old.count() && (old.a[k] < a || (old.a[k] == a && old.b[k] < b))) {
+      const std::size_t first = k;
+      while (k < old.count() && !is_renewed(k) && (old.a[k] < a || (old.a[k] == a && old.b[k] < b))) ++k;
+      append(old, first, k, next);
+      while (k < old.count() && is_renewed(k)) ++k;
+    }
+  };
+  for (const auto& [a, b, shift] : list.renewed) {
+    keep_until(a, b);
+    next.resize(next.count() + 1);
+    set_pair(grains, next.count() - 1, a, b, static_cast<std::int8_t>(shift), next);
+  }
+  keep_until(grains.count(), 0);
+  std::swap(list.pairs, list.next);
+}
+
+}  // namespace
+
+void CandidatePairs::resize(std::size_t count) {
+  for (auto* field : {&a, &b}) field->resize(count);
+  shift.resize(count);
+  contact_distance.resize(count);
+}
+
+void CandidatePairs::reserve(std::size_t count) {
+  for (auto* field : {&a, &b}) field->reserve(count);
+  shift.reserve(count);
+  contact_distance.reserve(count);
+}
+
+void update_neighbour_list(NeighbourList& list, const Grains& grains, const Boundary& boundary, double reach,
+                           ThreadTeam* team) {
+  if (!fits(list, grains, reach)) return rebuild(list, grains, boundary, reach, team);
+  let_in_arrivals(list, grains);
+  if (are_within(list, grains, farthest * list.skin)) return;
+  if (!find_moved(list, grains, boundary)) return rebuild(list, grains, boundary, reach, team);
+  search_moved(list, grains, boundary);
+  merge_renewed(list, grains);
+  for (const Index i : list.moved) {
+    list.x[i] = grains.x[i];
+    list.y[i] = grains.y[i];
+  }
+  ++list.renewals;
 }
 
 }  // namespace talus

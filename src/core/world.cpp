@@ -1,5 +1,6 @@
 #include "core/world.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/hash.h"
@@ -85,6 +86,20 @@ double kinetic_energy(const Grains& grains) {
     sum += 0.5 * grains.mass[i] * (grains.vx[i] * grains.vx[i] + grains.vy[i] * grains.vy[i]) +
            0.5 * grains.inertia[i] * grains.omega[i] * grains.omega[i];
   return sum;
+}
+
+Motion motion_of(const Grains& grains) {
+  double squares = 0.0, energy = 0.0, fastest = 0.0, mass = 0.0;
+  for (Index i = 0; i < grains.free_count; ++i) {
+    const double vx = grains.vx[i] * grains.vx[i], vy = grains.vy[i] * grains.vy[i];
+    const double rim = grains.radius[i] * grains.omega[i];
+    squares += vx + vy + rim * rim;
+    energy += 0.5 * grains.mass[i] * (vx + vy) + 0.5 * grains.inertia[i] * grains.omega[i] * grains.omega[i];
+    fastest = std::max(fastest, vx + vy);
+    mass += grains.mass[i];
+  }
+  return {grains.free_count > 0 ? std::sqrt(squares / grains.free_count) : 0.0, energy, std::sqrt(fastest),
+          mass};
 }
 
 }  // namespace talus

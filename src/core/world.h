@@ -33,4 +33,14 @@ double rms_velocity(const Grains& grains);
 /// Translational and rotational kinetic energy of the free grains, J (per metre of thickness).
 double kinetic_energy(const Grains& grains);
 
+/// How the free grains move.
+struct Motion {
+  double rms_velocity = 0.0;      ///< as above, m/s
+  double kinetic_energy = 0.0;    ///< as above, J
+  double largest_velocity = 0.0;  ///< of a centre, m/s
+  double mass = 0.0;              ///< of all free grains, kg
+};
+/// All of it in one pass, to the bits of the functions above.
+Motion motion_of(const Grains& grains);
+
 }  // namespace talus

@@ -204,10 +204,23 @@ bool finite(const ContactSolution& solution, ThreadTeam* team) {
   return all;
 }
 
-/// Two grains can approach by twice the largest velocity, to which gravity adds g h within the step; m.
+/// `least` times the smallest power of two that makes it `value` or more; `value` where there is none.
+double doubled_until(double least, double value) {
+  const double ratio = value / least;
+  if (!std::isfinite(ratio)) return value;
+  int exponent = 0;
+  const double mantissa = std::frexp(ratio, &exponent);
+  return std::ldexp(least, mantissa > 0.5 ? exponent : exponent - 1);
+}
+
+/// The gap up to which pairs are listed, m. Two grains can approach by twice the largest velocity, to which
+/// gravity adds g h within the step. A gap that followed the fastest grain would let other pairs in and out
+/// in nearly every step, and each new list of contacts has to be linked and ordered anew; so it changes by
+/// doubling only.
 double detection_margin(const World& world, const StepSettings& settings, ThreadTeam* team) {
-  return settings.margin +
-         2.0 * settings.h * (largest_velocity(world.grains, team) + world.gravity * settings.h);
+  const double approach =
+      2.0 * settings.h * (largest_velocity(world.grains, team) + world.gravity * settings.h);
+  return doubled_until(settings.margin, settings.margin + approach);
 }
 
 }  // namespace
@@ -256,7 +269,7 @@ StepReport step(World& world, const StepSettings& settings, StepWorkspace& works
   report.contacts = world.contacts.count();
   do_both(
       team, [&] { report.largest_overlap = largest_overlap(world.contacts); },
-      [&] { report.rms_velocity = rms_velocity(world.grains); });
+      [&] { report.motion = motion_of(world.grains); });
   clock.end_of(Stage::move);
   return report;
 }

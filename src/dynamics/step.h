@@ -13,8 +13,9 @@ namespace talus {
 
 struct StepSettings {
   double h = 1e-3;  ///< time step, s
-  double margin =
-      0.0;  ///< m: pairs with a smaller gap are contacts of the problem; grows with the velocities
+  /// Pairs with a smaller gap are contacts of the problem, m. Doubled until it holds what the velocities of
+  /// the bed can close in a step, beside itself.
+  double margin = 0.0;
   ContactLawParameters law;
   SolverSettings solver;
 };
@@ -32,7 +33,7 @@ struct StepReport {
   SolverReport solver;
   Index contacts = 0;            ///< in the problem
   double largest_overlap = 0.0;  ///< m, at the midpoint
-  double rms_velocity = 0.0;     ///< m/s, after the step
+  Motion motion;                 ///< after the step
   StageSeconds seconds{};
 };
 

@@ -1,6 +1,5 @@
 #include "session/guards.h"
 
-#include <algorithm>
 #include <cmath>
 #include <fmt/core.h>
 
@@ -10,18 +9,14 @@ namespace talus {
 
 GuardValues guard_values(const World& world, const StepReport& report, std::int64_t unconverged,
                          const Scenario& scenario) {
-  const Grains& grains = world.grains;
-  double fastest = 0.0, mass = 0.0;
-  for (Index i = 0; i < grains.free_count; ++i) {
-    fastest = std::max(fastest, grains.vx[i] * grains.vx[i] + grains.vy[i] * grains.vy[i]);
-    mass += grains.mass[i];
-  }
+  const Motion& motion = report.motion;
   const double diameter = scenario.grains.mean_diameter;
   GuardValues values{};
-  values[static_cast<std::size_t>(Guard::velocity)] = std::sqrt(fastest / (world.gravity * diameter));
+  values[static_cast<std::size_t>(Guard::velocity)] =
+      motion.largest_velocity / std::sqrt(world.gravity * diameter);
   values[static_cast<std::size_t>(Guard::overlap)] = report.largest_overlap / diameter;
   values[static_cast<std::size_t>(Guard::energy)] =
-      kinetic_energy(grains) / (mass * world.gravity * scenario.bed.depth * diameter);
+      motion.kinetic_energy / (motion.mass * world.gravity * scenario.bed.depth * diameter);
   values[static_cast<std::size_t>(Guard::unconverged)] = static_cast<double>(unconverged);
   return values;
 }

@@ -92,7 +92,7 @@ StepRow step_row(const World& world, const StepReport& report, double phase) {
   at(row, StepField::iterations) = report.solver.iterations;
   at(row, StepField::residual) = report.solver.residual.eta;
   at(row, StepField::converged) = report.solver.converged ? 1.0 : 0.0;
-  at(row, StepField::rms_velocity) = report.rms_velocity;
+  at(row, StepField::rms_velocity) = report.motion.rms_velocity;
   return row;
 }
 

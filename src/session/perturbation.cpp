@@ -91,7 +91,7 @@ Trial follow(World& world, const Scenario& scenario, const std::function<void()>
     const double velocity = surface_velocity(world.grains, surface - surface_layer_depth * diameter);
     trial.displacement += h * velocity / diameter;
     follow_surface(flow, velocity, world.tilt, h, rule);
-    quiet = report.rms_velocity <= rest_velocity ? quiet + 1 : 0;
+    quiet = report.motion.rms_velocity <= rest_velocity ? quiet + 1 : 0;
     if (flow.failed)
       trial.end = TrialEnd::avalanche;
     else if (quiet >= rest_steps && report.solver.converged)

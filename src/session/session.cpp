@@ -116,7 +116,7 @@ StepSettings Session::settings() const {
 }
 
 bool Session::is_quiet() const {
-  return rms_velocity(world_.grains) <=
+  return report_.motion.rms_velocity <=
          scenario_.deposition.rest_velocity * world_.gravity * time_step(scenario_);
 }
 
@@ -188,7 +188,7 @@ void Session::advance_deposition() {
                     "velocity is {:.3g} g h, rest requires deposition.rest_velocity = {:g} g h; allow "
                     "more time, or set solver.moving_tolerance or solver.tolerance lower",
                     scenario_.deposition.max_time,
-                    report_.rms_velocity / (world_.gravity * time_step(scenario_)),
+                    report_.motion.rms_velocity / (world_.gravity * time_step(scenario_)),
                     scenario_.deposition.rest_velocity));
 }
 

@@ -13,7 +13,7 @@ namespace talus::test {
 namespace {
 
 const char* const bed =
-    "seed = 7\n[bed]\nlength = 12\ndepth = 5\n[tilt]\nend_angle = 1.0\n[output]\nframe_every = 0.5\n";
+    "seed = 8\n[bed]\nlength = 12\ndepth = 5\n[tilt]\nend_angle = 1.0\n[output]\nframe_every = 0.5\n";
 
 bool h5py(const std::string& arguments, const TemporaryFolder& folder) {
   const std::string command = "cd " + folder.path().string() +
@@ -177,7 +177,7 @@ class MovingBed : public testing::Test {
  protected:
   void SetUp() override {
     write_file(folder, "bed.toml",
-               "seed = 1\n[bed]\nlength = 12\ndepth = 5\n[tilt]\nstep = 0.01\n[output]\nframe_every = 1\n");
+               "seed = 8\n[bed]\nlength = 12\ndepth = 5\n[tilt]\nstep = 0.01\n[output]\nframe_every = 1\n");
     ASSERT_EQ(talus({"run", "bed.toml", "-o", "bed.h5"}).exit_code, 0);
     const std::string frames = json_value(talus({"info", "bed.h5", "--json"}).out, "frames");
     const std::string last = std::to_string(std::stoi(frames) - 1);

@@ -14,6 +14,7 @@ namespace {
 
 Scenario small_bed() {
   Scenario scenario;
+  scenario.seed = 3;
   scenario.bed.length = 12;
   scenario.bed.depth = 6;
   scenario.deposition.method = DepositionMethod::collapse;

@@ -114,7 +114,7 @@ void come_to_rest(World& world, const StepSettings& settings, StepWorkspace& wor
   const double still = 1e-3 * world.gravity * settings.h;
   int quiet = 0;
   for (int k = 0; quiet < 50 && k < 10000; ++k)
-    quiet = step(world, settings, workspace).rms_velocity <= still ? quiet + 1 : 0;
+    quiet = step(world, settings, workspace).motion.rms_velocity <= still ? quiet + 1 : 0;
   EXPECT_EQ(quiet, 50) << "the world did not come to rest: " << rms_velocity(world.grains);
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "contact/detection.h"
+#include "core/random.h"
 #include "support/scenes.h"
 
 namespace talus {
@@ -123,13 +124,13 @@ TEST(NeighbourList, is_sorted_by_key_and_pairs_no_two_fixed_grains) {
   World world = crowded_world(3, true, 14.0 * radius);
   NeighbourList list;
   update_neighbour_list(list, world.grains, world.boundary, 0.5 * radius);
-  ASSERT_GT(list.a.size(), 100u);
-  for (std::size_t k = 0; k < list.a.size(); ++k) {
-    EXPECT_LT(list.a[k], world.grains.free_count);
-    EXPECT_LT(list.a[k], list.b[k]);
+  ASSERT_GT(list.pairs.a.size(), 100u);
+  for (std::size_t k = 0; k < list.pairs.a.size(); ++k) {
+    EXPECT_LT(list.pairs.a[k], world.grains.free_count);
+    EXPECT_LT(list.pairs.a[k], list.pairs.b[k]);
     if (k == 0) continue;
-    EXPECT_LT((Key{list.a[k - 1], list.b[k - 1], list.shift[k - 1]}),
-              (Key{list.a[k], list.b[k], list.shift[k]}));
+    EXPECT_LT((Key{list.pairs.a[k - 1], list.pairs.b[k - 1], list.pairs.shift[k - 1]}),
+              (Key{list.pairs.a[k], list.pairs.b[k], list.pairs.shift[k]}));
   }
 }
 
@@ -141,13 +142,122 @@ TEST(NeighbourList, is_kept_while_no_grain_moved_by_half_the_skin) {
   world.grains.y[7] += 0.49 * list.skin;
   update_neighbour_list(list, world.grains, world.boundary, 0.1 * radius);
   EXPECT_EQ(list.rebuilds, 1);
+  EXPECT_EQ(list.renewals, 0);
   world.grains.y[7] += 0.02 * list.skin;
+  for (int again = 0; again < 2; ++again) {
+    update_neighbour_list(list, world.grains, world.boundary, 0.1 * radius);
+    EXPECT_EQ(list.rebuilds, 1);
+    EXPECT_EQ(list.renewals, 1) << "of one grain";
+  }
+}
+
+TEST(NeighbourList, is_made_anew_where_it_does_not_reach_far_enough_or_too_far) {
+  World world = crowded_world(1, true, 14.0 * radius);
+  NeighbourList list;
+  std::int64_t rebuilds = 0;
+  for (const double reach : {0.1, 0.2, 0.01}) {
+    update_neighbour_list(list, world.grains, world.boundary, reach * radius);
+    EXPECT_EQ(list.rebuilds, ++rebuilds) << reach;
+    EXPECT_EQ(list.reach, reach * radius);
+  }
+  update_neighbour_list(list, world.grains, world.boundary, 0.005 * radius);
+  EXPECT_EQ(list.rebuilds, rebuilds) << "hardly narrower";
+}
+
+TEST(NeighbourList, is_made_anew_for_other_bodies) {
+  World world = crowded_world(1, true, 14.0 * radius);
+  NeighbourList list;
+  update_neighbour_list(list, world.grains, world.boundary, 0.1 * radius);
+  add_disk(world.grains, {radius, -radius}, radius, test::density, true);
+  update_neighbour_list(list, world.grains, world.boundary, 0.1 * radius);
+  EXPECT_EQ(list.rebuilds, 2) << "a grain more, which is not free";
+  const Grains none;
+  update_neighbour_list(list, none, world.boundary, 0.1 * radius);
+  EXPECT_EQ(list.pairs.count(), 0U);
+}
+
+TEST(NeighbourList, is_made_anew_where_many_grains_have_moved) {
+  World world = crowded_world(1, true, 14.0 * radius);
+  NeighbourList list;
+  update_neighbour_list(list, world.grains, world.boundary, 0.1 * radius);
+  for (Index i = 0; i < world.grains.free_count; ++i) world.grains.y[i] += 0.6 * list.skin;
   update_neighbour_list(list, world.grains, world.boundary, 0.1 * radius);
   EXPECT_EQ(list.rebuilds, 2);
-  update_neighbour_list(list, world.grains, world.boundary, 0.1 * radius);
-  EXPECT_EQ(list.rebuilds, 2);
-  update_neighbour_list(list, world.grains, world.boundary, 2.0 * list.reach);
-  EXPECT_EQ(list.rebuilds, 3);
+  EXPECT_EQ(list.renewals, 0);
+}
+
+/// Drops a free grain somewhere, behind those that there are.
+void let_arrive(World& world, Random& random) {
+  Grains& grains = world.grains;
+  World alone;
+  add_disk(alone.grains, {world.boundary.length * random.uniform(), 14.0 * radius * random.uniform()},
+           radius * random.uniform(0.7, 1.0), test::density, false);
+  const auto insert = [&grains](auto& to, const auto& from) {
+    to.insert(to.begin() + grains.free_count, from.begin(), from.end());
+  };
+  for (std::vector<double> Grains::*field :
+       {&Grains::x, &Grains::y, &Grains::vx, &Grains::vy, &Grains::radius})
+    insert(grains.*field, alone.grains.*field);
+  ++grains.free_count;
+}
+
+// The farthest that two grains can approach each other unseen: one that has just moved, and one that had
+// moved away from it before, but not far, and comes back.
+TEST(NeighbourList, sees_a_grain_coming_that_had_moved_the_other_way) {
+  for (const bool moved_is_first : {true, false}) {
+    World world;
+    for (int k = 0; k < 8; ++k)
+      add_disk(world.grains, {10.0 * k * radius, 0.0}, radius, test::density, false);
+    std::vector<double>& x = world.grains.x;
+    const Index moved = moved_is_first ? 2 : 3, other = moved_is_first ? 3 : 2;
+    const double side = moved_is_first ? -1.0 : 1.0, reach = 0.1 * radius, at = x[other];
+    NeighbourList list;
+    Contacts contacts;
+    detect_contacts(list, world.grains, world.boundary, reach, contacts);
+    x[other] = at - side * 0.24 * list.skin;
+    x[moved] = x[other] + side * (2.0 * radius + reach + 1.2 * list.skin);
+    detect_contacts(list, world.grains, world.boundary, reach, contacts);
+    EXPECT_EQ(list.renewals, 1);
+    EXPECT_EQ(contacts.count(), 0);
+    x[other] = at + side * 0.49 * list.skin;
+    x[moved] -= side * 0.49 * list.skin;
+    detect_contacts(list, world.grains, world.boundary, reach, contacts);
+    EXPECT_EQ(list.renewals + list.rebuilds, 2);
+    EXPECT_EQ(keys_of(contacts), (std::vector<Key>{{2, 3, 0}}));
+  }
+}
+
+// A few grains are fast, many go to and fro within the skin, and one arrives now and then: the pairs of few
+// are listed anew, and what the list finds is what a list of the moment and brute force find.
+TEST(NeighbourList, lists_the_pairs_of_a_few_grains_anew) {
+  for (const bool periodic : {false, true})
+    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+      World world = crowded_world(seed, periodic, 30.0 * radius, 200);
+      Random random(seed);
+      NeighbourList list;
+      const double margin = 0.05 * radius;
+      for (int round = 0; round < 60; ++round) {
+        Contacts through_aged, through_fresh;
+        NeighbourList fresh;
+        detect_contacts(list, world.grains, world.boundary, margin, through_aged);
+        detect_contacts(fresh, world.grains, world.boundary, margin, through_fresh);
+        EXPECT_EQ(keys_of(through_aged), brute_force(world.grains, world.boundary, margin))
+            << seed << ' ' << round;
+        expect_same(through_aged, through_fresh);
+        if (round % 3 == 1) let_arrive(world, random);
+        Grains& grains = world.grains;
+        for (Index i = 0; i < grains.free_count; ++i) {
+          const double way = i % 40 == 0 ? 0.1 * radius
+                             : i % 2     ? 0.04 * radius * (round % 2 ? 1.0 : -1.0)
+                                         : 0.0;
+          grains.x[i] += way;
+          if (periodic)
+            grains.x[i] -= std::floor(grains.x[i] / world.boundary.length) * world.boundary.length;
+        }
+      }
+      EXPECT_GT(list.renewals, 20);
+      EXPECT_LT(list.rebuilds, 20);
+    }
 }
 
 // A grain thrown far above the bed must not make the grid so coarse or so large that pairs are lost.
@@ -159,7 +269,7 @@ TEST(NeighbourList, bears_a_grain_far_away) {
   Contacts contacts;
   detect_contacts(list, world.grains, world.boundary, 0.1 * radius, contacts);
   EXPECT_EQ(keys_of(contacts), brute_force(world.grains, world.boundary, 0.1 * radius));
-  EXPECT_LT(list.cell_start.size(), 10000u);
+  EXPECT_LT(list.cells.start.size(), 10000u);
 }
 
 TEST(NeighbourList, of_no_grains_is_empty) {
@@ -178,9 +288,9 @@ TEST(NeighbourList, a_position_that_is_no_number_has_a_cell_as_all_have) {
       world.grains.y[7] = value;
       NeighbourList list;
       update_neighbour_list(list, world.grains, world.boundary, 0.1 * radius);
-      const auto cells = static_cast<Index>(list.cell_start.size()) - 1;
-      for (const Index cell : list.cell_of_grain) EXPECT_TRUE(0 <= cell && cell < cells) << cell;
-      std::vector<Index> grains = list.cell_grain;
+      const auto cells = static_cast<Index>(list.cells.start.size()) - 1;
+      for (const Index cell : list.cells.of_grain) EXPECT_TRUE(0 <= cell && cell < cells) << cell;
+      std::vector<Index> grains = list.cells.grain;
       std::sort(grains.begin(), grains.end());
       for (Index i = 0; i < world.grains.count(); ++i) EXPECT_EQ(grains[i], i);
     }

@@ -55,7 +55,15 @@ TEST(Step, counts_steps_and_time_and_reports_what_it_did) {
   const StepReport report = step(world, settings, workspace);
   EXPECT_EQ(world.step, 101);
   EXPECT_EQ(report.contacts, world.contacts.count());
-  EXPECT_EQ(report.rms_velocity, rms_velocity(world.grains));
+  EXPECT_EQ(report.motion.rms_velocity, rms_velocity(world.grains));
+  EXPECT_EQ(report.motion.kinetic_energy, kinetic_energy(world.grains));
+  double fastest = 0.0, mass = 0.0;
+  for (Index i = 0; i < world.grains.free_count; ++i) {
+    fastest = std::max(fastest, std::hypot(world.grains.vx[i], world.grains.vy[i]));
+    mass += world.grains.mass[i];
+  }
+  EXPECT_DOUBLE_EQ(report.motion.largest_velocity, fastest);
+  EXPECT_EQ(report.motion.mass, mass);
   double overlap = 0.0;
   for (double gap : world.contacts.gap) overlap = std::max(overlap, -gap);
   EXPECT_EQ(report.largest_overlap, overlap);

@@ -36,7 +36,7 @@ RunStatics statics_of(const World& world, double length, double friction) {
 const FrozenBed& small_bed() {
   static const FrozenBed bed = [] {
     const StepSettings settings = test::bed_step(tolerance);
-    return freeze(test::settled_bed(test::bed_plan(true, 30, 6, 1), settings), settings,
+    return freeze(test::settled_bed(test::bed_plan(true, 30, 6, 3), settings), settings,
                   BedPlan{}.mean_diameter);
   }();
   return bed;

@@ -73,10 +73,10 @@ TEST(MeanOfIterates, has_the_same_bits_on_any_number_of_threads) {
 /// The step of a bed that falls, which goes round in circles.
 test::FrozenStep step_in_circles() {
   const StepSettings settings = test::bed_step(1e-6);
-  return test::next_problem(test::fallen_bed(test::bed_plan(false, 150, 16, 9), settings, 150), settings);
+  return test::next_problem(test::fallen_bed(test::bed_plan(false, 150, 16, 21), settings, 128), settings);
 }
 
-// Without the mean the solve stays at 3.6e-5, however many iterations it has.
+// Without the mean the solve stays at 6e-5, however many iterations it has.
 TEST(MeanOfIterates, ends_a_step_that_goes_round_in_circles) {
   test::FrozenStep frozen = step_in_circles();
   AcceleratedWorkspace workspace;
