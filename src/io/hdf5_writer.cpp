@@ -116,7 +116,8 @@ Handle access_properties(ElementType type, const std::vector<hsize_t>& chunk) {
 
 }  // namespace
 
-Writer::Writer(Sizes sizes, std::size_t user_block) : sizes_(std::move(sizes)), user_block_(user_block) {
+Writer::Writer(Sizes sizes, std::size_t user_block, Storage storage)
+    : sizes_(std::move(sizes)), user_block_(user_block), storage_(storage) {
   set_library_policy();
   const Handle access = properties(H5P_FILE_ACCESS);
   checked(H5Pset_fapl_core(access.get(), growth, false), "choose memory");
@@ -149,7 +150,8 @@ void Writer::create(const DataSetField& field, const std::string& path) {
   DataSet set;
   const std::vector<std::uint64_t> shape = dimensions(field, sizes_);
   set.dims.assign(shape.begin(), shape.end());
-  const std::vector<hsize_t> chunk = chunk_of(field, set.dims, sizes_);
+  const std::vector<hsize_t> chunk =
+      storage_ == Storage::compressed ? chunk_of(field, set.dims, sizes_) : std::vector<hsize_t>{};
   const Handle space = space_of(set.dims);
   const Handle creation = creation_properties(field.type, chunk);
   const Handle access = access_properties(field.type, chunk);

@@ -14,11 +14,14 @@
 
 namespace talus::hdf5 {
 
+/// How the large data sets are stored: in compressed chunks, frame by frame, or as they are.
+enum class Storage { compressed, as_it_is };
+
 class Writer {
  public:
   /// `sizes` gives the letters of the shapes. `user_block` bytes (0, or a power of two from 512) are kept
   /// free at the start of the image.
-  explicit Writer(Sizes sizes, std::size_t user_block = 0);
+  explicit Writer(Sizes sizes, std::size_t user_block = 0, Storage storage = Storage::compressed);
   /// Goes on with a file built before: `image` begins with `user_block` bytes of any content.
   Writer(Sizes sizes, std::size_t user_block, const std::vector<std::byte>& image);
 
@@ -84,6 +87,7 @@ class Writer {
 
   Sizes sizes_;
   std::size_t user_block_;
+  Storage storage_ = Storage::compressed;
   bool has_contents_ = false;
   Handle file_;
   std::string contents_;                 ///< paths of the data sets, one a line

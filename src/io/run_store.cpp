@@ -103,12 +103,14 @@ StoredSegment store_segment(const std::string& folder, const std::string& name, 
   stored.observables = segment.observables.size();
   stored.steps = segment.steps.size();
   for (const Frame& frame : segment.frames) stored.contacts += frame.contacts.a.size();
+  // Half of the time of a commit would go into compression, for a file that the packed one soon replaces.
   hdf5::Writer writer({{'T', stored.frames},
                        {'N', grains},
                        {'M', stored.contacts},
                        {'R', stored.observables},
                        {'S', stored.steps},
-                       {'K', segment.commands.size()}});
+                       {'K', segment.commands.size()}},
+                      0, hdf5::Storage::as_it_is);
   write_frames(writer, [&segment](std::size_t k) { return segment.frames[k]; });
   write_observables(writer, segment.observables);
   write_steps(writer, segment.steps);

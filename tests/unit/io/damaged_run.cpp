@@ -14,7 +14,7 @@
 namespace talus::example {
 namespace {
 
-/// Where the values of a data set, or of one of its chunks, lie in a file: HDF5 counts chunks from
+/// Where the values of a row of a data set, or those of a chunk, lie in a file: HDF5 counts chunks from
 /// behind the seal.
 struct Place {
   std::size_t offset = 0, size = 0;
@@ -37,8 +37,12 @@ Place place_of(const std::string& run, const std::string& path, unsigned row) {
     EXPECT_GE(H5Dget_chunk_info_by_coord(set, start, &mask, &offset, &size), 0) << path;
     place = {static_cast<std::size_t>(offset + user_block), static_cast<std::size_t>(size)};
   } else {
-    place = {static_cast<std::size_t>(H5Dget_offset(set)),
-             static_cast<std::size_t>(H5Dget_storage_size(set))};
+    const hid_t space = H5Dget_space(set);
+    hsize_t dims[4] = {1, 0, 0, 0};
+    H5Sget_simple_extent_dims(space, dims, nullptr);
+    H5Sclose(space);
+    const std::size_t size = H5Dget_storage_size(set) / std::max<hsize_t>(1, dims[0]);
+    place = {static_cast<std::size_t>(H5Dget_offset(set)) + row * size, size};
   }
   H5Pclose(creation);
   H5Dclose(set);
