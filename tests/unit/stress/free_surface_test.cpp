@@ -2,7 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
+
+#include "core/random.h"
 
 namespace talus {
 namespace {
@@ -32,6 +36,40 @@ TEST(FreeSurface, is_the_envelope_of_the_grains_at_the_middle_of_each_section) {
   EXPECT_EQ(height[0], 0.0);
   EXPECT_DOUBLE_EQ(height[1], 2.4);
   EXPECT_EQ(height[2], 0.0);
+}
+
+/// Sample by sample, each over all disks and their images.
+std::vector<double> plain_surface(const World& world, std::size_t samples) {
+  const Grains& g = world.grains;
+  const double length = world.boundary.length, step = length / static_cast<double>(samples);
+  std::vector<double> height(samples, 0.0);
+  for (std::size_t k = 0; k < samples; ++k)
+    for (Index i = 0; i < g.free_count; ++i)
+      for (int image = -2; image <= 2; ++image) {
+        if (image != 0 && !world.boundary.periodic) continue;
+        const double offset = (static_cast<double>(k) + 0.5) * step + image * length - g.x[i];
+        const double square = g.radius[i] * g.radius[i] - offset * offset;
+        if (square >= 0.0) height[k] = std::max(height[k], g.y[i] + std::sqrt(square));
+      }
+  return height;
+}
+
+TEST(FreeSurface, is_that_of_all_disks_sample_by_sample) {
+  Random random(7);
+  for (const bool periodic : {false, true})
+    for (const int samples : {1, 15, 16, 40, 331}) {
+      World world;
+      world.boundary.periodic = periodic;
+      world.boundary.length = 7.0;
+      for (int k = 0; k < 40; ++k)
+        add_disk(world.grains, {7.0 * random.uniform(), 3.0 * random.uniform()}, 0.1 + random.uniform(), 1.0,
+                 false);
+      add_disk(world.grains, {6.9, 2.0}, 4.0, 1.0, false);  // wider than the bed
+      const std::vector<double> height = free_surface(world.grains, world.boundary, 7.0 / samples);
+      const std::vector<double> plain = plain_surface(world, height.size());
+      for (std::size_t k = 0; k < height.size(); ++k)
+        EXPECT_NEAR(height[k], plain[k], 1e-6) << samples << ' ' << k;
+    }
 }
 
 // n = 20 bumps lie in the middle half. Each is symmetric about its grain, so what is fitted is a staircase of
