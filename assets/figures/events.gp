@@ -13,7 +13,7 @@ set logscale xy
 set format "10^{%T}"
 set xlabel "energy released {/:Italic E} ({/:Italic mgD})" offset 0, 0.3
 set ylabel "share with {/:Italic E} or more" offset 0.8, 0
-set offsets graph 0.05, graph 0.05, graph 0, graph 0
+set xrange [energy_from:energy_to]
 # Room below the curves for what their laws are.
 set yrange [0.7 / events_most * 10 ** (-0.16 * groups) : 1.5]
 do for [g = 1:groups] {
@@ -28,6 +28,7 @@ unset key
 eval panel(1, 2, 2, 2)
 set label 100 "(b)"
 set xlabel "waiting angle (deg)" offset 0, 0.3
+set xrange [waiting_from:waiting_to]
 set ylabel "share with as long or longer"
 do for [g = 1:groups] { set label g value(sprintf("wait_law_%d", g)) }
 plot for [g = 1:groups] waits(g) using "waiting":"share" with points linetype g pointsize 0.35 * symbol notitle, \
@@ -38,7 +39,7 @@ do for [g = 1:groups] { unset label g }
 eval panel(2, 2, 1, 2)
 unset logscale x
 set format x "%g"
-set yrange [*:*]
+set yrange [energy_from:energy_to]
 set xrange [0:1.03 * theta_max]
 set xlabel "{/:Italic θ} (deg)" offset 0, 0.3
 set ylabel "{/:Italic E} ({/:Italic mgD})"

@@ -72,7 +72,8 @@ struct SampleLaw {
 };
 
 /// Shares of values that are as large as each or larger, and by laws that begin with the share that the
-/// values have there; NaN below it.
+/// values have there; NaN below it. A row of NaN where there are no values, which gnuplot would complain
+/// about.
 Table share_table(std::string name, Column values, const std::vector<SampleLaw>& laws) {
   std::erase_if(values.values, [](double value) { return !(value > 0.0); });
   std::ranges::sort(values.values);
@@ -80,6 +81,7 @@ Table share_table(std::string name, Column values, const std::vector<SampleLaw>&
   Column share{"share", "1", "share of all that are as large or larger", {}};
   for (std::size_t k = 0; k < values.values.size(); ++k)
     share.values.push_back(1.0 - static_cast<double>(k) / count);
+  if (values.values.empty()) values.values = share.values = {not_known};
   Table table{std::move(name), {std::move(values), std::move(share)}};
   for (const SampleLaw& law : laws) {
     const std::vector<double>& ascending = table.columns[0].values;
@@ -144,6 +146,24 @@ std::size_t most_events(const Figure& figure) {
   return most;
 }
 
+/// Sets the ends of a logarithmic axis that has room for all values above 0 of some columns. gnuplot would
+/// complain about a single value; it has a power of ten beside it.
+void set_range(Figure& figure, const std::string& column_name, const std::string& variable) {
+  double least = not_known, largest = not_known;
+  for (const Table& table : figure.tables)
+    for (const Column& column : table.columns)
+      if (column.name == column_name)
+        for (const double value : column.values)
+          if (value > 0.0) {
+            least = std::fmin(least, value);
+            largest = std::fmax(largest, value);
+          }
+  if (std::isnan(least)) least = largest = 1.0;
+  const double room = largest > least ? std::pow(largest / least, 0.05) : 4.0;
+  set_variable(figure, variable + "_from", least / room);
+  set_variable(figure, variable + "_to", largest * room);
+}
+
 /// The end of the axis of the changes of height, beyond all of them on either side.
 double largest_change(const Figure& figure) {
   double largest = 1.0;
@@ -179,6 +199,8 @@ std::optional<Figure> event_figure(std::span<const RunGroup> groups) {
     add_laws(figure, group, columns);
   }
   if (figure.groups == 0) return std::nullopt;
+  set_range(figure, "energy", "energy");
+  set_range(figure, "waiting", "waiting");
   set_variable(figure, "events_most", static_cast<double>(most_events(figure)));
   set_variable(figure, "largest_change", largest_change(figure));
   return figure;

@@ -13,8 +13,9 @@ namespace {
 class Events : public testing::Test {
  protected:
   Events() {
-    write_file(folder_, "bed.toml",
-               "[bed]\nlength = 10\ndepth = 4\n[tilt]\nend_angle = 1.5\n[output]\nframe_every = 0.5\n");
+    write_file(
+        folder_, "bed.toml",
+        "seed = 2\n[bed]\nlength = 10\ndepth = 4\n[tilt]\nend_angle = 1.5\n[output]\nframe_every = 0.5\n");
     EXPECT_EQ(run_talus({"run", "bed.toml", "-q"}, folder_.path()).exit_code, 0);
   }
 

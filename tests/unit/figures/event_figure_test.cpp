@@ -99,6 +99,22 @@ TEST_F(EventFigure, says_where_there_are_too_few_for_a_law) {
   EXPECT_EQ(text->second, "\"too few for a law: 4\"");
 }
 
+// gnuplot complains about an empty range, and about a table without values.
+TEST_F(EventFigure, has_axes_with_room_for_a_single_rearrangement) {
+  groups_[0].runs.resize(1);
+  add_events(2);
+  const Figure figure = event_figure(groups_).value();
+  const auto value = [&figure](const char* name) {
+    const auto found = std::ranges::find(figure.variables, name, [](const auto& pair) { return pair.first; });
+    EXPECT_NE(found, figure.variables.end()) << name;
+    return std::stod(found->second);
+  };
+  EXPECT_NEAR(value("energy_from"), 0.25, 1e-6);
+  EXPECT_NEAR(value("energy_to"), 4.0, 1e-6);
+  EXPECT_LT(value("waiting_from"), value("waiting_to"));
+  EXPECT_EQ(column(table_called(figure, "waits-"), "waiting").size(), 1U);
+}
+
 TEST_F(EventFigure, is_none_without_rearrangements) {
   EXPECT_FALSE(event_figure(groups_).has_value());
   add_events(1);
