@@ -19,6 +19,10 @@ std::optional<ContextKind> context_kind(std::string_view name) {
                                            did_you_mean(name, {"auto", "osmesa", "egl"})));
 }
 
+bool draws_in_software(std::string_view renderer) {
+  return renderer.starts_with("llvmpipe") || renderer.starts_with("softpipe");
+}
+
 std::unique_ptr<Context> make_context(std::optional<ContextKind> kind) {
   if (!kind) return first_context(make_osmesa_context, make_egl_context);
   return *kind == ContextKind::osmesa ? make_osmesa_context() : make_egl_context();

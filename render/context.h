@@ -28,6 +28,9 @@ std::string_view context_name(ContextKind kind);
 /// The kind of that name; none for "auto". Throws Error(usage) with the names that exist.
 std::optional<ContextKind> context_kind(std::string_view name);
 
+/// Whether that is the name of a renderer of Mesa in software (GL_RENDERER). A GPU rounds in other ways.
+bool draws_in_software(std::string_view renderer);
+
 /// Each throws Error(unavailable) if its library is not installed, or refuses.
 std::unique_ptr<Context> make_osmesa_context();
 std::unique_ptr<Context> make_egl_context();

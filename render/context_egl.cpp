@@ -2,6 +2,7 @@
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
 #include <dlfcn.h>
+#include <unistd.h>
 
 #include <array>
 #include <cstdlib>
@@ -16,6 +17,9 @@ namespace {
 
 constexpr const char* egl_library = "libEGL.so.1";
 constexpr const char* packages = "apt-get install libegl1 libegl-mesa0 libgl1-mesa-dri";
+/// What names Mesa's driver to libEGL, which takes that of a GPU where there is one.
+constexpr const char* mesa_of_egl = "/usr/share/glvnd/egl_vendor.d/50_mesa.json";
+constexpr unsigned renderer_name = 0x1F01;  // GL_RENDERER
 
 /// The entry points of libEGL, opened at run time.
 struct Egl {
@@ -39,8 +43,10 @@ void find_egl(void* library, const char* name, Pointer& pointer) {
 }
 
 Egl open_egl() {
-  setenv("MESA_SHADER_CACHE_DISABLE", "true", 0);              // as for OSMesa
-  setenv("LIBGL_ALWAYS_SOFTWARE", "true", 0);                  // the same pictures on a machine with a GPU
+  setenv("MESA_SHADER_CACHE_DISABLE", "true", 0);  // as for OSMesa
+  setenv("LIBGL_ALWAYS_SOFTWARE", "true", 0);      // the same pictures on a machine with a GPU
+  if (!getenv("__EGL_VENDOR_LIBRARY_DIRS") && access(mesa_of_egl, R_OK) == 0)
+    setenv("__EGL_VENDOR_LIBRARY_FILENAMES", mesa_of_egl, 0);
   void* library = dlopen(egl_library, RTLD_NOW | RTLD_LOCAL);  // never closed: Mesa keeps thread-local state
   if (!library) refuse(fmt::format("cannot load {} ({}); {}", egl_library, dlerror(), packages));
   Egl egl;
@@ -77,17 +83,30 @@ class EglContextOwner final : public Context {
       egl_.destroy(display_, context_);
       refuse("EGL makes no context current without a surface; Talus needs Mesa 20 or later");
     }
+    if (const std::string name = renderer(); !draws_in_software(name)) {
+      release();
+      refuse(fmt::format("EGL draws with {}, not in software, and so other pixels than elsewhere; {}", name,
+                         packages));
+    }
   }
-  ~EglContextOwner() override {
-    egl_.make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
-    egl_.destroy(display_, context_);
-  }
+  ~EglContextOwner() override { release(); }
   EglContextOwner(const EglContextOwner&) = delete;
   EglContextOwner& operator=(const EglContextOwner&) = delete;
 
   Function function(const char* name) const override { return egl_.get_proc(name); }
 
  private:
+  std::string renderer() const {
+    using GetString = const unsigned char* (*)(unsigned);
+    const auto get_string = reinterpret_cast<GetString>(egl_.get_proc("glGetString"));
+    const unsigned char* name = get_string ? get_string(renderer_name) : nullptr;
+    return name ? reinterpret_cast<const char*>(name) : "an unknown driver";
+  }
+  void release() {
+    egl_.make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    egl_.destroy(display_, context_);
+  }
+
   Egl egl_;
   EGLDisplay display_ = EGL_NO_DISPLAY;
   EGLContext context_ = EGL_NO_CONTEXT;

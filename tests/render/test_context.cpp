@@ -104,6 +104,14 @@ TEST(Context, OtherErrorsAreNotHidden) {
   EXPECT_EQ(seconds, 0);
 }
 
+TEST(Context, OfAGpuIsNoneThatDrawsInSoftware) {
+  for (const char* name : {"llvmpipe (LLVM 15.0.6, 256 bits)", "softpipe"})
+    EXPECT_TRUE(draws_in_software(name)) << name;
+  for (const char* name :
+       {"NVIDIA H200/PCIe/SSE2", "Mesa Intel(R) UHD Graphics 630 (CFL GT2)", "virgl (llvmpipe)", ""})
+    EXPECT_FALSE(draws_in_software(name)) << name;
+}
+
 TEST(Context, KindsHaveNames) {
   EXPECT_EQ(context_kind("auto"), std::nullopt);
   for (const ContextKind kind : {ContextKind::osmesa, ContextKind::egl})
