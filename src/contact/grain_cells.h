@@ -34,8 +34,8 @@ inline std::int8_t shift_of(std::int64_t neighbour) { return static_cast<std::in
 /// A grain sees each other one through at most three images; one place more holds what is not kept.
 std::size_t most_neighbours(const Grains& grains, const Boundary& boundary);
 
-/// The neighbours of grain a: grains numbered `least` or more up to a gap of `range`, which is not more than
-/// what makes up a cell beside two grains, and planes.
+/// The neighbours of grain a: grains numbered `least` or more, and planes, up to a gap of `range`. That is at
+/// most the size of a cell less two of the largest radii.
 struct NeighbourSearch {
   Index a = 0;
   Index least = 0;

@@ -9,8 +9,8 @@
 namespace talus {
 namespace {
 
-// Of the skin: how far a grain may have moved since its pairs were listed, and how far it has when they are
-// listed anew together with those of grains that moved farther.
+// Parts of the skin. A grain that has moved `farthest` since its pairs were listed has them listed anew; then
+// those that have moved `far` are taken along.
 constexpr double farthest = 0.5;
 constexpr double far = 0.25;
 
@@ -113,8 +113,8 @@ void list_pairs(NeighbourList& list, const Grains& grains, const Boundary& bound
   });
 }
 
-/// Grid cells that a search up to a gap of `range` can use.
-void sort_into_cells(const Grains& grains, const Boundary& boundary, double range, NeighbourList& list) {
+/// Makes cells in which pairs up to a gap of `range` can be found.
+void prepare_search(const Grains& grains, const Boundary& boundary, double range, NeighbourList& list) {
   const double largest = *std::max_element(grains.radius.begin(), grains.radius.end());
   sort_into_cells(grains, boundary, 2.0 * largest + range, list.cells);
 }
@@ -140,7 +140,7 @@ void rebuild(NeighbourList& list, const Grains& grains, const Boundary& boundary
   list.skin = 0.2 * *std::max_element(grains.radius.begin(), grains.radius.end());
   list.reach = reach;
   const double range = list.reach + list.skin;
-  sort_into_cells(grains, boundary, range, list);
+  prepare_search(grains, boundary, range, list);
   list_pairs(list, grains, boundary, range, team);
   make_room_for_renewals(list, grains, boundary);
   list.free_count = grains.free_count;
@@ -191,7 +191,7 @@ bool find_moved(NeighbourList& list, const Grains& grains, const Boundary& bound
 /// it was when its own were listed, and go as far as it may to the other side.
 void search_moved(NeighbourList& list, const Grains& grains, const Boundary& boundary) {
   const double range = list.reach + (farthest + far + farthest) * list.skin;
-  sort_into_cells(grains, boundary, range, list);
+  prepare_search(grains, boundary, range, list);
   std::vector<std::int64_t>& found = list.found.front();
   if (const std::size_t most = most_neighbours(grains, boundary); found.size() < most) found.resize(2 * most);
   list.renewed.clear();

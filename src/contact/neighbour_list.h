@@ -27,8 +27,8 @@ struct NeighbourList {
   CandidatePairs pairs;
   double reach = -1.0;        ///< m
   double skin = 0.0;          ///< m
-  std::vector<double> x, y;   ///< where the grains were when their pairs were listed, m
-  Index free_count = 0;       ///< of grains that were there then
+  std::vector<double> x, y;   ///< where each grain was when its pairs were listed, m; NaN: they are not yet
+  Index free_count = 0;       ///< of the grains of x and y
   std::int64_t rebuilds = 0;  ///< of the whole list
   std::int64_t renewals = 0;  ///< of the pairs of a few grains
 
@@ -45,8 +45,8 @@ struct NeighbourList {
 
 /// Brings the list up to date, where it does not hold all pairs up to a gap of `reach` at the present
 /// positions. The pairs of a few grains that have moved or arrived are listed anew, else the whole list is. A
-/// list belongs to one world: it does not notice changed radii, planes or lengths. The whole list is shared
-/// out to the team, if there is one; the result is the same.
+/// list belongs to one world: it does not notice changed radii, planes or lengths, and grains that are not
+/// free never move. The whole list is shared out to the team, if there is one; the result is the same.
 void update_neighbour_list(NeighbourList& list, const Grains& grains, const Boundary& boundary, double reach,
                            ThreadTeam* team = nullptr);
 

@@ -13,8 +13,8 @@ namespace talus {
 
 struct StepSettings {
   double h = 1e-3;  ///< time step, s
-  /// Pairs with a smaller gap are contacts of the problem, m. Doubled until it holds what the velocities of
-  /// the bed can close in a step, beside itself.
+  /// Pairs with a smaller gap are contacts of the problem, m. Doubled until it exceeds
+  /// itself by what the velocities of the bed can close in a step.
   double margin = 0.0;
   ContactLawParameters law;
   SolverSettings solver;

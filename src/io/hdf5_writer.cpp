@@ -104,7 +104,7 @@ Handle creation_properties(ElementType type, const std::vector<hsize_t>& chunk) 
 }
 
 /// A cache that holds the chunk being filled and no more: those before it are in the file, frame by frame,
-/// and a file that is cut keeps the frames before the cut.
+/// and a packed file that is cut keeps the frames before the cut.
 Handle access_properties(ElementType type, const std::vector<hsize_t>& chunk) {
   std::size_t bytes = size_of(type);
   for (hsize_t extent : chunk) bytes *= extent;

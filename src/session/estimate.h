@@ -31,7 +31,7 @@ struct Estimate {
   std::int64_t observable_rows = 0;
   double seconds = 0.0;  ///< wall time on one core
   double memory = 0.0;   ///< bytes, at most
-  double disk = 0.0;     ///< bytes of the run file; twice that while it is packed
+  double disk = 0.0;     ///< bytes of the run file; 2.5 times that while it is packed
 };
 
 /// Throws as grain_count does.

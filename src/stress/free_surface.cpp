@@ -27,8 +27,8 @@ struct Envelope {
 
   Index count() const { return static_cast<Index>(height.size()); }
 
-  /// Raises samples first ... last that a disk covers to its upper edge; they are those of one block.
-  /// `shift` samples further on, the disk is where it is.
+  /// Raises samples first ... last of one block that a disk covers to its upper edge. The disk is seen from
+  /// sample k as from place k + shift, which is another one where it is a periodic image that covers them.
   void raise_block(Index first, Index last, Index shift, Vec2 centre, double radius) {
     const double highest = centre.y + radius;
     double& low = lowest[static_cast<std::size_t>(first / samples_of_block)];
@@ -39,8 +39,9 @@ struct Envelope {
       const double offset = (k + shift + 0.5) * spacing - centre.x;
       sample = std::max(sample, centre.y + std::sqrt(std::max(0.0, radius * radius - offset * offset)));
     }
-    const auto begin = height.begin() + first / samples_of_block * samples_of_block;
-    low = *std::min_element(begin, std::min(begin + samples_of_block, height.end()));
+    const Index begin = first / samples_of_block * samples_of_block;
+    low = *std::min_element(height.begin() + begin,
+                            height.begin() + std::min(begin + samples_of_block, count()));
   }
 
   /// The samples may lie outside: they are periodic or cut.

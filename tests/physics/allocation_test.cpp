@@ -123,6 +123,87 @@ TEST(DetectionAllocation, of_a_team_that_comes_and_goes_is_that_of_its_first_tur
   ASSERT_GT(contacts.count(), 2500);
 }
 
+/// Moves every fortieth grain to and fro by more than half the skin of a list.
+void shake(World& world, const NeighbourList& list, int round) {
+  for (Index i = 0; i < world.grains.free_count; i += 40)
+    world.grains.y[i] += (round % 2 == 0 ? 0.6 : -0.6) * list.skin;
+}
+
+TEST(DetectionAllocation, of_the_pairs_of_a_few_grains_is_none) {
+  const StepSettings settings = test::bed_step(1e-3);
+  World world = test::fallen_bed(test::bed_plan(true, 1600, 100, 5), settings, 400);
+  NeighbourList list;
+  Contacts contacts;
+  detect_contacts(list, world.grains, world.boundary, settings.margin, contacts);
+  contacts.resize(2 * list.pairs.count());  // room for more candidates than there are
+  const long before = allocations;
+  for (int round = 0; round < 20; ++round) {
+    shake(world, list, round);
+    detect_contacts(list, world.grains, world.boundary, settings.margin, contacts);
+  }
+  EXPECT_EQ(allocations - before, 0);
+  EXPECT_EQ(list.renewals, 20);
+  EXPECT_EQ(list.rebuilds, 1);
+}
+
+/// A list of a bed in which some grains have moved since, and three have arrived: its own allocations are
+/// those of a renewal.
+struct OldList {
+  World world;
+  NeighbourList list;
+
+  explicit OldList(const World& bed) : world(bed) {
+    Contacts contacts;
+    Grains& grains = world.grains;
+    const double reach = 0.01 * test::radius;
+    detect_contacts(list, grains, world.boundary, reach, contacts);
+    for (auto* field : {&list.x, &list.y}) field->shrink_to_fit();
+    shake(world, list, 0);
+    const auto insert = [&grains](auto& to) {
+      const auto first = to[0];
+      to.insert(to.begin() + grains.free_count, 3, first);
+    };
+    for (std::vector<double> Grains::*field :
+         {&Grains::x, &Grains::y, &Grains::vx, &Grains::vy, &Grains::omega, &Grains::radius,
+          &Grains::inverse_mass, &Grains::inverse_inertia, &Grains::mass, &Grains::inertia, &Grains::angle})
+      insert(grains.*field);
+    insert(grains.image);
+    grains.free_count += 3;
+  }
+};
+
+// Whichever allocation of a renewal fails, the list finds what it should the next time.
+TEST(FailingAllocation, of_a_renewal_leaves_the_list_usable) {
+  const StepSettings settings = test::bed_step(1e-3);
+  const OldList old(test::fallen_bed(test::bed_plan(true, 400, 40, 5), settings, 200));
+  const double reach = 0.01 * test::radius;
+  Contacts expected;
+  NeighbourList fresh;
+  detect_contacts(fresh, old.world.grains, old.world.boundary, reach, expected);
+  int failed = 0;
+  for (long k = 1; k < 1000; ++k) {
+    SCOPED_TRACE(k);
+    NeighbourList list = old.list;
+    until_one_fails = k;
+    bool ended = true;
+    try {
+      update_neighbour_list(list, old.world.grains, old.world.boundary, reach);
+    } catch (const std::bad_alloc&) {
+      ended = false;
+    }
+    until_one_fails = 0;
+    Contacts found;
+    detect_contacts(list, old.world.grains, old.world.boundary, reach, found);
+    EXPECT_EQ(list.rebuilds, 1) << "renewed";
+    EXPECT_EQ(found.a, expected.a);
+    EXPECT_EQ(found.b, expected.b);
+    EXPECT_EQ(found.gap, expected.gap);
+    if (ended) break;
+    ++failed;
+  }
+  EXPECT_GT(failed, 5);
+}
+
 // Whichever allocation of a solve fails, both threads come back, and the workspace can be used again.
 TEST(FailingAllocation, of_two_threads_ends_the_solve_and_leaves_the_workspace_usable) {
   const StepSettings settings = test::bed_step(1e-3);

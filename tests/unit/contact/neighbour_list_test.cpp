@@ -251,6 +251,7 @@ TEST(NeighbourList, lists_the_pairs_of_a_few_grains_anew) {
                              : i % 2     ? 0.04 * radius * (round % 2 ? 1.0 : -1.0)
                                          : 0.0;
           grains.x[i] += way;
+          if (i % 20 == 10) grains.y[i] += (round % 4 < 2 ? 0.04 : -0.04) * radius;  // up to far, and beyond
           if (periodic)
             grains.x[i] -= std::floor(grains.x[i] / world.boundary.length) * world.boundary.length;
         }

@@ -46,6 +46,37 @@ TEST(Step, forgotten_forces_change_the_bits) {
   EXPECT_NE(state_hash(forgetful), state_hash(world));
 }
 
+// Gaps up to `margin`, doubled until it exceeds itself by what velocities can close in a step: 2 h (v + g h).
+TEST(Step, lists_pairs_up_to_a_gap_that_changes_by_doubling) {
+  StepSettings settings = test::bed_step(1e-8);
+  const auto listed = [&settings](double gap, double velocity) {
+    World world;
+    world.gravity = 0.0;
+    world.boundary.length = 100.0 * test::radius;
+    for (const double x : {1.0, 2.0})
+      add_disk(world.grains, {x * (2.0 * test::radius) + (x > 1.0 ? gap : 0.0), 1.0}, test::radius,
+               test::density, false);
+    add_disk(world.grains, {80.0 * test::radius, 1.0}, test::radius, test::density, false);
+    world.grains.vy[2] = velocity;
+    StepWorkspace workspace;
+    begin_step(world, settings, workspace);
+    return workspace.contacts.count() == 1;
+  };
+  const double margin = settings.margin, per_margin = margin / (2.0 * settings.h);
+  const auto expect_margin = [&](double times, double velocity) {
+    EXPECT_TRUE(listed((times - 1e-6) * margin, velocity)) << times << ' ' << velocity;
+    EXPECT_FALSE(listed((times + 1e-6) * margin, velocity)) << times << ' ' << velocity;
+  };
+  expect_margin(1.0, 0.0);
+  expect_margin(2.0, 0.5 * per_margin);
+  expect_margin(2.0, (1.0 - 1e-9) * per_margin);
+  expect_margin(4.0, (1.0 + 1e-9) * per_margin);
+  expect_margin(8.0, 4.5 * per_margin);
+  settings.margin = 0.0;
+  EXPECT_TRUE(listed(0.99 * margin, per_margin)) << "nothing to double: the velocities alone";
+  EXPECT_FALSE(listed(1.01 * margin, per_margin));
+}
+
 TEST(Step, counts_steps_and_time_and_reports_what_it_did) {
   const StepSettings settings = test::bed_step(1e-8);
   World world = test::fallen_bed(falling_plan(true), settings, 100);
