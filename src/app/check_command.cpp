@@ -114,7 +114,8 @@ void print_text(const CheckArguments& arguments, const Scenario& scenario, const
              fmt::format("{} frames, {} rows of observables", expected.frames, expected.observable_rows));
   print_line("time", fmt::format("about {} on one core", duration(expected.seconds)));
   print_line("memory", "up to about " + size_text(expected.memory));
-  print_line("disk", fmt::format("about {}, 2.5 times that while the run is packed", size_text(expected.disk)));
+  print_line("disk",
+             fmt::format("about {}, 2.5 times that while the run is packed", size_text(expected.disk)));
 }
 
 /// Throws `refusal` again, after it has said which pieces of the run are damaged.
