@@ -200,11 +200,12 @@ void search_moved(NeighbourList& list, const Grains& grains, const Boundary& bou
     search_grains(list.cells, grains, search);
     search_planes(grains, boundary, search);
     for (const std::int64_t* neighbour = found.data(); neighbour != search.end; ++neighbour) {
-      const Index other = body_of(*neighbour), shift = shift_of(*neighbour);
+      const Index other = body_of(*neighbour);
+      const std::int8_t shift = shift_of(*neighbour);
       if (other > grain)
-        list.renewed.push_back({grain, other, shift});
+        list.renewed.emplace_back(grain, other, shift);
       else if (!list.has_moved[other])  // else it has found this one, or is the grain itself
-        list.renewed.push_back({other, grain, -shift});
+        list.renewed.emplace_back(other, grain, static_cast<std::int8_t>(-shift));
     }
   }
   std::ranges::sort(list.renewed);
@@ -240,7 +241,7 @@ void merge_renewed(NeighbourList& list, const Grains& grains) {
   for (const auto& [a, b, shift] : list.renewed) {
     keep_until(a, b);
     next.resize(next.count() + 1);
-    set_pair(grains, next.count() - 1, a, b, static_cast<std::int8_t>(shift), next);
+    set_pair(grains, next.count() - 1, a, b, shift, next);
   }
   keep_until(grains.count(), 0);
   std::swap(list.pairs, list.next);

@@ -1,8 +1,8 @@
 #pragma once
 /// Candidate pairs: which bodies may touch soon.
 
-#include <array>
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 #include "contact/grain_cells.h"
@@ -32,14 +32,15 @@ struct NeighbourList {
   std::int64_t rebuilds = 0;  ///< of the whole list
   std::int64_t renewals = 0;  ///< of the pairs of a few grains
 
-  // Kept so that neither allocates.
+  // Memory that is kept, so that neither a rebuild nor a renewal allocates.
   GrainCells cells;
   std::vector<std::vector<std::int64_t>> found;  ///< by each member of a team: the neighbours of its grains
   std::vector<std::size_t> first_found;          ///< of each free grain, and where those of the last one end
   std::vector<std::size_t> part_end;             ///< where what a member of the team has written ends
   std::vector<Index> moved;                      ///< grains whose pairs are listed anew
   std::vector<std::uint8_t> has_moved;           ///< of each body
-  std::vector<std::array<Index, 3>> renewed;     ///< a, b and shift of their pairs
+  /// Their pairs by key.
+  std::vector<std::tuple<Index, Index, std::int8_t>> renewed;
   CandidatePairs next;
 };
 
