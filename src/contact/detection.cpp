@@ -119,7 +119,7 @@ std::size_t move_down(std::size_t first, std::size_t last, std::size_t to, Conta
 void detect_contacts(NeighbourList& list, const Grains& grains, const Boundary& boundary, double margin,
                      Contacts& contacts, ThreadTeam* team) {
   update_neighbour_list(list, grains, boundary, margin, team);
-  const std::size_t candidates = list.pairs.a.size();
+  const std::size_t candidates = list.pairs.count();
   contacts.resize(candidates);
   const std::size_t parts = team ? static_cast<std::size_t>(team->size()) : 1;
   const auto begin_of = [candidates, parts](std::size_t part) { return candidates * part / parts; };

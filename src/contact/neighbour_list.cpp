@@ -136,7 +136,7 @@ void rebuild(NeighbourList& list, const Grains& grains, const Boundary& boundary
   list.x.clear();  // holds no pair of any grain, should memory be missing
   list.pairs.resize(0);
   if (grains.count() == 0) return;
-  // Doubling the skin halves the rebuilds and adds 5 % of candidates: here both cost the same.
+  // Doubling the skin halves how often grains reach its half, and adds 5 % of candidates.
   list.skin = 0.2 * *std::max_element(grains.radius.begin(), grains.radius.end());
   list.reach = reach;
   const double range = list.reach + list.skin;

@@ -82,7 +82,7 @@ class Session {
 
  private:
   StepSettings settings() const;
-  bool is_quiet() const;  ///< slower than deposition.rest_velocity
+  bool is_quiet() const;  ///< after the last step slower than deposition.rest_velocity
   bool is_at_rest() const { return schedule_.quiet_steps >= rest_steps; }
   bool have_all_arrived() const;
   void take_step();

@@ -6,7 +6,7 @@
 
 namespace talus::example {
 
-/// Fills the first stored bytes of a data set with 0x55: of all of it, or of the chunk that begins at a row.
+/// Fills the first stored bytes of a data set with 0x55: of all of it, or of what is stored of a row.
 void spoil_data_set(const std::string& run, const std::string& path, unsigned row = 0);
 
 /// Puts the seal of a file right.

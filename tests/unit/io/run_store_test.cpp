@@ -3,6 +3,7 @@
 #include "io/run_store.h"
 
 #include <gtest/gtest.h>
+#include <hdf5.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -152,6 +153,27 @@ TEST(RunStore, resume_clears_leftovers_away_and_keeps_what_is_committed) {
   EXPECT_EQ(names_in(run_folder(path)), before);
   EXPECT_EQ(before, (std::vector<std::string>{"checkpoint_000002.h5", "header.h5", "lock", "manifest",
                                               "segment_000001.h5", "segment_000002.h5"}));
+}
+
+/// How many filters (shuffle, deflate) the angles of the grains go through in a file.
+int filters_of_angles(const std::string& path) {
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  const hid_t set = H5Dopen2(file, "/particles/grains/angle/value", H5P_DEFAULT);
+  const hid_t creation = H5Dget_create_plist(set);
+  const int filters = H5Pget_nfilters(creation);
+  H5Pclose(creation);
+  H5Dclose(set);
+  H5Fclose(file);
+  return filters;
+}
+
+TEST(RunStore, compresses_the_packed_run_and_not_its_segments) {
+  const example::TemporaryFolder folder;
+  const std::string path = folder.path("run.h5");
+  RunStore store = example::store_with_commits(path, 2);
+  EXPECT_EQ(filters_of_angles(run_folder(path) + "/segment_000002.h5"), 0);
+  store.pack();
+  EXPECT_EQ(filters_of_angles(path), 2);
 }
 
 TEST(RunStore, a_missing_parent_folder_is_named) {
