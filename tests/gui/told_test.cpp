@@ -65,7 +65,12 @@ TEST_F(Replay, a_grain_is_told_by_what_the_map_shows) {
 TEST_F(Live, grains_that_are_dropped_are_seen_before_they_fall) {
   gui_.click("deposit");
   ASSERT_TRUE(wait_until([&] { return !status().depositing && !status().running; }));
-  const auto highest = [this] { return std::ranges::max(model_.frame().y) + 0.5 * model_.mean_diameter(); };
+  const auto highest = [this] {
+    double top = 0.0;
+    for (std::size_t i = 0; i < model_.frame().y.size(); ++i)
+      top = std::max(top, model_.frame().y[i] + model_.statics().radius[i]);
+    return top;
+  };
   const auto shown_to = [this] {
     const WidgetPlace map = gui_.place("map");
     return model_.shown_region(static_cast<double>(map.x1 - map.x0) /
