@@ -47,13 +47,9 @@ solver() {
 }
 
 scale() {
-  local header=--header grains
   {
-    heading "Cost and memory against size" "$build/scale_bench GRAINS"
-    for grains in "${scale_sizes[@]}"; do
-      "$build/scale_bench" "$grains" $header
-      header=
-    done
+    heading "Cost and memory against size" "bench/run_scale.py $build/scale_bench ${scale_sizes[*]}"
+    /usr/bin/python3 bench/run_scale.py "$build/scale_bench" "${scale_sizes[@]}"
   } >"$results/scale.md.part"
   keep scale.md
 }

@@ -88,17 +88,9 @@ void print_row(Index grains) {
 
 int run(int argc, char** argv) {
   Index grains = 0;
-  bool header = false;
   CLI::App app("Cost per grain and iteration, and memory per grain");
   app.add_option("grains", grains, "500, 2000 or a multiple of 4000")->required();
-  app.add_flag("--header", header, "Print the header of the table first");
   CLI11_PARSE(app, argc, argv)
-  if (header)
-    std::printf(
-        "| grains | contacts | ns per contact and iteration, 1 thread | 2 threads "
-        "| ns per grain and iteration, 1 thread | 2 threads | peak bytes per grain | eta of remembered "
-        "forces |\n"
-        "|--:|--:|--:|--:|--:|--:|--:|--:|\n");
   print_row(grains);
   return 0;
 }
