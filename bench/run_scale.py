@@ -13,35 +13,31 @@ REFERENCE = 8000  # grains of the paper's bed
 
 def measure(program, grains):
     """The cells that scale_bench prints for a bed of so many grains."""
-    row = subprocess.run([program, str(grains)], check=True, capture_output=True, text=True).stdout
+    row = subprocess.run([program, str(grains)], check=True, stdout=subprocess.PIPE, text=True).stdout
     return [float(cell) for cell in row.strip().strip("|").split("|")]
-
-
-def median_row(rounds):
-    return [statistics.median(cells) for cells in zip(*rounds)]
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("program", help="scale_bench")
-    parser.add_argument("grains", nargs="+", type=int)
+    parser.add_argument("grains", nargs="+", type=int, help=f"sizes, {REFERENCE} among them")
     parser.add_argument("--rounds", type=int, default=5, help="of which medians are told")
     arguments = parser.parse_args()
+    if REFERENCE not in arguments.grains:
+        parser.error(f"{REFERENCE} grains, which the others are compared with, must be among them")
     rows = {grains: [] for grains in arguments.grains}
     for _ in range(arguments.rounds):
         for grains, measured in rows.items():
             measured.append(measure(arguments.program, grains))
-    print("| grains | contacts | ns per contact and iteration, 1 thread | 2 threads | the latter against 8000 grains | "
-          "ns per grain and iteration, 1 thread | 2 threads | peak bytes per grain | eta of remembered forces |")
+    print("| grains | contacts | ns per contact and iteration, 1 thread | 2 threads | "
+          f"the latter against {REFERENCE} grains | ns per grain and iteration, 1 thread | 2 threads | "
+          "peak bytes per grain | eta of remembered forces |")
     print("|--:|--:|--:|--:|--:|--:|--:|--:|--:|")
     for grains, measured in rows.items():
-        _, contacts, one, two, grain_one, grain_two, peak, eta = median_row(measured)
-        against = ""
-        if REFERENCE in rows:
-            ratios = [row[3] / reference[3] for row, reference in zip(measured, rows[REFERENCE])]
-            against = f"{statistics.median(ratios):.2f}"
-        print(f"| {grains} | {contacts:.0f} | {one:.2f} | {two:.2f} | {against} | {grain_one:.2f} | {grain_two:.2f} | "
-              f"{peak:.0f} | {eta:.2e} |")
+        _, contacts, one, two, grain_one, grain_two, peak, eta = (statistics.median(cells) for cells in zip(*measured))
+        against = statistics.median(row[3] / reference[3] for row, reference in zip(measured, rows[REFERENCE]))
+        print(f"| {grains} | {contacts:.0f} | {one:.2f} | {two:.2f} | {against:.2f} | "
+              f"{grain_one:.2f} | {grain_two:.2f} | {peak:.0f} | {eta:.2e} |")
 
 
 if __name__ == "__main__":
