@@ -19,7 +19,7 @@ constexpr double may_close = 0.2;
 // Where so large a share would be swept, all are: their order can stay from step to step.
 constexpr double nearly_all = 0.85;
 
-// What sweeps walk through stays in the caches up to about this size: 100 000 contacts.
+// What sweeps walk through stays in the caches up to about this size: 120 000 contacts.
 constexpr std::size_t cached_bytes = std::size_t{8} << 20;
 
 constexpr auto row_bytes = static_cast<std::uint32_t>(sizeof(Row));
@@ -31,11 +31,6 @@ struct Slot {
 };
 Slot slot_of(const Linearisation& w, std::size_t c) {
   return {w.order.slot[c] / lane_count, w.order.slot[c] % lane_count};
-}
-
-/// What a unit of P_t takes from the spin r omega of a body.
-double spin_mobility(const ContactProblem& problem, Index body) {
-  return problem.lever[body] * problem.lever[body] * problem.inverse_inertia[body];
 }
 
 ExactRow in_bed_axes(const ContactProblem& problem, std::size_t c, Impulse impulse) {
@@ -93,13 +88,15 @@ void load_group(const ContactProblem& problem, std::size_t c, const InverseUnits
   if (!w.have_new_order) return;
   const Index a = problem.a[c], b = problem.b[c];
   const double unit = units.mobility;
-  group.mu[k] = static_cast<float>(problem.mu[c]);
+  if (!w.same_friction) w.friction[g].mu[k] = static_cast<float>(problem.mu[c]);
   group.wn[k] = static_cast<float>(normal_relaxation * w.wn[c] * w.mobility_unit);
   group.wt[k] = static_cast<float>(tangential_relaxation * w.wt[c] * w.mobility_unit);
   group.mass_a[k] = static_cast<float>(-problem.inverse_mass[a] * unit);
-  group.spin_a[k] = static_cast<float>(-spin_mobility(problem, a) * unit);
   group.mass_b[k] = static_cast<float>(problem.inverse_mass[b] * unit);
-  group.spin_b[k] = static_cast<float>(-spin_mobility(problem, b) * unit);
+  if (!w.all_disks) {
+    w.spins[g].a[k] = static_cast<float>(-spin_mobility(problem, a) * unit);
+    w.spins[g].b[k] = static_cast<float>(-spin_mobility(problem, b) * unit);
+  }
   group.a[k] = static_cast<std::uint32_t>(w.order.row_a[c]) * row_bytes;
   group.b[k] = static_cast<std::uint32_t>(w.order.row_b[c]) * row_bytes;
 }
@@ -131,7 +128,7 @@ void for_each_swept(const ContactProblem& problem, Index first_block, Index last
 }
 
 /// Makes room for the groups of the order. What was there is overwritten where there is a contact.
-void size_groups(Linearisation& w) {
+void size_groups(const ContactProblem& problem, Linearisation& w) {
   const auto groups = static_cast<std::size_t>(w.order.group_count());
   const auto size = [groups](auto& field) {
     // How well groups are filled differs from step to step: some room, so that steady steps allocate nothing.
@@ -141,6 +138,17 @@ void size_groups(Linearisation& w) {
   size(w.contacts);
   size(w.increment);
   size(w.last_move);
+  if (w.same_friction) {
+    w.friction.resize(1);
+    std::ranges::fill(w.friction.front().mu,
+                      problem.mu.empty() ? 0.0F : static_cast<float>(problem.mu.front()));
+  } else {
+    size(w.friction);
+  }
+  if (w.all_disks)
+    w.spins.clear();
+  else
+    size(w.spins);
   if (!w.rolling.are_there()) return;
   size(w.rolling.groups);
   size(w.rolling.increment);
@@ -151,6 +159,8 @@ void size_groups(Linearisation& w) {
 void clear_group(Index bodies, Index part, Index g, Linearisation& w) {
   w.contacts[g] = {};
   w.increment[g] = w.last_move[g] = {};
+  if (!w.same_friction) w.friction[g] = {};
+  if (!w.all_disks) w.spins[g] = {};
   if (w.rolling.are_there()) {
     w.rolling.groups[g] = {};
     w.rolling.increment[g] = w.rolling.last_move[g] = {};
@@ -232,7 +242,7 @@ void begin_order_of_contacts(const ContactProblem& problem, int size, Linearisat
 
 void end_order_of_contacts(const ContactProblem& problem, Linearisation& w) {
   end_order(w.order);
-  size_groups(w);
+  size_groups(problem, w);
   clear_groups(problem.body_count(), w);
   for (auto* field : {&w.velocity, &w.before}) field->resize(static_cast<std::size_t>(w.order.row_count));
   w.ordered_swept = w.swept;
@@ -354,7 +364,10 @@ void unload_velocities(const ContactProblem& problem, Index first, Index last, c
 }
 
 ContactArrays contact_arrays(Linearisation& w) {
-  ContactArrays arrays{w.contacts.data(), w.increment.data(), w.last_move.data(), w.velocity.data()};
+  ContactArrays arrays{w.contacts.data(), w.increment.data(), w.last_move.data(), w.velocity.data(),
+                       w.friction.data()};
+  arrays.friction_step = w.same_friction ? 0 : 1;
+  if (!w.all_disks) arrays.spins = w.spins.data();
   arrays.reads_ahead = w.contacts.size() * (sizeof(ContactGroup) + 2 * sizeof(ImpulseGroup)) > cached_bytes;
   if (w.rolling.are_there()) {
     arrays.rolling = w.rolling.groups.data();

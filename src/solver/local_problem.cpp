@@ -23,7 +23,7 @@ void add_through_body(const ContactProblem& problem, Index c, Index d, Index bod
   block.nn += mobility * along;
   block.nt += mobility * across;
   block.tn -= mobility * across;
-  block.tt += mobility * along + problem.lever[body] * problem.lever[body] * problem.inverse_inertia[body];
+  block.tt += mobility * along + spin_mobility(problem, body);
 }
 
 DelassusBlock delassus_block(const ContactProblem& problem, Index c, Index d) {

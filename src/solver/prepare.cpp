@@ -112,6 +112,21 @@ void take_mean_body(const ContactProblem& problem, Linearisation& w) {
   w.mobility_unit = w.moving > 0 ? inverse_mass / w.moving : 1.0;
 }
 
+bool have_same_friction(const ContactProblem& problem) {
+  const auto count = static_cast<std::ptrdiff_t>(problem.mu.size());
+  return count == 0 || std::ranges::count(problem.mu, problem.mu.front()) == count;
+}
+
+/// Whether single precision knows all bodies for disks.
+bool are_disks(const ContactProblem& problem, double mobility_unit) {
+  const double unit = 1.0 / mobility_unit;
+  Index others = 0;
+  for (Index i = 0; i < problem.body_count(); ++i)
+    others += static_cast<float>(spin_mobility(problem, i) * unit) !=
+              2.0F * static_cast<float>(problem.inverse_mass[i] * unit);
+  return others == 0;
+}
+
 /// Units in which neither impulses nor velocities are large: single precision has room below one, to 1e-38,
 /// not above.
 void choose_units(const ContactProblem& problem, const ContactSolution& guess, ThreadTeam* team,
@@ -120,12 +135,16 @@ void choose_units(const ContactProblem& problem, const ContactSolution& guess, T
   do_both(
       team,
       [&] {
-        if (w.are_new) take_mean_body(problem, w);
+        if (w.are_new) {
+          take_mean_body(problem, w);
+          w.all_disks = are_disks(problem, w.mobility_unit);
+        }
         vx = sum_of_squares(problem.vx);
         pn = sum_of_squares(guess.pn);
         pt = sum_of_squares(guess.pt);
       },
       [&] {
+        if (w.are_new) w.same_friction = have_same_friction(problem);
         vy = sum_of_squares(problem.vy);
         cn = sum_of_squares(problem.cn);
         ct = sum_of_squares(problem.ct);

@@ -50,6 +50,11 @@ struct ContactSolution {
   std::vector<double> vx, vy, omega;  ///< out: v = v_free + M^-1 H P
 };
 
+/// r^2 / I: what a unit of P_t takes from the spin r omega of a body, 1/kg.
+inline double spin_mobility(const ContactProblem& problem, Index body) {
+  return problem.lever[body] * problem.lever[body] * problem.inverse_inertia[body];
+}
+
 /// Diagonal of the Delassus operator W = H^T M^-1 H at contact c (T8); for disks its 2 x 2 block is diagonal.
 /// W_nn = 1/m_a + 1/m_b, W_tt = W_nn + r_a^2 / I_a + r_b^2 / I_b. 1/kg.
 struct DelassusDiagonal {
@@ -59,9 +64,7 @@ struct DelassusDiagonal {
 inline DelassusDiagonal delassus_diagonal(const ContactProblem& problem, Index c) {
   const Index a = problem.a[c], b = problem.b[c];
   const double normal = problem.inverse_mass[a] + problem.inverse_mass[b];
-  const double spin = problem.lever[a] * problem.lever[a] * problem.inverse_inertia[a] +
-                      problem.lever[b] * problem.lever[b] * problem.inverse_inertia[b];
-  return {normal, normal + spin};
+  return {normal, normal + (spin_mobility(problem, a) + spin_mobility(problem, b))};
 }
 
 /// Relative velocity U at contact c for the given body velocities (T5).

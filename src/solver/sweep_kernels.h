@@ -25,18 +25,25 @@ using Lane = float[lane_count];
 /// Eight contacts, no two of which share a body that moves, around the impulses P0 at which the problem was
 /// linearised, in the units of the solve. The increment p = P - P0 is what the sweeps look for: in single
 /// precision, it can be found to any digit. A lane without a contact is all zero, between rows that do not
-/// move.
-struct alignas(64) ContactGroup {
+/// move. A sweep is as fast as this is small: what is the same for all contacts is not here.
+struct alignas(32) ContactGroup {
   Lane nx, ny;
-  Lane un, ut;        ///< relative velocity at P0
-  Lane least;         ///< -P0_n: the least normal increment
-  Lane below, above;  ///< -mu P0_n - P0_t and mu P0_n - P0_t: the contact slides there, but for mu p_n
-  Lane mu;
-  Lane wn, wt;  ///< inverse of the Delassus diagonal, times the relaxation
-  // Mobilities of the bodies: what a unit impulse in the axes of the bed adds to x and y, and P_t to the
-  // spin; mass_a and both spins are negative.
-  Lane mass_a, spin_a, mass_b, spin_b;
+  Lane un, ut;          ///< relative velocity at P0
+  Lane least;           ///< -P0_n: the least normal increment
+  Lane below, above;    ///< -mu P0_n - P0_t and mu P0_n - P0_t: the contact slides there, but for mu p_n
+  Lane wn, wt;          ///< inverse of the Delassus diagonal, times the relaxation
+  Lane mass_a, mass_b;  ///< what a unit impulse in the axes of the bed adds to x and y; mass_a is negative
   std::uint32_t a[lane_count], b[lane_count];  ///< where the rows of the two bodies begin, bytes
+};
+
+/// Coefficients of friction of eight contacts.
+struct alignas(32) FrictionGroup {
+  Lane mu;
+};
+
+/// What a unit of P_t adds to the spins of the bodies of eight contacts; both are negative.
+struct alignas(64) SpinGroup {
+  Lane a, b;
 };
 
 /// What eight contacts that resist rolling have beside the fields above, in the units of the solve; lengths
@@ -77,6 +84,11 @@ struct ContactArrays {
   ImpulseGroup* increment;  ///< in: p of the last sweep; out: the new p
   ImpulseGroup* last_move;  ///< in: what the last sweep added to p; out: what this one has added
   Row* velocity;            ///< of the bodies; in: due to y = p + momentum * last_move; out: due to the new p
+  const FrictionGroup* friction;  ///< of each group, or where friction_step = 0 of all
+  Index friction_step = 0;        ///< from the friction of a group to that of the next, 0 or 1
+  /// Null where all bodies are disks, I = m r^2 / 2: P_t adds twice as much to r omega as to the velocity.
+  /// Not read where contacts resist rolling.
+  const SpinGroup* spins = nullptr;
   /// Whether to ask memory for groups before their turn: pays where they do not stay in the caches.
   bool reads_ahead = false;
   // Where contacts resist rolling; else null.
