@@ -126,7 +126,7 @@ struct TeamMember {
     wait_for_all();
     return by_first([this] {
       end_order_of_contacts(problem, at);
-      w.sums.assign(most_sweeps_in_a_row * static_cast<std::size_t>(at.order.part_count()), {});
+      w.sums.assign(sums_of_part * static_cast<std::size_t>(at.order.part_count()), {});
     });
   }
 

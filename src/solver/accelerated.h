@@ -16,7 +16,7 @@ namespace talus {
 /// Arrays and threads kept between solves; no state that a result depends on.
 struct AcceleratedWorkspace {
   Linearisation linearisation;
-  std::vector<SweepSums> sums;  ///< of the parts of up to most_sweeps_in_a_row sweeps
+  std::vector<SweepSums> sums;  ///< sums_of_part for each part of a sweep
   ContactSolution mean;         ///< of the last values of P0; without velocities
   std::unique_ptr<ThreadTeam> team;
   TeamChoice choice;           ///< between the team and its first member alone

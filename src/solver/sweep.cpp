@@ -17,17 +17,53 @@ void wait_for_all(const Sweeper& sweeper) {
   if (sweeper.team) sweeper.team->wait_for_all();
 }
 
+/// Where the sums of the parts of a sweep begin.
+Index first_sum(const Sweeper& sweeper, Index sweep) {
+  return (sweeper.turn * most_sweeps_in_a_row + sweep) * sweeper.at.order.part_count();
+}
+
 void sweep_part(const Sweeper& sweeper, Index part, std::span<const float> beta, std::size_t sweep) {
   const SweepOrder& order = sweeper.at.order;
   const ContactKernel kernel =
       sweeper.at.rolling.are_there() ? sweeper.kernels.rolling_contacts : sweeper.kernels.contacts;
   kernel(contact_arrays(sweeper.at), order.part_begin[part], order.part_begin[part + 1], beta[sweep],
-         sweeper.sums[sweep * static_cast<std::size_t>(order.part_count()) + static_cast<std::size_t>(part)]);
+         sweeper.sums[first_sum(sweeper, static_cast<Index>(sweep)) + part]);
 }
 
-void extrapolate_domain(const Sweeper& sweeper, Index domain, float beta) {
-  const std::vector<Index>& first_row = sweeper.at.order.first_row;
-  sweeper.kernels.bodies(body_arrays(sweeper.at), first_row[domain], first_row[domain + 1], beta);
+void extrapolate(const Sweeper& sweeper, SweepOrder::Rows rows, float beta) {
+  sweeper.kernels.bodies(body_arrays(sweeper.at), rows.first, rows.last, beta);
+}
+
+/// Asks for rows that another member may have changed: to wait for one after the other would take a tenth of
+/// a sweep.
+void fetch(const Sweeper& sweeper, SweepOrder::Rows rows) {
+  constexpr Index rows_of_line = 64 / sizeof(Row);
+  if (sweeper.team == nullptr) return;
+  for (Index i = rows.first; i < rows.last; i += rows_of_line)
+    __builtin_prefetch(sweeper.at.velocity.data() + i, 1);
+}
+
+/// An even domain with the contacts that bodies of its two neighbours have with it. These bodies meet no
+/// other part of their phase, so this part extrapolates them, and no member waits for another one in between.
+void sweep_even_domain(const Sweeper& sweeper, Index domain, std::span<const float> beta, std::size_t sweep) {
+  const SweepOrder& order = sweeper.at.order;
+  const Index domains = order.domain_count();
+  const auto before = order.rows_of_run((domain + domains - 1) % domains, SweepOrder::meets_after);
+  const auto after = order.rows_of_run((domain + 1) % domains, SweepOrder::meets_before);
+  fetch(sweeper, before);
+  fetch(sweeper, after);
+  extrapolate(sweeper, order.rows_of_domain(domain), beta[sweep]);
+  extrapolate(sweeper, before, beta[sweep]);
+  extrapolate(sweeper, after, beta[sweep]);
+  sweep_part(sweeper, order.part_of(domain), beta, sweep);
+}
+
+void sweep_odd_domain(const Sweeper& sweeper, Index domain, std::span<const float> beta, std::size_t sweep) {
+  const SweepOrder& order = sweeper.at.order;
+  fetch(sweeper, order.rows_of_run(domain, SweepOrder::meets_before));
+  fetch(sweeper, order.rows_of_run(domain, SweepOrder::meets_after));
+  extrapolate(sweeper, order.rows_of_run(domain, SweepOrder::meets_none), beta[sweep]);
+  sweep_part(sweeper, order.part_of(domain), beta, sweep);
 }
 
 /// The part of a domain in a sweep, whose halves are the even domains and the odd ones. A domain needs what
@@ -37,15 +73,15 @@ void extrapolate_domain(const Sweeper& sweeper, Index domain, float beta) {
 void sweep_domain(const Sweeper& sweeper, Index place, Index half, std::span<const float> beta) {
   const Index domains = sweeper.at.order.domain_count(), domain = (place % domains + domains) % domains;
   const auto sweep = static_cast<std::size_t>(half / 2);
-  if (half % 2 == 0) extrapolate_domain(sweeper, domain, beta[sweep]);
+  const SweepOrder::Rows rows = sweeper.at.order.rows_of_domain(domain);
+  if (half % 2 == 0) extrapolate(sweeper, rows, beta[sweep]);
   sweep_part(sweeper, sweeper.at.order.part_of(domain), beta, sweep);
-  if (half % 2 == 1 && sweep + 1 < beta.size()) extrapolate_domain(sweeper, domain, beta[sweep + 1]);
+  if (half % 2 == 1 && sweep + 1 < beta.size()) extrapolate(sweeper, rows, beta[sweep + 1]);
 }
 
 SweepSums sums_of(const Sweeper& sweeper, int sweep) {
   SweepSums sum;
-  const Index parts = sweeper.at.order.part_count();
-  for (Index k = sweep * parts; k < (sweep + 1) * parts; ++k) {
+  for (Index k = first_sum(sweeper, sweep); k < first_sum(sweeper, sweep + 1); ++k) {
     sum.change += sweeper.sums[k].change;
     sum.ascent += sweeper.sums[k].ascent;
   }
@@ -66,14 +102,17 @@ void sweep_by_phases(const Sweeper& sweeper, std::span<const float> beta) {
   const SweepOrder& order = sweeper.at.order;
   const int member = sweeper.member, size = sweeper.size;
   for (std::size_t sweep = 0; sweep < beta.size(); ++sweep) {
-    sweeper.kernels.bodies(body_arrays(sweeper.at), part_begin(order.row_count, member, size),
-                           part_begin(order.row_count, member + 1, size), beta[sweep]);
+    const Index even = order.phase_begin[1], odd = order.phase_begin[2] - even, left = order.phase_begin[2];
+    for (Index k = part_begin(even, member, size); k < part_begin(even, member + 1, size); ++k)
+      sweep_even_domain(sweeper, 2 * k, beta, sweep);
     wait_for_all(sweeper);
-    for (int phase = 0; phase < SweepOrder::phases; ++phase) {
-      const Index first = order.phase_begin[phase], parts = order.phase_begin[phase + 1] - first;
-      if (order.part_begin[first] == order.part_begin[first + parts]) continue;
-      for (Index k = part_begin(parts, member, size); k < part_begin(parts, member + 1, size); ++k)
-        sweep_part(sweeper, first + k, beta, sweep);
+    if (odd > 0) {
+      for (Index k = part_begin(odd, member, size); k < part_begin(odd, member + 1, size); ++k)
+        sweep_odd_domain(sweeper, 2 * k + 1, beta, sweep);
+      wait_for_all(sweeper);
+    }
+    if (order.part_begin[left] < order.part_begin[left + 1]) {
+      if (member == size - 1) sweep_part(sweeper, left, beta, sweep);
       wait_for_all(sweeper);
     }
   }
@@ -84,7 +123,8 @@ void sweep_in_wave(const Sweeper& sweeper, std::span<const float> beta) {
   const Index left = 2 * part_begin(pairs, sweeper.member, sweeper.size);
   const Index right = 2 * part_begin(pairs, sweeper.member + 1, sweeper.size);
   const Index halves = 2 * static_cast<Index>(beta.size());
-  for (Index domain = left + 1; domain < right; domain += 2) extrapolate_domain(sweeper, domain, beta[0]);
+  for (Index domain = left + 1; domain < right; domain += 2)
+    extrapolate(sweeper, sweeper.at.order.rows_of_domain(domain), beta[0]);
   wait_for_all(sweeper);
   // A front has a domain in each half, front - half. Those in the halves up to (front - left) / 2 need none
   // of the domains of others.
@@ -99,7 +139,7 @@ void sweep_in_wave(const Sweeper& sweeper, std::span<const float> beta) {
   wait_for_all(sweeper);
 }
 
-double sweep(const Sweeper& sweeper, int count, Momentum& momentum) {
+double sweep(Sweeper& sweeper, int count, Momentum& momentum) {
   std::array<float, most_sweeps_in_a_row> beta{};
   Momentum ahead = momentum;
   for (int k = 0; k < count; ++k) {
@@ -117,6 +157,7 @@ double sweep(const Sweeper& sweeper, int count, Momentum& momentum) {
     change = std::sqrt(sums.change);
     momentum.update(change, sums.ascent);
   }
+  sweeper.turn = 1 - sweeper.turn;
   return change;
 }
 

@@ -39,15 +39,14 @@ Index domain_after(long long contacts_before, long long contacts, Index domains,
   return domain;
 }
 
-/// Domains of consecutive bodies. Each body has the row of its number.
+/// Domains of consecutive bodies.
 void share_bodies(const std::vector<Index>& first_a, long long contacts, Index domains, SweepOrder& order) {
   Index domain = 0;
   for (std::size_t i = 0; i < order.domain.size(); ++i)
     order.domain[i] = domain = domain_after(first_a[i], contacts, domains, domain);
-  std::iota(order.row.begin(), order.row.end(), 0);
 }
 
-/// Domains of consecutive columns. Bodies have rows by domain, so that those of a domain are near each other.
+/// Domains of consecutive columns.
 void share_columns(const ContactProblem& problem, const std::vector<Index>& first_a, Index domains,
                    SweepOrder& order) {
   const std::vector<Index>& column = problem.column;
@@ -61,14 +60,7 @@ void share_columns(const ContactProblem& problem, const std::vector<Index>& firs
     order.domain_of_column[k] = domain = domain_after(before, problem.contact_count(), domains, domain);
     before += order.contacts_of_column[k];
   }
-  order.first_row.assign(static_cast<std::size_t>(domains) + 1, 0);
-  for (std::size_t i = 0; i < column.size(); ++i) {
-    order.domain[i] = order.domain_of_column[column[i]];
-    ++order.first_row[order.domain[i]];
-  }
-  std::partial_sum(order.first_row.begin(), order.first_row.end(),
-                   order.first_row.begin());  // where they end
-  for (std::size_t i = column.size(); i-- > 0;) order.row[i] = --order.first_row[order.domain[i]];
+  for (std::size_t i = 0; i < column.size(); ++i) order.domain[i] = order.domain_of_column[column[i]];
 }
 
 /// Whether domains are next to each other.
@@ -96,6 +88,24 @@ Index part_between(const ContactProblem& problem, std::size_t c, TwoDomains in, 
   Index& owner = order.owner[in.a % 2 == 0 ? problem.b[c] : problem.a[c]];
   if (owner < 0) owner = even;
   return owner == even ? order.part_of(even) : left;
+}
+
+/// Gives the bodies rows by domain and run, those of a run in the order of the bodies: what one member of a
+/// team changes is together, and what two change in turn is apart from the rest.
+void place_rows(SweepOrder& order) {
+  const auto run_of = [&order](std::size_t i) {
+    const Index domain = order.domain[i], owner = order.owner[i];
+    // Where neither body of a contact moves, an even domain may seem to own a body of another one.
+    const auto run = owner < 0 || domain % 2 == 0 ? SweepOrder::meets_none
+                     : owner == domain - 1        ? SweepOrder::meets_before
+                                                  : SweepOrder::meets_after;
+    return SweepOrder::runs * domain + run;
+  };
+  order.first_row.assign(static_cast<std::size_t>(SweepOrder::runs * order.domain_count()) + 1, 0);
+  for (std::size_t i = 0; i < order.row.size(); ++i) ++order.first_row[run_of(i)];
+  std::partial_sum(order.first_row.begin(), order.first_row.end(),
+                   order.first_row.begin());  // where they end
+  for (std::size_t i = order.row.size(); i-- > 0;) order.row[i] = --order.first_row[run_of(i)];
 }
 
 /// The first place from `place` on that has room; one that has none points to a later one.
@@ -168,6 +178,7 @@ void open_order(const ContactProblem& problem, const std::vector<std::uint8_t>& 
     order.part[c] = part_between(problem, c, two_domains(problem, moves, c, order), order);
     ++order.shares.front()[order.part[c]];
   }
+  place_rows(order);
   make_places(swept.size(), order.domain_count() + 1, order);
 }
 

@@ -25,7 +25,12 @@ struct SweepOrder {
   static constexpr Index most_domains = 256, most_parts = most_domains + 1;
   std::vector<Index> slot;          ///< of a contact: lane_count * group + lane
   std::vector<Index> row_a, row_b;  ///< rows of its bodies
-  /// Bodies of domain d, of columns, have rows first_row[d] ... first_row[d + 1] - 1.
+  /// The bodies of a domain have rows next to each other, in three runs: of an odd domain those that meet the
+  /// even domain before it in its phase, those that meet neither of the two next to it, and those that meet
+  /// the one after it; of an even domain the run in the middle has all. Run k of domain d begins in row
+  /// first_row[runs * d + k].
+  static constexpr Index runs = 3;
+  enum Run : Index { meets_before, meets_none, meets_after };
   std::vector<Index> first_row;
   std::vector<Index> part_begin;  ///< the groups of part k: part_begin[k] ... part_begin[k + 1] - 1
   std::array<Index, phases + 1> phase_begin{};  ///< the parts of a phase
@@ -39,6 +44,13 @@ struct SweepOrder {
   Index domain_count() const { return phase_begin[2]; }
   /// Even domains come first.
   Index part_of(Index d) const { return d / 2 + (d % 2 == 0 ? 0 : phase_begin[1]); }
+  struct Rows {
+    Index first, last;  ///< first ... last - 1
+  };
+  Rows rows_of_run(Index d, Run run) const {
+    return {first_row[runs * d + run], first_row[runs * d + run + 1]};
+  }
+  Rows rows_of_domain(Index d) const { return {first_row[runs * d], first_row[runs * (d + 1)]}; }
   /// Whether each domain shares contacts with the ones next to it only, the last one with the first.
   bool is_ring() const { return by_columns && part_begin[phase_begin[2]] == group_count(); }
   Index part_count() const { return static_cast<Index>(part_begin.size()) - 1; }
@@ -64,7 +76,8 @@ void begin_order(const ContactProblem& problem, const std::vector<Index>& first_
 /// is 0 for a body that nothing moves.
 void find_parts(const ContactProblem& problem, const std::vector<std::uint8_t>& moves,
                 const std::vector<std::uint8_t>& swept, int member, int size, SweepOrder& order);
-/// Finds the parts of the other contacts, and gives each part as many places as it can need.
+/// Finds the parts of the other contacts, gives the bodies their rows, and each part as many places as it can
+/// need.
 void open_order(const ContactProblem& problem, const std::vector<std::uint8_t>& moves,
                 const std::vector<std::uint8_t>& swept, SweepOrder& order);
 /// Puts the contacts of a member's parts, in their order, into the first place with room after all that share

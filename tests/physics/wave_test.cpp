@@ -26,7 +26,7 @@ struct Swept {
   std::vector<SweepSums> sums;
 
   explicit Swept(const Linearisation& from)
-      : at(from), sums(static_cast<std::size_t>(most_sweeps_in_a_row * from.order.part_count())) {}
+      : at(from), sums(static_cast<std::size_t>(sums_of_part * from.order.part_count())) {}
 };
 
 class Wave : public testing::Test {
@@ -93,9 +93,11 @@ TEST_F(Wave, has_the_momentum_of_sweeps_one_after_another) {
   Momentum one, other;
   one.theta = other.theta = 0.1;
   const SweepKernels kernels = sweep_kernels();
-  const double change = sweep({together.at, together.sums, nullptr, 0, 1, kernels}, 4, one);
+  Sweeper of_together{together.at, together.sums, nullptr, 0, 1, kernels};
+  Sweeper of_apart{apart.at, apart.sums, nullptr, 0, 1, kernels};
+  const double change = sweep(of_together, 4, one);
   double last = 0.0;
-  for (int k = 0; k < 4; ++k) last = sweep({apart.at, apart.sums, nullptr, 0, 1, kernels}, 1, other);
+  for (int k = 0; k < 4; ++k) last = sweep(of_apart, 1, other);
   EXPECT_EQ(change, last);
   EXPECT_EQ(one.theta, other.theta);
   EXPECT_EQ(one.beta, other.beta);

@@ -185,6 +185,34 @@ TEST_P(OrderOfSweep, has_one_row_for_each_body_that_moves) {
   });
 }
 
+// So that each part can extrapolate the bodies that its contacts change.
+TEST_P(OrderOfSweep, has_the_rows_that_a_part_changes_in_its_domain_and_in_runs_of_the_two_next_to_it) {
+  const Index domains = order_.domain_count();
+  ASSERT_EQ(order_.first_row.size(), static_cast<std::size_t>(SweepOrder::runs * domains) + 1);
+  EXPECT_EQ(order_.first_row.back(), graph_.problem.body_count());
+  const auto is_in = [](SweepOrder::Rows rows, Index row) { return rows.first <= row && row < rows.last; };
+  for_each_end([&](Index c, Index body) {
+    const Index row = body == graph_.problem.a[c] ? order_.row_a[c] : order_.row_b[c];
+    const Index part = part_of(c), odd = order_.phase_begin[1], left = order_.phase_begin[2];
+    if (part == left) return;
+    const Index domain = part < odd ? 2 * part : 2 * (part - odd) + 1;
+    const bool is_own = is_in(order_.rows_of_domain(domain), row);
+    const auto before = order_.rows_of_run((domain + domains - 1) % domains, SweepOrder::meets_after);
+    const auto after = order_.rows_of_run((domain + 1) % domains, SweepOrder::meets_before);
+    EXPECT_TRUE(is_own || (part < odd && (is_in(before, row) || is_in(after, row)))) << "contact " << c;
+  });
+}
+
+// What it extrapolates must not be what another part of its phase does.
+TEST_P(OrderOfSweep, has_all_rows_of_an_even_domain_in_one_run) {
+  for (Index domain = 0; domain < order_.domain_count(); domain += 2) {
+    const auto all = order_.rows_of_domain(domain);
+    const auto run = order_.rows_of_run(domain, SweepOrder::meets_none);
+    EXPECT_EQ(run.first, all.first);
+    EXPECT_EQ(run.last, all.last);
+  }
+}
+
 TEST(OrderOfSweep, fills_its_groups_on_a_large_bed) {
   const Graph large = graph(20000, 2, 400);
   const auto swept = std::ranges::count(large.swept, 1);
@@ -198,12 +226,14 @@ TEST(OrderOfSweep, of_columns_is_a_ring) {
   const Index domains = order.domain_count();
   ASSERT_TRUE(order.is_ring());
   ASSERT_EQ(domains, 6);
-  ASSERT_EQ(order.first_row.size(), static_cast<std::size_t>(domains) + 1);
+  ASSERT_EQ(order.first_row.size(), static_cast<std::size_t>(SweepOrder::runs * domains) + 1);
   EXPECT_EQ(order.first_row.front(), 0);
   EXPECT_EQ(order.first_row.back(), large.problem.body_count());
   std::vector<Index> contacts(static_cast<std::size_t>(domains), 0);
   const auto domain_of_row = [&order](Index row) {
-    return static_cast<Index>(std::ranges::upper_bound(order.first_row, row) - order.first_row.begin()) - 1;
+    return (static_cast<Index>(std::ranges::upper_bound(order.first_row, row) - order.first_row.begin()) -
+            1) /
+           SweepOrder::runs;
   };
   for (Index c = 0; c < large.problem.contact_count(); ++c) {
     const Index a = large.problem.a[c], b = large.problem.b[c];
