@@ -88,14 +88,14 @@ void load_group(const ContactProblem& problem, std::size_t c, const InverseUnits
   if (!w.have_new_order) return;
   const Index a = problem.a[c], b = problem.b[c];
   const double unit = units.mobility;
-  if (!w.same_friction) w.friction[g].mu[k] = static_cast<float>(problem.mu[c]);
   group.wn[k] = static_cast<float>(normal_relaxation * w.wn[c] * w.mobility_unit);
   group.wt[k] = static_cast<float>(tangential_relaxation * w.wt[c] * w.mobility_unit);
   group.mass_a[k] = static_cast<float>(-problem.inverse_mass[a] * unit);
   group.mass_b[k] = static_cast<float>(problem.inverse_mass[b] * unit);
-  if (!w.all_disks) {
-    w.spins[g].a[k] = static_cast<float>(-spin_mobility(problem, a) * unit);
-    w.spins[g].b[k] = static_cast<float>(-spin_mobility(problem, b) * unit);
+  if (!w.are_alike) {
+    w.unlike[g].mu[k] = static_cast<float>(problem.mu[c]);
+    w.unlike[g].spin_a[k] = static_cast<float>(-spin_mobility(problem, a) * unit);
+    w.unlike[g].spin_b[k] = static_cast<float>(-spin_mobility(problem, b) * unit);
   }
   group.a[k] = static_cast<std::uint32_t>(w.order.row_a[c]) * row_bytes;
   group.b[k] = static_cast<std::uint32_t>(w.order.row_b[c]) * row_bytes;
@@ -128,7 +128,7 @@ void for_each_swept(const ContactProblem& problem, Index first_block, Index last
 }
 
 /// Makes room for the groups of the order. What was there is overwritten where there is a contact.
-void size_groups(const ContactProblem& problem, Linearisation& w) {
+void size_groups(Linearisation& w) {
   const auto groups = static_cast<std::size_t>(w.order.group_count());
   const auto size = [groups](auto& field) {
     // How well groups are filled differs from step to step: some room, so that steady steps allocate nothing.
@@ -138,17 +138,10 @@ void size_groups(const ContactProblem& problem, Linearisation& w) {
   size(w.contacts);
   size(w.increment);
   size(w.last_move);
-  if (w.same_friction) {
-    w.friction.resize(1);
-    std::ranges::fill(w.friction.front().mu,
-                      problem.mu.empty() ? 0.0F : static_cast<float>(problem.mu.front()));
-  } else {
-    size(w.friction);
-  }
-  if (w.all_disks)
-    w.spins.clear();
+  if (w.are_alike)
+    w.unlike.clear();
   else
-    size(w.spins);
+    size(w.unlike);
   if (!w.rolling.are_there()) return;
   size(w.rolling.groups);
   size(w.rolling.increment);
@@ -159,8 +152,7 @@ void size_groups(const ContactProblem& problem, Linearisation& w) {
 void clear_group(Index bodies, Index part, Index g, Linearisation& w) {
   w.contacts[g] = {};
   w.increment[g] = w.last_move[g] = {};
-  if (!w.same_friction) w.friction[g] = {};
-  if (!w.all_disks) w.spins[g] = {};
+  if (!w.are_alike) w.unlike[g] = {};
   if (w.rolling.are_there()) {
     w.rolling.groups[g] = {};
     w.rolling.increment[g] = w.rolling.last_move[g] = {};
@@ -242,7 +234,7 @@ void begin_order_of_contacts(const ContactProblem& problem, int size, Linearisat
 
 void end_order_of_contacts(const ContactProblem& problem, Linearisation& w) {
   end_order(w.order);
-  size_groups(problem, w);
+  size_groups(w);
   clear_groups(problem.body_count(), w);
   for (auto* field : {&w.velocity, &w.before}) field->resize(static_cast<std::size_t>(w.order.row_count));
   w.ordered_swept = w.swept;
@@ -364,10 +356,10 @@ void unload_velocities(const ContactProblem& problem, Index first, Index last, c
 }
 
 ContactArrays contact_arrays(Linearisation& w) {
+  const std::vector<double>& mu = w.linked.mu;
   ContactArrays arrays{w.contacts.data(), w.increment.data(), w.last_move.data(), w.velocity.data(),
-                       w.friction.data()};
-  arrays.friction_step = w.same_friction ? 0 : 1;
-  if (!w.all_disks) arrays.spins = w.spins.data();
+                       mu.empty() ? 0.0F : static_cast<float>(mu.front())};
+  if (!w.are_alike) arrays.unlike = w.unlike.data();
   arrays.reads_ahead = w.contacts.size() * (sizeof(ContactGroup) + 2 * sizeof(ImpulseGroup)) > cached_bytes;
   if (w.rolling.are_there()) {
     arrays.rolling = w.rolling.groups.data();

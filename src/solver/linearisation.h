@@ -43,8 +43,7 @@ struct Linearisation {
   // Single precision, in the order of the sweep.
   SweepOrder order;
   std::vector<ContactGroup> contacts;
-  std::vector<FrictionGroup> friction;  ///< of each group, or of all
-  std::vector<SpinGroup> spins;         ///< empty where all bodies are disks
+  std::vector<UnlikeGroup> unlike;  ///< empty where contacts are alike
   std::vector<ImpulseGroup> increment, last_move;
   std::vector<Row> velocity, before;
 
@@ -59,9 +58,10 @@ struct Linearisation {
   bool have_new_order = true;  ///< nothing that was loaded into groups can stay
   /// Units of the single precision: impulse (N s), and velocity (m/s) that it gives a mean body.
   double impulse_unit = 1.0, velocity_unit = 1.0, mobility_unit = 1.0;
-  Index moving = 0;            ///< bodies with a mass
-  bool same_friction = false;  ///< of all contacts
-  bool all_disks = false;      ///< of all bodies, in single precision: r^2 / I is 2 / m, or both vanish
+  Index moving = 0;  ///< bodies with a mass
+  /// All contacts have the same friction, and all bodies are disks in single precision: r^2 / I is 2 / m, or
+  /// both vanish.
+  bool are_alike = false;
 };
 
 /// Sizes the arrays, links bodies to their contacts, and chooses the units. The team helps, if there is one.

@@ -73,9 +73,8 @@ void list_sides(const ContactProblem& problem, ThreadTeam* team, Linearisation& 
 }
 
 /// The contacts of each body: as a they are consecutive, as b they are listed.
-void link(const ContactProblem& problem, ThreadTeam* team, Linearisation& w) {
+void link(const ContactProblem& problem, bool were_loaded, ThreadTeam* team, Linearisation& w) {
   const auto bodies = static_cast<std::size_t>(problem.body_count());
-  const bool were_loaded = std::exchange(w.are_loaded, false);  // not while memory may be missing
   const bool same_contacts = follow_contacts(problem, w.linked);
   const bool same_bodies = follow_bodies(problem, w.linked);
   w.are_loaded = were_loaded && w.first_a.size() == bodies + 1 && same_contacts && same_bodies;
@@ -131,24 +130,26 @@ bool are_disks(const ContactProblem& problem, double mobility_unit) {
 /// not above.
 void choose_units(const ContactProblem& problem, const ContactSolution& guess, ThreadTeam* team,
                   Linearisation& w) {
+  bool same_friction = false, all_disks = false;
   double vx = 0.0, vy = 0.0, cn = 0.0, ct = 0.0, pn = 0.0, pt = 0.0;
   do_both(
       team,
       [&] {
         if (w.are_new) {
           take_mean_body(problem, w);
-          w.all_disks = are_disks(problem, w.mobility_unit);
+          all_disks = are_disks(problem, w.mobility_unit);
         }
         vx = sum_of_squares(problem.vx);
         pn = sum_of_squares(guess.pn);
         pt = sum_of_squares(guess.pt);
       },
       [&] {
-        if (w.are_new) w.same_friction = have_same_friction(problem);
+        if (w.are_new) same_friction = have_same_friction(problem);
         vy = sum_of_squares(problem.vy);
         cn = sum_of_squares(problem.cn);
         ct = sum_of_squares(problem.ct);
       });
+  if (w.are_new) w.are_alike = same_friction && all_disks;
   const double velocity = std::sqrt(vx + vy + cn + ct);
   const double impulse =
       std::sqrt((pn + pt) / static_cast<double>(std::max<std::size_t>(1, guess.pn.size())));
@@ -161,6 +162,7 @@ void choose_units(const ContactProblem& problem, const ContactSolution& guess, T
 
 void prepare(const ContactProblem& problem, const ContactSolution& guess, ThreadTeam* team,
              Linearisation& w) {
+  const bool were_loaded = std::exchange(w.are_loaded, false);  // not while memory may be missing
   const auto contacts = static_cast<std::size_t>(problem.contact_count());
   w.exact_velocity.resize(static_cast<std::size_t>(problem.body_count()));
   w.exact_force.resize(contacts + 1);
@@ -169,7 +171,7 @@ void prepare(const ContactProblem& problem, const ContactSolution& guess, Thread
   w.swept.assign(contacts, 0);
   w.sums.resize((contacts + contacts_per_block - 1) / contacts_per_block);
   size_rolling(problem, w.rolling);
-  link(problem, team, w);
+  link(problem, were_loaded, team, w);
   choose_units(problem, guess, team, w);
 }
 

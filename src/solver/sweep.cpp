@@ -38,9 +38,10 @@ void extrapolate(const Sweeper& sweeper, SweepOrder::Rows rows, float beta) {
 /// a sweep.
 void fetch(const Sweeper& sweeper, SweepOrder::Rows rows) {
   constexpr Index rows_of_line = 64 / sizeof(Row);
-  if (sweeper.team == nullptr) return;
-  for (Index i = rows.first; i < rows.last; i += rows_of_line)
-    __builtin_prefetch(sweeper.at.velocity.data() + i, 1);
+  if (sweeper.team == nullptr || rows.first == rows.last) return;
+  const Row* const velocity = sweeper.at.velocity.data();
+  for (Index i = rows.first; i < rows.last; i += rows_of_line) __builtin_prefetch(velocity + i);
+  __builtin_prefetch(velocity + rows.last - 1);  // a row need not begin where a line does
 }
 
 /// An even domain with the contacts that bodies of its two neighbours have with it. These bodies meet no

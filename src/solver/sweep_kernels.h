@@ -36,14 +36,12 @@ struct alignas(32) ContactGroup {
   std::uint32_t a[lane_count], b[lane_count];  ///< where the rows of the two bodies begin, bytes
 };
 
-/// Coefficients of friction of eight contacts.
-struct alignas(32) FrictionGroup {
+/// What eight contacts have beside these fields where contacts are not alike: not all have the same friction,
+/// or not all bodies are disks, I = m r^2 / 2, of which P_t adds twice as much to r omega as to the velocity.
+struct alignas(32) UnlikeGroup {
   Lane mu;
-};
-
-/// What a unit of P_t adds to the spins of the bodies of eight contacts; both are negative.
-struct alignas(64) SpinGroup {
-  Lane a, b;
+  Lane spin_a,
+      spin_b;  ///< what a unit of P_t adds to the spin; negative; not read where contacts resist rolling
 };
 
 /// What eight contacts that resist rolling have beside the fields above, in the units of the solve; lengths
@@ -84,11 +82,8 @@ struct ContactArrays {
   ImpulseGroup* increment;  ///< in: p of the last sweep; out: the new p
   ImpulseGroup* last_move;  ///< in: what the last sweep added to p; out: what this one has added
   Row* velocity;            ///< of the bodies; in: due to y = p + momentum * last_move; out: due to the new p
-  const FrictionGroup* friction;  ///< of each group, or where friction_step = 0 of all
-  Index friction_step = 0;        ///< from the friction of a group to that of the next, 0 or 1
-  /// Null where all bodies are disks, I = m r^2 / 2: P_t adds twice as much to r omega as to the velocity.
-  /// Not read where contacts resist rolling.
-  const SpinGroup* spins = nullptr;
+  float mu;                 ///< of contacts that are alike
+  const UnlikeGroup* unlike = nullptr;  ///< null where they are
   /// Whether to ask memory for groups before their turn: pays where they do not stay in the caches.
   bool reads_ahead = false;
   // Where contacts resist rolling; else null.

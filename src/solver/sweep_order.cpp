@@ -95,7 +95,7 @@ Index part_between(const ContactProblem& problem, std::size_t c, TwoDomains in, 
 void place_rows(SweepOrder& order) {
   const auto run_of = [&order](std::size_t i) {
     const Index domain = order.domain[i], owner = order.owner[i];
-    // Where neither body of a contact moves, an even domain may seem to own a body of another one.
+    // Where neither body of a contact moves, one of an even domain may have an owner, too: its own domain.
     const auto run = owner < 0 || domain % 2 == 0 ? SweepOrder::meets_none
                      : owner == domain - 1        ? SweepOrder::meets_before
                                                   : SweepOrder::meets_after;

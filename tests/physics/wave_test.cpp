@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "solver/accelerated.h"
+#include "solver/solve.h"
 #include "solver/sweep.h"
 #include "unit/solver/small_problems.h"
 
@@ -104,6 +105,107 @@ TEST_F(Wave, has_the_momentum_of_sweeps_one_after_another) {
   EXPECT_GT(one.beta, 0.0);
   EXPECT_EQ(one.least_change, other.least_change);
   expect_same_bits(together.at.increment, apart.at.increment, "impulses");
+}
+
+// Members begin a sweep while others still decide upon the one before.
+TEST_F(Wave, has_the_bits_of_one_member_when_a_team_sweeps_on_and_on) {
+  begin(400, false);
+  const auto swept_on = [this](int size) {
+    Swept swept(workspace_.linearisation);
+    ThreadTeam team(size);
+    team.run([&](int member) {
+      Sweeper sweeper{swept.at, swept.sums, &team, member, size, sweep_kernels()};
+      Momentum momentum;
+      for (const int count : {1, 1, 4, 1, 2, 4, 4, 1, 1, 1}) sweep(sweeper, count, momentum);
+    });
+    return swept;
+  };
+  const Swept alone = swept_on(1);
+  for (const int size : {2, 3}) expect_the_same(swept_on(size), alone);
+}
+
+TEST_F(Wave, keeps_the_sums_of_the_sweeps_before) {
+  begin(400, false);
+  Swept swept(workspace_.linearisation);
+  Sweeper sweeper{swept.at, swept.sums, nullptr, 0, 1, sweep_kernels()};
+  Momentum momentum;
+  const auto half = static_cast<std::ptrdiff_t>(swept.sums.size() / 2);
+  const auto changes = [&swept](std::ptrdiff_t first, std::ptrdiff_t last) {
+    double sum = 0.0;
+    for (auto k = swept.sums.begin() + first; k < swept.sums.begin() + last; ++k) sum += k->change;
+    return sum;
+  };
+  sweep(sweeper, most_sweeps_in_a_row, momentum);
+  const double first = changes(0, half);
+  EXPECT_GT(first, 0.0);
+  EXPECT_EQ(changes(half, 2 * half), 0.0);
+  sweep(sweeper, most_sweeps_in_a_row, momentum);
+  EXPECT_EQ(changes(0, half), first);
+  EXPECT_GT(changes(half, 2 * half), 0.0);
+}
+
+/// Sweeps as T16 has them: all bodies are extrapolated, then all contacts swept, part by part.
+Swept plainly_swept(const Linearisation& from, std::size_t sweeps) {
+  Swept swept(from);
+  const SweepOrder& order = swept.at.order;
+  const SweepKernels kernels = sweep_kernels();
+  for (std::size_t s = 0; s < sweeps; ++s) {
+    kernels.bodies(body_arrays(swept.at), 0, order.row_count, beta[s]);
+    for (Index part = 0; part < order.part_count(); ++part)
+      kernels.contacts(
+          contact_arrays(swept.at), order.part_begin[part], order.part_begin[part + 1], beta[s],
+          swept.sums[s * static_cast<std::size_t>(order.part_count()) + static_cast<std::size_t>(part)]);
+  }
+  return swept;
+}
+
+/// Contacts from the first half of the bodies to the second: most domains have none of their own, and most
+/// contacts are left to the last phase.
+ContactProblem problem_of_far_contacts() {
+  ContactProblem problem;
+  const Index bodies = 2000;
+  for (Index i = 0; i < bodies; ++i) test::add_body(problem, 1.0 + 0.001 * i, 0.1, 0.01 * (i % 7), -1.0, 0.1);
+  for (Index a = 0; a < bodies; ++a)
+    for (const Index far : {bodies / 2, bodies / 2 + 1})
+      if (a + far < bodies) test::add_contact(problem, a, a + far, 0.6, 0.8, 0.5);
+  return problem;
+}
+
+// Parts extrapolate the bodies that they change: each once, and before its first contact.
+TEST(Phases, have_the_bits_of_sweeps_that_extrapolate_all_bodies_first) {
+  ContactProblem of_layers = test::columns_problem(3, 30, 40);
+  of_layers.columns = 0;
+  of_layers.column.clear();
+  const ContactProblem problems[] = {test::columns_problem(3, 10, 6), of_layers, problem_of_far_contacts(),
+                                     test::columns_problem(3, 400, 60)};
+  std::vector<Index> domains, left;
+  for (const ContactProblem& problem : problems) {
+    SolverWorkspace workspace;
+    SolverSettings settings;
+    settings.tolerance = 1e-300;
+    settings.max_iterations = 5;
+    ContactSolution solution = test::no_guess(problem);
+    solve(problem, settings, workspace, solution);
+    const Linearisation& from = workspace.accelerated.linearisation;
+    domains.push_back(from.order.domain_count());
+    left.push_back(from.order.part_begin.back() - *(from.order.part_begin.end() - 2));
+    const Swept plain = plainly_swept(from, beta.size());
+    for (const int size : {1, 2, 3}) {
+      Swept swept(from);
+      ThreadTeam team(size);
+      team.run([&](int member) {
+        sweep_by_phases({swept.at, swept.sums, &team, member, size, sweep_kernels()}, beta);
+      });
+      expect_same_bits(swept.at.increment, plain.at.increment, "impulses");
+      expect_same_bits(swept.at.velocity, plain.at.velocity, "velocities");
+      expect_same_bits(swept.at.before, plain.at.before, "velocities before");
+      expect_same_bits(swept.sums, plain.sums, "sums");
+    }
+  }
+  EXPECT_EQ(domains.front(), 1);
+  EXPECT_EQ(domains[1], 4);
+  EXPECT_GT(left[2], 10) << "groups of the last phase";
+  EXPECT_GT(domains.back(), 4);
 }
 
 // 66 domains: room for waves of four sweeps by up to four members; more of them sweep phase by phase.

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <utility>
 #include <vector>
 
 #include "core/random.h"
@@ -15,29 +16,27 @@
 namespace talus {
 namespace {
 
+constexpr float beta = 0.7F, friction = 0.5F;
+
 struct Scene {
   std::vector<ContactGroup> contacts;
-  std::vector<FrictionGroup> friction;  ///< of each group
-  std::vector<SpinGroup> spins;
+  std::vector<UnlikeGroup> unlike;
   std::vector<ImpulseGroup> increment, last_move;
   std::vector<Row> velocity, before;
   SweepSums sums;
 
   Index groups() const { return static_cast<Index>(contacts.size()); }
   Index rows() const { return static_cast<Index>(velocity.size()); }
-  /// For contacts and bodies of any kind.
+  /// Of contacts of any kind.
   ContactArrays contact_arrays() {
-    return {contacts.data(), increment.data(), last_move.data(), velocity.data(), friction.data(), 1,
-            spins.data()};
+    return {contacts.data(), increment.data(), last_move.data(), velocity.data(), 0.0F, unlike.data()};
   }
-  /// The same for disks of one friction, that of the first contact.
-  ContactArrays disk_arrays() {
-    return {contacts.data(), increment.data(), last_move.data(), velocity.data(), friction.data()};
+  /// Of contacts that are alike.
+  ContactArrays alike_arrays() {
+    return {contacts.data(), increment.data(), last_move.data(), velocity.data(), friction};
   }
   BodyArrays body_arrays() { return {velocity.data(), before.data()}; }
 };
-
-constexpr float beta = 0.7F;
 
 /// Contacts between random disks, none of which is twice among groups that are swept side by side: open,
 /// sticking and sliding ones.
@@ -46,8 +45,7 @@ Scene random_scene(Index groups, Index bodies) {
   const auto uniform = [&] { return static_cast<float>(2.0 * random.uniform() - 1.0); };
   Scene scene;
   scene.contacts.resize(groups);
-  scene.friction.resize(groups);
-  scene.spins.resize(groups);
+  scene.unlike.resize(groups);
   scene.increment.resize(groups);
   scene.last_move.resize(groups);
   std::vector<Index> order;
@@ -73,7 +71,7 @@ Scene random_scene(Index groups, Index bodies) {
       group.ut[k] = uniform();
       const float pn = std::max(0.0F, uniform());
       group.least[k] = -pn;
-      scene.friction[g].mu[k] = 0.5F;
+      scene.unlike[g].mu[k] = friction;
       const float tangential = 0.5F * pn * uniform();
       group.above[k] = 0.5F * pn - tangential;
       group.below[k] = -0.5F * pn - tangential;
@@ -81,8 +79,8 @@ Scene random_scene(Index groups, Index bodies) {
       group.wt[k] = 0.17F;
       group.mass_a[k] = -mass[a];
       group.mass_b[k] = mass[b];
-      scene.spins[g].a[k] = -2.0F * mass[a];
-      scene.spins[g].b[k] = -2.0F * mass[b];
+      scene.unlike[g].spin_a[k] = -2.0F * mass[a];
+      scene.unlike[g].spin_b[k] = -2.0F * mass[b];
       group.a[k] = static_cast<std::uint32_t>(a * sizeof(Row));
       group.b[k] = static_cast<std::uint32_t>(b * sizeof(Row));
       scene.increment[g].n[k] = 0.1F * uniform();
@@ -99,9 +97,9 @@ Scene scene_of_others(Index groups, Index bodies) {
   Scene scene = random_scene(groups, bodies);
   for (std::size_t g = 0; g < scene.contacts.size(); ++g)
     for (int k = 0; k < lane_count; ++k) {
-      scene.friction[g].mu[k] = 0.3F + 0.05F * static_cast<float>(k);
-      scene.spins[g].a[k] *= 0.8F;
-      scene.spins[g].b[k] *= 0.7F;
+      scene.unlike[g].mu[k] = 0.3F + 0.05F * static_cast<float>(k);
+      scene.unlike[g].spin_a[k] *= 0.8F;
+      scene.unlike[g].spin_b[k] *= 0.7F;
     }
   return scene;
 }
@@ -122,7 +120,8 @@ void run(Scene& scene, const SweepKernels& kernels) {
 /// The contact in a lane, with the velocities that the ones before it leave.
 void plain_contact(Scene& scene, Index g, int k, SweepSums& sums) {
   const ContactGroup& group = scene.contacts[g];
-  const float mu = scene.friction[g].mu[k], spin_a = scene.spins[g].a[k], spin_b = scene.spins[g].b[k];
+  const UnlikeGroup& own = scene.unlike[g];
+  const float mu = own.mu[k];
   Row& va = scene.velocity[group.a[k] / sizeof(Row)];
   Row& vb = scene.velocity[group.b[k] / sizeof(Row)];
   const float nx = group.nx[k], ny = group.ny[k];
@@ -141,8 +140,8 @@ void plain_contact(Scene& scene, Index g, int k, SweepSums& sums) {
   sums.change += en * en + et * et;
   sums.ascent -= en * last_n + et * last_t;
   const float x = en * nx - et * ny, y = en * ny + et * nx;
-  va = {va.x + x * group.mass_a[k], va.spin + et * spin_a, va.y + y * group.mass_a[k], 0.0F};
-  vb = {vb.x + x * group.mass_b[k], vb.spin + et * spin_b, vb.y + y * group.mass_b[k], 0.0F};
+  va = {va.x + x * group.mass_a[k], va.spin + et * own.spin_a[k], va.y + y * group.mass_a[k], 0.0F};
+  vb = {vb.x + x * group.mass_b[k], vb.spin + et * own.spin_b[k], vb.y + y * group.mass_b[k], 0.0F};
 }
 
 template <class T>
@@ -163,17 +162,17 @@ TEST(SweepKernels, give_the_same_bits_whatever_the_processor) {
   EXPECT_EQ(baseline.sums.ascent, fastest.sums.ascent);
 }
 
-TEST(SweepKernels, give_disks_of_one_friction_the_same_bits_by_a_shorter_way) {
+TEST(SweepKernels, give_contacts_that_are_alike_the_same_bits_by_a_shorter_way) {
   const Scene start = random_scene(20, 64);
   Scene plain = start;
   sweep_kernels().contacts(plain.contact_arrays(), 0, plain.groups(), beta, plain.sums);
   for (const SweepKernels& kernels : {sweep_kernels_baseline(), sweep_kernels()}) {
-    Scene disks = start;
-    kernels.contacts(disks.disk_arrays(), 0, disks.groups(), beta, disks.sums);
-    EXPECT_TRUE(same_bits(plain.increment, disks.increment));
-    EXPECT_TRUE(same_bits(plain.last_move, disks.last_move));
-    EXPECT_TRUE(same_bits(plain.velocity, disks.velocity));
-    EXPECT_EQ(plain.sums.change, disks.sums.change);
+    Scene alike = start;
+    kernels.contacts(alike.alike_arrays(), 0, alike.groups(), beta, alike.sums);
+    EXPECT_TRUE(same_bits(plain.increment, alike.increment));
+    EXPECT_TRUE(same_bits(plain.last_move, alike.last_move));
+    EXPECT_TRUE(same_bits(plain.velocity, alike.velocity));
+    EXPECT_EQ(plain.sums.change, alike.sums.change);
   }
 }
 
@@ -209,12 +208,12 @@ TEST(SweepKernels, give_the_same_bits_where_they_read_ahead) {
 
 /// The same contacts, which resist rolling.
 struct RollingScene {
-  Scene scene = random_scene(20, 64);
+  Scene scene;
   std::vector<RollingGroup> groups;
   std::vector<RollingImpulses> increment, last_move;
   SweepSums sums;
 
-  RollingScene() {
+  explicit RollingScene(Scene of_contacts = scene_of_others(20, 64)) : scene(std::move(of_contacts)) {
     Random random(9);
     const auto uniform = [&] { return static_cast<float>(2.0 * random.uniform() - 1.0); };
     groups.resize(scene.contacts.size());
@@ -240,8 +239,8 @@ struct RollingScene {
       }
   }
 
-  void sweep(const SweepKernels& kernels) {
-    ContactArrays arrays = scene.contact_arrays();
+  void sweep(const SweepKernels& kernels) { sweep(kernels, scene.contact_arrays()); }
+  void sweep(const SweepKernels& kernels, ContactArrays arrays) {
     arrays.rolling = groups.data();
     arrays.rolling_increment = increment.data();
     arrays.rolling_move = last_move.data();
@@ -261,6 +260,15 @@ TEST(SweepKernels, rolling_contacts_give_the_same_bits_whatever_the_processor) {
   EXPECT_TRUE(same_bits(baseline.scene.velocity, fastest.scene.velocity));
   EXPECT_EQ(baseline.sums.change, fastest.sums.change);
   EXPECT_EQ(baseline.sums.ascent, fastest.sums.ascent);
+}
+
+TEST(SweepKernels, give_rolling_contacts_that_are_alike_the_same_bits_by_a_shorter_way) {
+  RollingScene plain(random_scene(20, 64)), alike(random_scene(20, 64));
+  plain.sweep(sweep_kernels());
+  alike.sweep(sweep_kernels(), alike.scene.alike_arrays());
+  EXPECT_TRUE(same_bits(plain.increment, alike.increment));
+  EXPECT_TRUE(same_bits(plain.scene.increment, alike.scene.increment));
+  EXPECT_TRUE(same_bits(plain.scene.velocity, alike.scene.velocity));
 }
 
 TEST(SweepKernels, rolling_contacts_do_what_the_plain_arithmetic_does_one_by_one) {
@@ -319,7 +327,7 @@ TEST(SweepKernels, contacts_do_what_the_plain_arithmetic_does_one_by_one) {
       EXPECT_EQ(scene.last_move[g].t[k], plain.last_move[g].t[k]);
       const ContactGroup& contact = scene.contacts[g];
       open += got.n[k] == contact.least[k] ? 1 : 0;
-      sliding += got.t[k] == contact.above[k] + plain.friction[g].mu[k] * got.n[k] ? 1 : 0;
+      sliding += got.t[k] == contact.above[k] + plain.unlike[g].mu[k] * got.n[k] ? 1 : 0;
     }
   EXPECT_GT(open, 10);
   EXPECT_GT(sliding, 10);

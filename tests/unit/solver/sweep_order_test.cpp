@@ -132,6 +132,7 @@ TEST_P(OrderOfSweep, has_one_slot_for_each_contact) {
 TEST_P(OrderOfSweep, is_that_of_a_team) {
   const SweepOrder order = order_of(graph_, 3);
   EXPECT_EQ(order.part_begin, order_.part_begin);
+  EXPECT_EQ(order.first_row, order_.first_row);
   EXPECT_EQ(order.row_count, order_.row_count);
   for (Index c = 0; c < graph_.problem.contact_count(); ++c) {
     if (!graph_.swept[c]) continue;
