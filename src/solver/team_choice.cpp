@@ -10,9 +10,9 @@ constexpr double window = 0.02;  // s, several slices of the scheduler
 // they do not.
 constexpr int least_patience = 8;
 constexpr int most_patience = 256;
-// A trial that seems to pay goes on for so many windows: one is as short as a few slices, and a team may have
-// all processors for it by luck.
-constexpr int windows_of_trial = 4;
+// A trial that seems to pay goes on for so long (s), as a team may have all processors for one window by
+// luck.
+constexpr double trial = 4.0 * window;
 // Of a window in the usual cost: a single one may be slow by chance, and what is on trial seem to pay.
 constexpr double share_of_window = 0.25;
 
@@ -21,13 +21,11 @@ constexpr double share_of_window = 0.25;
 void TeamChoice::add(double seconds, double work) {
   seconds_ += seconds;
   work_ += work;
-  // The windows of a trial are counted as one that grows.
-  if (seconds_ < (1 + confirmed_) * window || work_ <= 0.0) return;
+  if (seconds_ < window || work_ <= 0.0) return;
   const double cost = seconds_ / work_;
-  if (on_trial_ && cost < usual_cost_ && ++confirmed_ < windows_of_trial) return;
+  if (on_trial_ && cost < usual_cost_ && seconds_ < trial) return;
   decide(cost);
   seconds_ = work_ = 0.0;
-  confirmed_ = 0;
 }
 
 void TeamChoice::decide(double cost) {

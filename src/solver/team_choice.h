@@ -24,7 +24,6 @@ class TeamChoice {
   double seconds_ = 0.0, work_ = 0.0;  ///< of the window under way
   double usual_cost_ = 0.0;            ///< s for a unit of work, of late windows; none on trial
   double least_alone_ = 0.0;           ///< the least that work has cost alone; 0: never tried
-  int confirmed_ = 0;                  ///< windows of the trial under way that seem to pay
   int settled_ = 0;                    ///< windows since the last trial
   int patience_ = 0;                   ///< windows from a trial to the next
 };

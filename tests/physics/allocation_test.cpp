@@ -239,5 +239,43 @@ TEST(FailingAllocation, of_two_threads_ends_the_solve_and_leaves_the_workspace_u
   EXPECT_GT(failed, 30);
 }
 
+// Arrays may have taken the sizes of a problem whose solve then failed: what the one before left in them is
+// not used.
+TEST(FailingAllocation, of_a_smaller_problem_leaves_nothing_to_the_one_before) {
+  const StepSettings settings = test::bed_step(1e-3);
+  const World world = test::fallen_bed(test::bed_plan(true, 400, 40, 5), settings, 200);
+  const auto [contacts, problem, guess] = test::next_problem(world, settings);
+  ContactProblem smaller = problem;
+  const std::size_t count = problem.a.size() / 2;
+  for (auto* field : {&smaller.a, &smaller.b}) field->resize(count);
+  for (auto* field : {&smaller.nx, &smaller.ny, &smaller.cn, &smaller.ct, &smaller.mu}) field->resize(count);
+  smaller.rolling_friction.assign(count, 0.1);
+  ContactSolution guess_of_smaller = guess;
+  for (auto* field : {&guess_of_smaller.pn, &guess_of_smaller.pt, &guess_of_smaller.pr}) field->resize(count);
+  SolverSettings solver;
+  solver.tolerance = 1e-9;
+  solver.max_iterations = 20;
+  int failed = 0;
+  for (long k = 1; k < 1000; ++k) {
+    SCOPED_TRACE(k);
+    SolverWorkspace workspace;
+    ContactSolution expected = guess, of_smaller = guess_of_smaller, again = guess;
+    const double eta = solve(problem, solver, workspace, expected).residual.eta;
+    until_one_fails = k;
+    bool ended = true;
+    try {
+      solve(smaller, solver, workspace, of_smaller);
+    } catch (const std::bad_alloc&) {
+      ended = false;
+    }
+    until_one_fails = 0;
+    EXPECT_EQ(solve(problem, solver, workspace, again).residual.eta, eta);
+    EXPECT_EQ(again.pn, expected.pn);
+    if (ended) break;
+    ++failed;
+  }
+  EXPECT_GT(failed, 5);
+}
+
 }  // namespace
 }  // namespace talus

@@ -62,6 +62,7 @@ TEST(TeamChoice, one_slow_window_changes_nothing) {
 
 /// Other processes leave a team alone for one window by chance: it stays on trial, and does not pay.
 TEST(TeamChoice, one_lucky_window_of_a_trial_changes_nothing) {
+  constexpr double shortest = 0.02;  // s, of a window
   TeamChoice choice;
   work(choice, 1000, 20.0, 2.0);
   int trials = 0, windows = 0, of_trial = 0;
@@ -70,7 +71,7 @@ TEST(TeamChoice, one_lucky_window_of_a_trial_changes_nothing) {
     of_trial = in_team ? of_trial + 1 : 0;
     trials += of_trial == 1 ? 1 : 0;
     windows += in_team ? 1 : 0;
-    choice.add(window, window / (!in_team ? 2.0 : of_trial == 1 ? 1.0 : 20.0));
+    choice.add(shortest, shortest / (!in_team ? 2.0 : of_trial == 1 ? 1.0 : 20.0));
   }
   EXPECT_GT(trials, 5);
   EXPECT_EQ(windows, 3 * trials) << "the lucky one, and two until it is made up for";
