@@ -26,25 +26,26 @@ constexpr auto row_bytes = static_cast<std::uint32_t>(sizeof(Row));
 
 /// Where the eight values of a field of its group have that of a contact.
 struct Slot {
-  Index group;
-  int lane;
+  std::size_t group, lane;
 };
 Slot slot_of(const Linearisation& w, std::size_t c) {
-  return {w.order.slot[c] / lane_count, w.order.slot[c] % lane_count};
+  const auto slot = static_cast<std::uint32_t>(w.order.slot[c]);  // division by eight is a shift
+  return {slot / lane_count, slot % lane_count};
 }
 
-ExactRow in_bed_axes(const ContactProblem& problem, std::size_t c, Impulse impulse) {
-  const double nx = problem.nx[c];
-  const double ny = problem.ny[c];
-  return {impulse.normal * nx - impulse.tangential * ny, impulse.normal * ny + impulse.tangential * nx,
-          impulse.tangential, 0.0};
-}
-
-void set_impulse(const ContactProblem& problem, std::size_t c, double pn, double pt, Linearisation& w) {
-  const Impulse impulse = admissible(pn, pt, problem.mu[c]);
-  w.pn[c] = impulse.normal;
-  w.pt[c] = impulse.tangential;
-  w.exact_force[c] = in_bed_axes(problem, c, impulse);
+/// Makes the impulses of contacts first ... last - 1 admissible, and turns them into the axes of the bed.
+void admit_impulses(const ContactProblem& problem, std::size_t first, std::size_t last, Linearisation& w) {
+  double *const pn = w.pn.data(), *const pt = w.pt.data();
+  const double* const mu = problem.mu.data();
+  for (std::size_t c = first; c < last; ++c) {
+    const Impulse impulse = admissible(pn[c], pt[c], mu[c]);
+    pn[c] = impulse.normal;
+    pt[c] = impulse.tangential;
+  }
+  const double *const nx = problem.nx.data(), *const ny = problem.ny.data();
+  ExactRow* const force = w.exact_force.data();
+  for (std::size_t c = first; c < last; ++c)
+    force[c] = {pn[c] * nx[c] - pt[c] * ny[c], pn[c] * ny[c] + pt[c] * nx[c], pt[c], 0.0};
 }
 
 /// The rolling impulse of a contact; its normal impulse is set before.
@@ -79,38 +80,54 @@ RollingUnits rolling_units(const Linearisation& w) {
   return {w.rolling.unit_length, 1.0 / w.impulse_unit, 1.0 / w.velocity_unit, w.mobility_unit};
 }
 
-void load_group(const ContactProblem& problem, std::size_t c, const InverseUnits& units, Linearisation& w) {
+/// Single precision of the contacts of a block: all at once, so that the compiler makes several of each
+/// operation; then they go to their lanes.
+struct BlockOfContacts {
+  float nx[contacts_per_block], ny[contacts_per_block];
+  float un[contacts_per_block], ut[contacts_per_block];
+  float least[contacts_per_block], below[contacts_per_block], above[contacts_per_block];
+};
+
+void take_normals(const ContactProblem& problem, std::size_t first, std::size_t last,
+                  BlockOfContacts& block) {
+  for (std::size_t k = 0; k < last - first; ++k) {
+    block.nx[k] = static_cast<float>(problem.nx[first + k]);
+    block.ny[k] = static_cast<float>(problem.ny[first + k]);
+  }
+}
+
+/// Relative velocities at P0, and what is left until the contacts open or slide.
+void linearise(const ContactProblem& problem, std::size_t first, std::size_t last, const Linearisation& w,
+               BlockOfContacts& block) {
+  const InverseUnits units = inverse_units(w);
+  for (std::size_t k = 0; k < last - first; ++k) {
+    block.un[k] = static_cast<float>(w.un[first + k] * units.velocity);
+    block.ut[k] = static_cast<float>(w.ut[first + k] * units.velocity);
+  }
+  for (std::size_t k = 0; k < last - first; ++k) {
+    const double pn = w.pn[first + k], pt = w.pt[first + k], bound = problem.mu[first + k] * pn;
+    block.least[k] = static_cast<float>(-pn * units.impulse);
+    block.below[k] = static_cast<float>((-bound - pt) * units.impulse);
+    block.above[k] = static_cast<float>((bound - pt) * units.impulse);
+  }
+}
+
+/// What follows from contacts and bodies, and stays as long as they do.
+void load_lane(const ContactProblem& problem, std::size_t c, double per_mobility, Linearisation& w) {
   const auto [g, k] = slot_of(w, c);
   ContactGroup& group = w.contacts[g];
-  group.nx[k] = static_cast<float>(problem.nx[c]);
-  group.ny[k] = static_cast<float>(problem.ny[c]);
-  for (ImpulseGroup* impulse : {&w.increment[g], &w.last_move[g]}) impulse->n[k] = impulse->t[k] = 0.0F;
-  if (!w.have_new_order) return;
   const Index a = problem.a[c], b = problem.b[c];
-  const double unit = units.mobility;
   group.wn[k] = static_cast<float>(normal_relaxation * w.wn[c] * w.mobility_unit);
   group.wt[k] = static_cast<float>(tangential_relaxation * w.wt[c] * w.mobility_unit);
-  group.mass_a[k] = static_cast<float>(-problem.inverse_mass[a] * unit);
-  group.mass_b[k] = static_cast<float>(problem.inverse_mass[b] * unit);
+  group.mass_a[k] = static_cast<float>(-problem.inverse_mass[a] * per_mobility);
+  group.mass_b[k] = static_cast<float>(problem.inverse_mass[b] * per_mobility);
   if (!w.are_alike) {
     w.unlike[g].mu[k] = static_cast<float>(problem.mu[c]);
-    w.unlike[g].spin_a[k] = static_cast<float>(-spin_mobility(problem, a) * unit);
-    w.unlike[g].spin_b[k] = static_cast<float>(-spin_mobility(problem, b) * unit);
+    w.unlike[g].spin_a[k] = static_cast<float>(-spin_mobility(problem, a) * per_mobility);
+    w.unlike[g].spin_b[k] = static_cast<float>(-spin_mobility(problem, b) * per_mobility);
   }
   group.a[k] = static_cast<std::uint32_t>(w.order.row_a[c]) * row_bytes;
   group.b[k] = static_cast<std::uint32_t>(w.order.row_b[c]) * row_bytes;
-}
-
-/// Relative velocity at P0, and what is left until the contact opens or slides.
-void linearise(const ContactProblem& problem, std::size_t c, const InverseUnits& units, Linearisation& w) {
-  const auto [g, k] = slot_of(w, c);
-  ContactGroup& group = w.contacts[g];
-  const double pn = w.pn[c], pt = w.pt[c], bound = problem.mu[c] * pn;
-  group.un[k] = static_cast<float>(w.un[c] * units.velocity);
-  group.ut[k] = static_cast<float>(w.ut[c] * units.velocity);
-  group.least[k] = static_cast<float>(-pn * units.impulse);
-  group.below[k] = static_cast<float>((-bound - pt) * units.impulse);
-  group.above[k] = static_cast<float>((bound - pt) * units.impulse);
 }
 
 /// The contacts of a block: [block_begin(block), block_begin(block + 1)).
@@ -125,6 +142,26 @@ void for_each_swept(const ContactProblem& problem, Index first_block, Index last
   const std::size_t last = block_begin(problem, last_block);
   for (std::size_t c = block_begin(problem, first_block); c < last; ++c)
     if (w.swept[c]) what(c);
+}
+
+/// Brings what is known of a block to the lanes of its contacts that are swept: all, or without the normals.
+void spread(std::size_t first, std::size_t last, const BlockOfContacts& block, bool with_normals,
+            Linearisation& w) {
+  ContactGroup* const groups = w.contacts.data();
+  for (std::size_t k = 0; k < last - first; ++k) {
+    if (!w.swept[first + k]) continue;
+    const auto [g, lane] = slot_of(w, first + k);
+    ContactGroup& group = groups[g];
+    if (with_normals) {
+      group.nx[lane] = block.nx[k];
+      group.ny[lane] = block.ny[k];
+    }
+    group.un[lane] = block.un[k];
+    group.ut[lane] = block.ut[k];
+    group.least[lane] = block.least[k];
+    group.below[lane] = block.below[k];
+    group.above[lane] = block.above[k];
+  }
 }
 
 /// Makes room for the groups of the order. What was there is overwritten where there is a contact.
@@ -180,7 +217,9 @@ void load_contacts(const ContactProblem& problem, const ContactSolution& guess, 
                    Index last_block, Linearisation& w) {
   const std::size_t first = block_begin(problem, first_block), last = block_begin(problem, last_block);
   if (w.are_new) load_diagonals(problem, first, last, w);
-  for (std::size_t c = first; c < last; ++c) set_impulse(problem, c, guess.pn[c], guess.pt[c], w);
+  std::copy(guess.pn.data() + first, guess.pn.data() + last, w.pn.data() + first);
+  std::copy(guess.pt.data() + first, guess.pt.data() + last, w.pt.data() + first);
+  admit_impulses(problem, first, last, w);
   if (!problem.resists_rolling()) return;
   for (std::size_t c = first; c < last; ++c) {
     if (w.are_new) load_rolling(problem, c, w.rolling);
@@ -241,12 +280,22 @@ void end_order_of_contacts(const ContactProblem& problem, Linearisation& w) {
 }
 
 void load_groups(const ContactProblem& problem, Index first_block, Index last_block, Linearisation& w) {
-  if (w.have_new_order)
+  if (w.have_new_order) {
     place_slots(w.swept, block_begin(problem, first_block), block_begin(problem, last_block), w.order);
-  const InverseUnits units = inverse_units(w);
+    const double per_mobility = inverse_units(w).mobility;
+    for_each_swept(problem, first_block, last_block, w,
+                   [&](std::size_t c) { load_lane(problem, c, per_mobility, w); });
+  }
+  BlockOfContacts of_block;
+  for (Index block = first_block; block < last_block; ++block) {
+    const std::size_t first = block_begin(problem, block), last = block_begin(problem, block + 1);
+    take_normals(problem, first, last, of_block);
+    linearise(problem, first, last, w, of_block);
+    spread(first, last, of_block, true, w);
+  }
   for_each_swept(problem, first_block, last_block, w, [&](std::size_t c) {
-    load_group(problem, c, units, w);
-    linearise(problem, c, units, w);
+    const auto [g, k] = slot_of(w, c);
+    for (ImpulseGroup* impulse : {&w.increment[g], &w.last_move[g]}) impulse->n[k] = impulse->t[k] = 0.0F;
   });
   if (!problem.resists_rolling()) return;
   const RollingUnits scale = rolling_units(w);
@@ -263,15 +312,22 @@ void clear_rows(Index first, Index last, Linearisation& w) {
 }
 
 void absorb_increments(const ContactProblem& problem, Index first_block, Index last_block, Linearisation& w) {
+  const double unit = w.impulse_unit;
   for_each_swept(problem, first_block, last_block, w, [&](std::size_t c) {
     const auto [g, k] = slot_of(w, c);
     ImpulseGroup& increment = w.increment[g];
-    set_impulse(problem, c, w.pn[c] + w.impulse_unit * static_cast<double>(increment.n[k]),
-                w.pt[c] + w.impulse_unit * static_cast<double>(increment.t[k]), w);
+    w.pn[c] += unit * static_cast<double>(increment.n[k]);
+    w.pt[c] += unit * static_cast<double>(increment.t[k]);
     increment.n[k] = increment.t[k] = 0.0F;
-    if (problem.resists_rolling())
-      set_rolling(problem, c, take_rolling_increment(c, w.order.slot[c], w.impulse_unit, w.rolling), w);
   });
+  // Those of the others are admissible, and stay what they are.
+  const std::size_t first = block_begin(problem, first_block), last = block_begin(problem, last_block);
+  admit_impulses(problem, first, last, w);
+  if (!problem.resists_rolling()) return;
+  for (std::size_t c = first; c < last; ++c)
+    set_rolling(problem, c,
+                w.swept[c] ? take_rolling_increment(c, w.order.slot[c], unit, w.rolling) : w.rolling.pr[c],
+                w);
 }
 
 void average_impulses(const ContactProblem& problem, Index first_block, Index last_block,
@@ -298,9 +354,12 @@ void absorb_velocities(Index first, Index last, Linearisation& w) {
 }
 
 void linearise_groups(const ContactProblem& problem, Index first_block, Index last_block, Linearisation& w) {
-  const InverseUnits units = inverse_units(w);
-  for_each_swept(problem, first_block, last_block, w,
-                 [&](std::size_t c) { linearise(problem, c, units, w); });
+  BlockOfContacts of_block;
+  for (Index block = first_block; block < last_block; ++block) {
+    const std::size_t first = block_begin(problem, block), last = block_begin(problem, block + 1);
+    linearise(problem, first, last, w, of_block);
+    spread(first, last, of_block, false, w);
+  }
   if (!problem.resists_rolling()) return;
   const RollingUnits scale = rolling_units(w);
   for_each_swept(problem, first_block, last_block, w, [&](std::size_t c) {
