@@ -320,14 +320,12 @@ void absorb_increments(const ContactProblem& problem, Index first_block, Index l
     w.pt[c] += unit * static_cast<double>(increment.t[k]);
     increment.n[k] = increment.t[k] = 0.0F;
   });
-  // Those of the others are admissible, and stay what they are.
-  const std::size_t first = block_begin(problem, first_block), last = block_begin(problem, last_block);
-  admit_impulses(problem, first, last, w);
+  // The others have no impulse, and keep none.
+  admit_impulses(problem, block_begin(problem, first_block), block_begin(problem, last_block), w);
   if (!problem.resists_rolling()) return;
-  for (std::size_t c = first; c < last; ++c)
-    set_rolling(problem, c,
-                w.swept[c] ? take_rolling_increment(c, w.order.slot[c], unit, w.rolling) : w.rolling.pr[c],
-                w);
+  for_each_swept(problem, first_block, last_block, w, [&](std::size_t c) {
+    set_rolling(problem, c, take_rolling_increment(c, w.order.slot[c], unit, w.rolling), w);
+  });
 }
 
 void average_impulses(const ContactProblem& problem, Index first_block, Index last_block,
