@@ -80,7 +80,7 @@ RollingUnits rolling_units(const Linearisation& w) {
   return {w.rolling.unit_length, 1.0 / w.impulse_unit, 1.0 / w.velocity_unit, w.mobility_unit};
 }
 
-/// Single precision of the contacts of a block: all at once, so that the compiler makes several of each
+/// Contacts of a block in single precision: all at once, so that the compiler makes several of each
 /// operation; then they go to their lanes.
 struct BlockOfContacts {
   float nx[contacts_per_block], ny[contacts_per_block];
@@ -88,19 +88,13 @@ struct BlockOfContacts {
   float least[contacts_per_block], below[contacts_per_block], above[contacts_per_block];
 };
 
-void take_normals(const ContactProblem& problem, std::size_t first, std::size_t last,
-                  BlockOfContacts& block) {
-  for (std::size_t k = 0; k < last - first; ++k) {
-    block.nx[k] = static_cast<float>(problem.nx[first + k]);
-    block.ny[k] = static_cast<float>(problem.ny[first + k]);
-  }
-}
-
-/// Relative velocities at P0, and what is left until the contacts open or slide.
+/// Local frames, relative velocities at P0, and what is left until the contacts open or slide.
 void linearise(const ContactProblem& problem, std::size_t first, std::size_t last, const Linearisation& w,
                BlockOfContacts& block) {
   const InverseUnits units = inverse_units(w);
   for (std::size_t k = 0; k < last - first; ++k) {
+    block.nx[k] = static_cast<float>(problem.nx[first + k]);
+    block.ny[k] = static_cast<float>(problem.ny[first + k]);
     block.un[k] = static_cast<float>(w.un[first + k] * units.velocity);
     block.ut[k] = static_cast<float>(w.ut[first + k] * units.velocity);
   }
@@ -144,18 +138,15 @@ void for_each_swept(const ContactProblem& problem, Index first_block, Index last
     if (w.swept[c]) what(c);
 }
 
-/// Brings what is known of a block to the lanes of its contacts that are swept: all, or without the normals.
-void spread(std::size_t first, std::size_t last, const BlockOfContacts& block, bool with_normals,
-            Linearisation& w) {
+/// Brings the contacts of a block that are swept to their lanes.
+void spread(std::size_t first, std::size_t last, const BlockOfContacts& block, Linearisation& w) {
   ContactGroup* const groups = w.contacts.data();
   for (std::size_t k = 0; k < last - first; ++k) {
     if (!w.swept[first + k]) continue;
     const auto [g, lane] = slot_of(w, first + k);
     ContactGroup& group = groups[g];
-    if (with_normals) {
-      group.nx[lane] = block.nx[k];
-      group.ny[lane] = block.ny[k];
-    }
+    group.nx[lane] = block.nx[k];
+    group.ny[lane] = block.ny[k];
     group.un[lane] = block.un[k];
     group.ut[lane] = block.ut[k];
     group.least[lane] = block.least[k];
@@ -286,24 +277,18 @@ void load_groups(const ContactProblem& problem, Index first_block, Index last_bl
     for_each_swept(problem, first_block, last_block, w,
                    [&](std::size_t c) { load_lane(problem, c, per_mobility, w); });
   }
-  BlockOfContacts of_block;
-  for (Index block = first_block; block < last_block; ++block) {
-    const std::size_t first = block_begin(problem, block), last = block_begin(problem, block + 1);
-    take_normals(problem, first, last, of_block);
-    linearise(problem, first, last, w, of_block);
-    spread(first, last, of_block, true, w);
-  }
   for_each_swept(problem, first_block, last_block, w, [&](std::size_t c) {
     const auto [g, k] = slot_of(w, c);
     for (ImpulseGroup* impulse : {&w.increment[g], &w.last_move[g]}) impulse->n[k] = impulse->t[k] = 0.0F;
   });
-  if (!problem.resists_rolling()) return;
-  const RollingUnits scale = rolling_units(w);
-  for_each_swept(problem, first_block, last_block, w, [&](std::size_t c) {
-    if (w.have_new_order) load_rolling_group(problem, c, w.order.slot[c], scale, w.rolling);
-    start_rolling(w.order.slot[c], w.rolling);
-    linearise_rolling(problem, c, w.order.slot[c], w.pn[c], scale, w.rolling);
-  });
+  if (problem.resists_rolling()) {
+    const RollingUnits scale = rolling_units(w);
+    for_each_swept(problem, first_block, last_block, w, [&](std::size_t c) {
+      if (w.have_new_order) load_rolling_group(problem, c, w.order.slot[c], scale, w.rolling);
+      start_rolling(w.order.slot[c], w.rolling);
+    });
+  }
+  linearise_groups(problem, first_block, last_block, w);
 }
 
 void clear_rows(Index first, Index last, Linearisation& w) {
@@ -356,7 +341,7 @@ void linearise_groups(const ContactProblem& problem, Index first_block, Index la
   for (Index block = first_block; block < last_block; ++block) {
     const std::size_t first = block_begin(problem, block), last = block_begin(problem, block + 1);
     linearise(problem, first, last, w, of_block);
-    spread(first, last, of_block, false, w);
+    spread(first, last, of_block, w);
   }
   if (!problem.resists_rolling()) return;
   const RollingUnits scale = rolling_units(w);

@@ -52,6 +52,20 @@ void operator delete[](void* memory, std::size_t, std::align_val_t) noexcept { s
 namespace talus {
 namespace {
 
+/// Whether something ends well while its k-th allocation fails: it does where it makes fewer.
+template <typename Do>
+bool ends_without(long k, const Do& what) {
+  until_one_fails = k;
+  bool ended = true;
+  try {
+    what();
+  } catch (const std::bad_alloc&) {
+    ended = false;
+  }
+  until_one_fails = 0;
+  return ended;
+}
+
 /// Takes steps of a slow tilt, every fifth with a new neighbour list, and returns their allocations.
 long allocations_of_steps(World& world, const StepSettings& settings, StepWorkspace& workspace, int steps) {
   const long before = allocations;
@@ -184,14 +198,8 @@ TEST(FailingAllocation, of_a_renewal_leaves_the_list_usable) {
   for (long k = 1; k < 1000; ++k) {
     SCOPED_TRACE(k);
     NeighbourList list = old.list;
-    until_one_fails = k;
-    bool ended = true;
-    try {
-      update_neighbour_list(list, old.world.grains, old.world.boundary, reach);
-    } catch (const std::bad_alloc&) {
-      ended = false;
-    }
-    until_one_fails = 0;
+    const bool ended =
+        ends_without(k, [&] { update_neighbour_list(list, old.world.grains, old.world.boundary, reach); });
     Contacts found;
     detect_contacts(list, old.world.grains, old.world.boundary, reach, found);
     EXPECT_EQ(list.rebuilds, 1) << "renewed";
@@ -222,14 +230,7 @@ TEST(FailingAllocation, of_two_threads_ends_the_solve_and_leaves_the_workspace_u
     SCOPED_TRACE(k);
     SolverWorkspace workspace;
     ContactSolution solution = guess;
-    until_one_fails = k;
-    bool ended = true;
-    try {
-      solve(problem, solver, workspace, solution);
-    } catch (const std::bad_alloc&) {
-      ended = false;
-    }
-    until_one_fails = 0;
+    const bool ended = ends_without(k, [&] { solve(problem, solver, workspace, solution); });
     ContactSolution again = guess;
     solve(problem, solver, workspace, again);
     EXPECT_EQ(again.pn, expected.pn);
@@ -261,14 +262,7 @@ TEST(FailingAllocation, of_a_smaller_problem_leaves_nothing_to_the_one_before) {
     SolverWorkspace workspace;
     ContactSolution expected = guess, of_smaller = guess_of_smaller, again = guess;
     const double eta = solve(problem, solver, workspace, expected).residual.eta;
-    until_one_fails = k;
-    bool ended = true;
-    try {
-      solve(smaller, solver, workspace, of_smaller);
-    } catch (const std::bad_alloc&) {
-      ended = false;
-    }
-    until_one_fails = 0;
+    const bool ended = ends_without(k, [&] { solve(smaller, solver, workspace, of_smaller); });
     EXPECT_EQ(solve(problem, solver, workspace, again).residual.eta, eta);
     EXPECT_EQ(again.pn, expected.pn);
     if (ended) break;
