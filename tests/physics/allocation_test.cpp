@@ -216,22 +216,23 @@ TEST(FailingAllocation, of_a_renewal_leaves_the_list_usable) {
 TEST(FailingAllocation, of_two_threads_ends_the_solve_and_leaves_the_workspace_usable) {
   const StepSettings settings = test::bed_step(1e-3);
   const World world = test::fallen_bed(test::bed_plan(true, 1600, 100, 5), settings, 400);
-  const auto [contacts, problem, guess] = test::next_problem(world, settings);
+  const test::FrozenStep frozen = test::next_problem(world, settings);
+  const ContactProblem& problem = frozen.problem;
   ASSERT_GT(problem.contact_count(), 2500);
   SolverSettings solver;
   solver.threads = 2;
   solver.tolerance = 1e-9;
   solver.max_iterations = 20;
   SolverWorkspace fresh;
-  ContactSolution expected = guess;
+  ContactSolution expected = frozen.guess;
   solve(problem, solver, fresh, expected);
   int failed = 0;
   for (long k = 1; k < 1000; ++k) {
     SCOPED_TRACE(k);
     SolverWorkspace workspace;
-    ContactSolution solution = guess;
+    ContactSolution solution = frozen.guess;
     const bool ended = ends_without(k, [&] { solve(problem, solver, workspace, solution); });
-    ContactSolution again = guess;
+    ContactSolution again = frozen.guess;
     solve(problem, solver, workspace, again);
     EXPECT_EQ(again.pn, expected.pn);
     if (ended) break;
