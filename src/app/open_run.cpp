@@ -39,16 +39,23 @@ void refuse_unfinished_replay(const RunRequest& request, const RunHeader& header
 
 }  // namespace
 
+void require_same_scenario(const RunRequest& request, const Scenario& stored) {
+  if (request.scenario.empty()) return;
+  const Scenario asked = read_scenario(request.scenario, request.settings);
+  if (asked != stored)
+    throw Error(ExitCode::bad_data,
+                fmt::format("{} is a run of another scenario than {}: {}; name another run with -o, or begin "
+                            "this one anew with --overwrite instead of --resume",
+                            request.output, request.scenario, differences(stored, asked)));
+}
+
 OpenRun resume_run(const RunRequest& request) {
   RunHeader header;
   Checkpoint checkpoint;
   RunStore store = RunStore::resume(request.output, header, checkpoint);
   prepare_folder_of(request.output);
   const Scenario scenario = stored_scenario(header, request.output + ":/parameters");
-  if (!request.scenario.empty() && read_scenario(request.scenario, request.settings) != scenario)
-    throw Error(ExitCode::bad_data, fmt::format("{} was started with another scenario than {}; compare "
-                                                "`talus info` of the run with `talus check` of the scenario",
-                                                request.output, request.scenario));
+  require_same_scenario(request, scenario);
   refuse_unfinished_replay(request, header, checkpoint.world);
   return {std::move(header), std::move(store), Session(scenario, std::move(checkpoint), request.output)};
 }

@@ -28,9 +28,12 @@ struct OpenRun {
 /// RunStore::create and RunStore::commit do.
 OpenRun start_run(const RunRequest& request);
 
-/// The run whose folder is there. The scenario is the one stored with it: Error(bad_data) where the file and
-/// the settings say something else, and for a replay that was stopped before its end. No scenario file:
-/// whatever is stored.
+/// Throws Error(bad_data), with the keys that differ, where the file and the settings say another scenario
+/// than the one stored with the run. No scenario file: nothing is asked.
+void require_same_scenario(const RunRequest& request, const Scenario& stored);
+
+/// The run whose folder is there. The scenario is the one stored with it (require_same_scenario).
+/// Throws Error(bad_data) for a replay that was stopped before its end.
 OpenRun resume_run(const RunRequest& request);
 
 }  // namespace talus

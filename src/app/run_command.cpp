@@ -149,11 +149,9 @@ void finish_maps(LiveMaps& maps, const RunArguments& arguments) {
 }
 
 /// Maps of a complete run that was ended before all of them were drawn.
-void draw_what_is_missing(const RunArguments& arguments) {
+void draw_what_is_missing(const RunArguments& arguments, const RunFile& file, const Scenario& scenario) {
   std::optional<LiveMaps> maps = prepare_maps(arguments, request_of(arguments), true);
   if (!maps) return;
-  const RunFile file = RunFile::open(arguments.output);
-  const Scenario scenario = stored_scenario(file.header(), arguments.output + ":/parameters");
   maps->begin(file.header(), arguments.output, scenario.tilt.step, !scenario.tilt.program.empty());
   maps->meet(file);
 }
@@ -161,10 +159,12 @@ void draw_what_is_missing(const RunArguments& arguments) {
 /// Of a complete run only what a kill at its end may have left behind remains to be done: its folder is
 /// removed and missing maps are drawn.
 void resume_complete(const RunArguments& arguments) {
-  RunFile::open(arguments.output);
+  const RunFile file = RunFile::open(arguments.output);
+  const Scenario scenario = stored_scenario(file.header(), arguments.output + ":/parameters");
+  require_same_scenario(request_of(arguments), scenario);
   discard_folder(arguments.output);
   if (!arguments.quiet) std::printf("%s is complete already.\n", arguments.output.c_str());
-  draw_what_is_missing(arguments);
+  draw_what_is_missing(arguments, file, scenario);
 }
 
 OpenRun open_run(const RunArguments& arguments, const RunRequest& request, bool resumed) {

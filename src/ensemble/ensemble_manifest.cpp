@@ -17,7 +17,6 @@
 #include "core/version.h"
 #include "ensemble/axes.h"
 #include "io/durable_file.h"
-#include "scenario/keys.h"
 
 namespace talus {
 namespace {
@@ -103,16 +102,6 @@ void take_line(EnsembleManifest& manifest, const std::string& folder, const std:
 const Variant* variant_called(const EnsembleManifest& manifest, const std::string& name) {
   const auto found = std::ranges::find(manifest.variants, name, &Variant::name);
   return found == manifest.variants.end() ? nullptr : &*found;
-}
-
-/// The keys in which two scenarios differ, with both values: "contact.friction is 0.5 there, 0.3 here".
-std::string differences(const Scenario& there, const Scenario& here) {
-  std::vector<std::string> parts;
-  for (const ScenarioKey& key : scenario_keys())
-    if (key.get(there) != key.get(here))
-      parts.push_back(fmt::format("{} is {} there, {} here", full_name(key), plain_text(key.get(there)),
-                                  plain_text(key.get(here))));
-  return joined(parts, "; ");
 }
 
 std::string shown(const MemberTask& task) {

@@ -136,4 +136,7 @@ Scenario read_scenario(const std::string& path, const std::vector<std::string>& 
 /// scenario back, bit for bit.
 std::string resolved_toml(const Scenario& scenario);
 
+/// The keys in which two scenarios differ, with both values: "contact.friction is 0.5 there, 0.3 here".
+std::string differences(const Scenario& there, const Scenario& here);
+
 }  // namespace talus

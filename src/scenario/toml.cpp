@@ -455,4 +455,13 @@ Scenario read_scenario(const std::string& path, const std::vector<std::string>& 
   return parse_scenario(content, path, overrides, varied);
 }
 
+std::string differences(const Scenario& there, const Scenario& here) {
+  std::vector<std::string> parts;
+  for (const ScenarioKey& key : scenario_keys())
+    if (key.get(there) != key.get(here))
+      parts.push_back(fmt::format("{} is {} there, {} here", full_name(key), plain_text(key.get(there)),
+                                  plain_text(key.get(here))));
+  return joined(parts, "; ");
+}
+
 }  // namespace talus

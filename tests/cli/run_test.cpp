@@ -208,6 +208,24 @@ TEST(Run, another_scenario_cannot_resume_it) {
   EXPECT_EQ(outcome.exit_code, 65) << outcome.err;
 }
 
+// A loop over a parameter that names each run the same must not take the first for all of them.
+TEST(Run, of_another_scenario_is_not_taken_for_the_one_asked_for) {
+  const TemporaryFolder folder;
+  write_file(folder, "bed.toml", small_bed);
+  const auto run = [&](std::vector<std::string> words) {
+    words.insert(words.begin(),
+                 {"run", "bed.toml", "-o", "bed.h5", "--resume", "--set", "tilt.end_angle=0.5"});
+    return run_talus(words, folder.path());
+  };
+  ASSERT_EQ(run({}).exit_code, 0);
+  EXPECT_EQ(run({}).exit_code, 0);
+  const Outcome other = run({"--set", "contact.friction=0.3", "--seed", "77"});
+  EXPECT_EQ(other.exit_code, 65);
+  EXPECT_NE(other.err.find("contact.friction is 0.5 there, 0.3 here"), std::string::npos) << other.err;
+  EXPECT_NE(other.err.find("77 here"), std::string::npos) << other.err;
+  EXPECT_EQ(run_talus({"run", "none.toml", "-o", "bed.h5", "--resume"}, folder.path()).exit_code, 66);
+}
+
 TEST(Run, maps_are_drawn_from_the_file) {
   const TemporaryFolder folder;
   write_file(folder, "bed.toml", small_bed);
