@@ -7,10 +7,10 @@ namespace {
 
 constexpr double samples_per_diameter = 4.0;
 
-/// Appends a line whose second end may lie outside of the period.
-void append_cut(std::vector<ContactLine>& lines, const ContactLine& line, double length) {
-  const double edge = line.x2 < 0.0 ? 0.0 : length;
-  const double period = line.x2 < 0.0 ? -length : length;
+/// Appends a line whose second end lies in the next period to the left or right, or on the edge of it.
+void append_cut(std::vector<ContactLine>& lines, const ContactLine& line, bool to_left, double length) {
+  const double edge = to_left ? 0.0 : length;
+  const double period = to_left ? -length : length;
   const double y = line.y1 + (line.y2 - line.y1) * (edge - line.x1) / (line.x2 - line.x1);
   lines.push_back({line.x1, line.y1, edge, y, line.contact});
   lines.push_back({edge - period, y, line.x2 - period, line.y2, line.contact});
@@ -32,7 +32,7 @@ std::vector<ContactLine> contact_lines(const BedFrame& bed) {
     if (contacts.shift[c] == 0)
       lines.push_back(line);
     else
-      append_cut(lines, line, bed.statics.length);
+      append_cut(lines, line, contacts.shift[c] < 0, bed.statics.length);
   }
   return lines;
 }

@@ -82,17 +82,15 @@ double mean_depth(const FigureRun& run) {
 
 WallGroup wall_group(const RunChoice& runs, std::vector<WallPoint>& points) {
   WallGroup result;
-  std::vector<double> ratios;
-  const double n = static_cast<double>(runs.size());
-  double squares = 0.0;
+  std::vector<double> ratios, squares;
   for (const FigureRun* run : runs) {
     ratios.push_back(run->analysis.failure_ratio);
-    squares += run->analysis.failure_ratio_spread * run->analysis.failure_ratio_spread / n;
-    result.depth += mean_depth(*run) / n;
+    squares.push_back(run->analysis.failure_ratio_spread * run->analysis.failure_ratio_spread);
+    result.depth += mean_depth(*run) / static_cast<double>(runs.size());
     points.push_back({mean_depth(*run) / run->scenario.bed.length, run->analysis.failure_ratio});
   }
   result.ratio = statistics_of(ratios);
-  result.spread = std::sqrt(squares);
+  result.spread = std::sqrt(statistics_of(squares).mean);
   return result;
 }
 
@@ -160,7 +158,9 @@ std::optional<Figure> wall_ratio_figure(std::span<const RunGroup> groups) {
   std::vector<WallPoint> points;
   std::vector<double> depths;
   for (const RunGroup& group : groups) {
-    const RunChoice runs = failed_runs(group);
+    RunChoice runs = failed_runs(group);
+    // Where rows are sparse, there may be none in the last 0.5 deg.
+    std::erase_if(runs, [](const FigureRun* run) { return std::isnan(run->analysis.failure_ratio); });
     if (group.periodic() || runs.empty()) continue;
     const WallGroup wall = wall_group(runs, points);
     depths.push_back(wall.depth);

@@ -44,6 +44,18 @@ TEST(ContactLines, AreCutAtThePeriodicEdge) {
   expect_line(lines[5], 3, 7.5, 1.0, 7.5, 0.0);
 }
 
+// In single precision a grain can lie on the period itself.
+TEST(ContactLines, AreCutWhereTheirEndLiesOnTheEdge) {
+  test::Packing packing = test::empty_packing(8.0, true);
+  test::add_grain(packing, 0.5, 1.0);
+  test::add_grain(packing, 8.0, 1.5);
+  test::add_contact(packing, 0, 1, 2.0, 0.0, -1);
+  const std::vector<ContactLine> lines = contact_lines({packing.frame, packing.statics});
+  ASSERT_EQ(lines.size(), 2u);
+  expect_line(lines[0], 0, 0.5, 1.0, 0.0, 1.5);
+  expect_line(lines[1], 0, 8.0, 1.5, 8.0, 1.5);
+}
+
 TEST(ContactLines, EndAtAWall) {
   test::Packing packing = test::empty_packing(8.0, false);
   test::add_grain(packing, 0.5, 1.0);

@@ -377,6 +377,24 @@ TEST_F(Curves, OfWallsNeedNumbersOnly) {
   EXPECT_NEAR(column(table, "H")[0], 30.0, 1e-9) << "mean of 20 and 40 D";
 }
 
+TEST_F(Curves, OfWallsLeaveOutRunsWithoutARatio) {
+  RunGroup& group = groups_[0];
+  const double length = group.runs[0].scenario.bed.length, diameter = group.runs[0].mean_diameter;
+  group.runs[0].scenario.bed.boundary = BedBoundary::walls;
+  fill(&Analysis::failure_ratio, 0.5, 0.0);
+  fill(&Analysis::failure_ratio_spread, 0.1, 0.0);
+  fill(&FrameRecord::volume, 20.0 * length * diameter * diameter, 0.0);
+  for (FigureRun& run : group.runs)
+    if (run.analysis.failure_ratio == 1.0) run.analysis.failure_ratio = not_known;
+  const auto figure = wall_ratio_figure(groups_);
+  ASSERT_TRUE(figure);
+  const Table& table = figure->tables[0];
+  EXPECT_EQ(column(table, "n"), (std::vector<double>{1.0}));
+  EXPECT_NEAR(column(table, "ratio")[0], 0.5, 1e-12);
+  EXPECT_NEAR(column(table, "H")[0], 20.0, 1e-9);
+  EXPECT_EQ(figure->caption.find("nan"), std::string::npos) << figure->caption;
+}
+
 TEST(GnuplotQuoted, StandsForItself) {
   EXPECT_EQ(gnuplot_quoted("a_b^{c}@d's"), "'a\\_b\\^\\{c\\}\\@d''s'");
   EXPECT_EQ(gnuplot_string("θ_c"), "\"θ_c\"");
