@@ -113,6 +113,8 @@ int run_and_tell(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   talus::end_on_signals();
+  // Where a parent ignored it, nobody would learn how children end.
+  std::signal(SIGCHLD, SIG_DFL);
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of its write, not the end
   try {
     return run_and_tell(argc, argv);

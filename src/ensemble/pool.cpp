@@ -56,11 +56,14 @@ pid_t start(const Job& job) {
 void collect(std::map<pid_t, const Job*>& running, std::vector<FailedJob>& failed) {
   for (auto child = running.begin(); child != running.end();) {
     int status = 0;
-    if (waitpid(child->first, &status, WNOHANG) != child->first) {
+    const pid_t ended = waitpid(child->first, &status, WNOHANG);
+    if (ended == 0 || (ended < 0 && errno == EINTR)) {
       ++child;
       continue;
     }
-    const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    // Without a status (somebody else has it) nobody knows how it ended.
+    const int ended_with = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    const int code = ended < 0 ? static_cast<int>(ExitCode::internal) : ended_with;
     if (code != 0) failed.push_back({child->second->log, code});
     child = running.erase(child);
   }

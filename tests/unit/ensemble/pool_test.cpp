@@ -56,6 +56,16 @@ TEST(Pool, passes_a_signal_on_and_says_that_it_was_stopped) {
   EXPECT_EQ(asked, 1);
 }
 
+// Somebody else may take the status of a child, or a parent may have ignored SIGCHLD.
+TEST(Pool, does_not_wait_for_a_job_that_nobody_can_tell_the_end_of) {
+  const test::TemporaryFolder folder;
+  const auto before = std::signal(SIGCHLD, SIG_IGN);
+  const auto failed = run_jobs({job("ends_well", folder.path("1.log"))}, "the test", always);
+  std::signal(SIGCHLD, before);
+  ASSERT_EQ(failed.size(), 1u);
+  EXPECT_EQ(failed[0].exit_code, 70);
+}
+
 TEST(Refusal, has_the_exit_code_of_the_first_and_names_all_logs) {
   try {
     refuse({{"a.log", 65, "what it said"}, {"b.log", 137}}, "left out");
