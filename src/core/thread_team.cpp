@@ -21,10 +21,18 @@ int spins_for(int size) { return size <= static_cast<int>(std::thread::hardware_
 }  // namespace
 
 ThreadTeam::ThreadTeam(int size) : size_(size), spins_(spins_for(size)) {
-  for (int member = 1; member < size; ++member) threads_.emplace_back([this, member] { work(member); });
+  threads_.reserve(static_cast<std::size_t>(size));
+  try {
+    for (int member = 1; member < size; ++member) threads_.emplace_back([this, member] { work(member); });
+  } catch (...) {  // the system gives no more: those that are there must not outlive the team
+    dismiss();
+    throw;
+  }
 }
 
-ThreadTeam::~ThreadTeam() {
+ThreadTeam::~ThreadTeam() { dismiss(); }
+
+void ThreadTeam::dismiss() {
   leaving_.store(true);
   task_number_.fetch_add(1);
   task_number_.notify_all();

@@ -12,6 +12,7 @@ namespace talus {
 /// each other by spinning for a moment, then sleeping. Running a task allocates nothing.
 class ThreadTeam {
  public:
+  /// Throws std::system_error where the system gives no more threads.
   explicit ThreadTeam(int size);
   ~ThreadTeam();
   ThreadTeam(const ThreadTeam&) = delete;
@@ -33,6 +34,7 @@ class ThreadTeam {
   void wait_for_all();
 
  private:
+  void dismiss();
   void start();
   void work(int member);
 

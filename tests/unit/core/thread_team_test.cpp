@@ -1,10 +1,17 @@
 #include "core/thread_team.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include <array>
+#include <cstdlib>
+#include <fstream>
 #include <numeric>
+#include <system_error>
 #include <vector>
+
+#include "core/sanitizers.h"
 
 namespace talus {
 namespace {
@@ -53,6 +60,26 @@ TEST(ThreadTeam, waits_for_all_between_two_parts_of_a_task) {
     });
     EXPECT_EQ(sums, (std::array<int, 3>{6, 6, 6}));
   }
+}
+
+// Threads that are there already must be let go, or their destructors end the program.
+TEST(ThreadTeam, that_the_system_has_no_threads_for_is_an_error) {
+  if (sanitizes_addresses || sanitizes_threads) GTEST_SKIP() << "sanitizers reserve memory beyond any limit";
+  const auto make = [] {
+    std::ifstream pages("/proc/self/statm");
+    rlim_t size = 0;
+    pages >> size;
+    size = size * static_cast<rlim_t>(sysconf(_SC_PAGESIZE)) + (rlim_t{64} << 20);  // a few stacks of threads
+    const rlimit limit = {size, size};
+    setrlimit(RLIMIT_AS, &limit);
+    try {
+      ThreadTeam team(200);
+    } catch (const std::system_error&) {
+      std::_Exit(3);
+    }
+    std::_Exit(0);
+  };
+  EXPECT_EXIT(make(), testing::ExitedWithCode(3), "");
 }
 
 }  // namespace
