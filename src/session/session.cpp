@@ -72,6 +72,7 @@ RunStatics run_statics(const Scenario& scenario, const World& world) {
   statics.mean_diameter = scenario.grains.mean_diameter;
   statics.gravity = world.gravity;
   statics.friction = scenario.contact.friction;
+  statics.wall_friction = scenario.contact.wall_friction;
   return statics;
 }
 
@@ -160,13 +161,37 @@ void Session::record_start() {
 const StepReport& Session::advance() {
   if (!broken_guard_.empty() && schedule_.phase != Phase::done)
     throw Error(ExitCode::bad_data, broken_guard_);
-  if (schedule_.phase == Phase::deposition)
-    advance_deposition();
-  else if (schedule_.phase == Phase::tilt)
-    advance_tilt();
-  else if (schedule_.phase == Phase::flow)
-    advance_flow();
+  const BeforeStep before = before_step();
+  try {
+    if (schedule_.phase == Phase::deposition)
+      advance_deposition();
+    else if (schedule_.phase == Phase::tilt)
+      advance_tilt();
+    else if (schedule_.phase == Phase::flow)
+      advance_flow();
+  } catch (...) {
+    if (world_.step == before.step) go_back_to(before);  // the step could not be taken
+    throw;
+  }
   return report_;
+}
+
+Session::BeforeStep Session::before_step() const {
+  BeforeStep before{world_.step, world_.tilt, schedule_.tilt_steps, schedule_.flow_steps, {}};
+  if (schedule_.drag) {
+    const Index grain = schedule_.drag->grain;
+    before.dragged = {world_.grains.vx[grain], world_.grains.vy[grain]};
+  }
+  return before;
+}
+
+void Session::go_back_to(const BeforeStep& before) {
+  world_.tilt = before.tilt;
+  schedule_.tilt_steps = before.tilt_steps;
+  schedule_.flow_steps = before.flow_steps;
+  if (!schedule_.drag) return;
+  world_.grains.vx[schedule_.drag->grain] = before.dragged.x;
+  world_.grains.vy[schedule_.drag->grain] = before.dragged.y;
 }
 
 bool Session::have_all_arrived() const {

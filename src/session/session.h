@@ -81,7 +81,17 @@ class Session {
   Checkpoint checkpoint(double seconds_writing) const;
 
  private:
+  /// What is changed ahead of a step, which may turn out not to be possible.
+  struct BeforeStep {
+    std::int64_t step;
+    double tilt;
+    std::int64_t tilt_steps, flow_steps;
+    Vec2 dragged;  ///< velocity of the grain that is dragged, if any
+  };
+
   StepSettings settings() const;
+  BeforeStep before_step() const;
+  void go_back_to(const BeforeStep& before);
   bool is_quiet() const;  ///< after the last step slower than deposition.rest_velocity
   bool is_at_rest() const { return schedule_.quiet_steps >= rest_steps; }
   bool have_all_arrived() const;

@@ -260,6 +260,23 @@ TEST(Friction, holds_in_the_deposition_and_after_it) {
   EXPECT_EQ(session.law().wall_friction, 0.5);
 }
 
+// What is kept after an error must be what a resumed run and a replay come to.
+TEST(FailedStep, leaves_the_session_as_it_was) {
+  Session session = tilting(small_bed());
+  for (int k = 0; k < 10; ++k) session.advance();
+  const Grains& grains = session.world().grains;
+  session.apply({0, CommandKind::drag, 3, grains.x[3] + 0.01, grains.y[3] + 0.05});
+  session.advance();
+  Checkpoint checkpoint = session.checkpoint(0.0);
+  checkpoint.world.gravity = std::numeric_limits<double>::infinity();
+  Session broken(small_bed(), checkpoint);
+  const std::uint64_t state = state_hash(broken.world());
+  const std::int64_t tilt_steps = broken.schedule().tilt_steps;
+  EXPECT_THROW(broken.advance(), Error);
+  EXPECT_EQ(state_hash(broken.world()), state);
+  EXPECT_EQ(broken.schedule().tilt_steps, tilt_steps);
+}
+
 TEST(TiltRate, is_that_of_the_next_steps_whose_length_stays) {
   Session session = tilting(small_bed());
   for (int k = 0; k < 10; ++k) session.advance();
