@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 
 #include "analysis/disjoint_sets.h"
 
@@ -142,10 +143,11 @@ class PebbleGame {
   DisjointSets sets_{size()};
   std::vector<std::array<Index, 3>> pebbles_;   ///< of each root: the body that a pebble covers, or nobody
   std::vector<std::vector<Index>> neighbours_;  ///< of each root: bodies with a constraint to it
-  std::vector<Index> seen_, rigid_, floppy_;    ///< the last search, and the last component, that met a body
-  std::vector<Index> from_;                     ///< the body before it in the last search
+  // Of a large bed there are more searches than an Index counts.
+  std::vector<std::int64_t> seen_, rigid_, floppy_;  ///< the last search, or component, that met a body
+  std::vector<Index> from_;                          ///< the body before it in the last search
   std::vector<Index> path_, cluster_;
-  Index search_ = 0, component_ = 0;
+  std::int64_t search_ = 0, component_ = 0;
 };
 
 }  // namespace
