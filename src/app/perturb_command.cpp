@@ -1,6 +1,7 @@
 /// `talus perturb`: how strong a push starts an avalanche, at tilts on the way to failure.
 
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fmt/core.h>
@@ -20,6 +21,7 @@
 #include "app/perturbed_run.h"
 #include "core/errors.h"
 #include "core/output_file.h"
+#include "core/trigonometry.h"
 #include "core/visible_text.h"
 #include "ensemble/worker.h"
 #include "figures/perturbation_figure.h"
@@ -57,6 +59,24 @@ void perturb_seed(const PerturbArguments& arguments, const EnsembleManifest& wan
   refuse_failures(plan, "its trials are not complete");
 }
 
+/// A figure of no state would have nothing to show.
+void refuse_no_states(const PerturbArguments& arguments, const RunGroup& group, const Table& states) {
+  if (!states.columns.front().values.empty()) return;
+  double lowest = not_known, highest = not_known;
+  for (const FigureRun& run : group.runs) {
+    lowest = std::fmin(lowest, degrees(run.analysis.theta_c));
+    highest = std::fmax(highest, degrees(run.analysis.theta_c));
+  }
+  const std::string end = std::isnan(lowest)
+                              ? std::string("none of the beds failed")
+                              : fmt::format("the beds failed at {:.2f} to {:.2f} deg", lowest, highest);
+  throw Error(
+      ExitCode::bad_data,
+      fmt::format("no copy was pushed: no tilt from --from {:g} deg on was reached before failure, and {}; "
+                  "give a lower --from, and another folder",
+                  arguments.plan.first, end));
+}
+
 /// Reports the seeds that are done. The tables are written in any case, the figure where there is a gnuplot.
 void report(const PerturbArguments& arguments, const EnsemblePlan& plan) {
   std::vector<std::string> paths;
@@ -71,6 +91,7 @@ void report(const PerturbArguments& arguments, const EnsemblePlan& plan) {
   const std::string text = perturbation_markdown(groups.front(), tables);
   write_text(folder / file_of(figure, figure.tables.front()), csv_text(figure.tables.front()));
   write_text(folder / "perturb.md", text);
+  refuse_no_states(arguments, groups.front(), figure.tables.front());
   std::printf("%s", text.c_str());
   try {
     require_gnuplot();
