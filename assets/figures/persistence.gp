@@ -19,7 +19,7 @@ set xrange [0 : 1.1 * theta_c]
 eval left(2)
 set label 1 "(b)"
 set ylabel "total persistence per grain" offset 1.2
-set key inside center left
+set key inside bottom left
 plot [] [0:*] \
   data using "theta":"components" with linespoints linestyle 1 pointsize 0.3 * symbol title "components", \
   data using "theta":"loops" with linespoints linestyle 2 pointsize 0.3 * symbol title "loops"

@@ -36,6 +36,7 @@ std::vector<const FrameRecord*> frames_to_failure(const Analysis& analysis) {
 
 MemberSeries member_series(const Analysis& analysis, double mean_diameter) {
   const std::vector<const FrameRecord*> frames = frames_to_failure(analysis);
+  const bool other_side = last_rise(analysis.frames).other_side;
   MemberSeries found;
   for (const FrameRecord* frame : frames) found.theta.push_back(degrees(std::abs(frame->tilt)));
   for (const Quantity& quantity : quantities()) {
@@ -44,7 +45,8 @@ MemberSeries member_series(const Analysis& analysis, double mean_diameter) {
     for (std::size_t f = 0; f < count; ++f) {
       NamedSeries series{element_name(quantity.name, f), scaled_unit(quantity), {}};
       for (const FrameRecord* frame : frames)
-        series.values.push_back(scaled(quantity, number_of(quantity, *frame, f), mean_diameter));
+        series.values.push_back(
+            scaled(quantity, number_on_one_side(quantity, *frame, f, other_side), mean_diameter));
       found.series.push_back(std::move(series));
     }
   }

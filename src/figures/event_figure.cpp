@@ -36,7 +36,7 @@ std::vector<FigureEvent> rearrangements_of(const RunChoice& runs) {
 
 std::vector<Column> event_columns(const std::vector<FigureEvent>& events) {
   std::vector<Column> columns = {
-      {"theta", "deg", "tilt at which the rearrangement begins", {}},
+      {"theta", "deg", "magnitude of the tilt at which the rearrangement begins", {}},
       {"seed", "1", "seed of its run", {}},
       {"energy", "m g D", "energy released", {}},
       {"waiting", "deg", "tilt since the end of the event before", {}},
@@ -50,7 +50,7 @@ std::vector<Column> event_columns(const std::vector<FigureEvent>& events) {
     const EventRecord& event = *of.event;
     const double diameter = of.run->mean_diameter;
     const double time = std::sqrt(diameter / of.run->file->header().statics.gravity);
-    const double row[] = {degrees(event.begin),
+    const double row[] = {degrees(std::abs(event.begin)),
                           static_cast<double>(of.run->scenario.seed),
                           of.energy,
                           degrees(event.waiting),

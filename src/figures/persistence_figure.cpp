@@ -1,5 +1,6 @@
 #include "figures/persistence_figure.h"
 
+#include <cmath>
 #include <fmt/core.h>
 #include <string>
 
@@ -26,13 +27,13 @@ Table diagram_table(const FigureRun& run, const std::string& state, std::size_t 
 
 Table curve_table(const FigureRun& run) {
   Table table{"",
-              {{"theta", "deg", "tilt", {}},
+              {{"theta", "deg", "magnitude of the tilt", {}},
                {"components", "1", "total persistence of components, per grain", {}},
                {"loops", "1", "total persistence of loops, per grain", {}},
                {"components_change", "1", "distance of the diagrams of components from the frame before", {}},
                {"loops_change", "1", "distance of the diagrams of loops from the frame before", {}}}};
   for (const FrameRecord& frame : run.analysis.frames) {
-    const double row[] = {degrees(frame.tilt), frame.component_persistence, frame.loop_persistence,
+    const double row[] = {degrees(std::abs(frame.tilt)), frame.component_persistence, frame.loop_persistence,
                           frame.network_change[0], frame.network_change[1]};
     for (std::size_t c = 0; c < std::size(row); ++c) table.columns[c].values.push_back(row[c]);
   }
@@ -64,7 +65,7 @@ std::optional<Figure> persistence_figure(std::span<const RunGroup> groups) {
   figure.tables = {curve_table(run), diagram_table(run, "start", 0), diagram_table(run, "repose", repose)};
   set_variable(figure, "theta_c", degrees(run.analysis.theta_c));
   for (const auto& [name, frame] : {std::pair{"theta_start", std::size_t{0}}, {"theta_repose", repose}})
-    set_variable(figure, name, gnuplot_quoted(angle_text(run.analysis.frames[frame].tilt)));
+    set_variable(figure, name, gnuplot_quoted(angle_text(std::abs(run.analysis.frames[frame].tilt))));
   return figure;
 }
 

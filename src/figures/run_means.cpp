@@ -32,7 +32,8 @@ RunCurve curve_over_tilt(const FigureRun& run, std::span<const FrameColumn> colu
   for (const FrameColumn& column : columns) {
     std::vector<double>& values = curve.values.emplace_back();
     for (std::size_t frame = 0; frame < curve.angles.size(); ++frame)
-      values.push_back(column.value(run, rise.first + frame));
+      values.push_back((column.has_side && rise.other_side ? -1.0 : 1.0) *
+                       column.value(run, rise.first + frame));
   }
   return curve;
 }
@@ -130,7 +131,8 @@ FrameColumn column_of(const std::string& name, const Quantity& quantity, std::si
   return {name, scaled_unit(quantity), quantity.definition,
           [quantity, f](const FigureRun& run, std::size_t frame) {
             return scaled(quantity, number_of(quantity, run.analysis.frames.at(frame), f), run.mean_diameter);
-          }};
+          },
+          has_side(quantity)};
 }
 
 std::vector<Column> means_over_runs(std::span<const FigureRun* const> runs,
@@ -147,8 +149,8 @@ std::vector<Column> means_over_runs(std::span<const FigureRun* const> runs,
   for (std::size_t c = 0; c < columns_of_frames.size(); ++c) {
     std::vector<std::vector<double>> rows;
     for (const RunCurve& curve : curves) rows.push_back(curve.values[c]);
-    const auto& [name, unit, meaning, value] = columns_of_frames[c];
-    for (Column& mean : mean_columns(common, rows, {name, unit, meaning, {}}))
+    const FrameColumn& column = columns_of_frames[c];
+    for (Column& mean : mean_columns(common, rows, {column.name, column.unit, column.meaning, {}}))
       columns.push_back(std::move(mean));
   }
   return columns;

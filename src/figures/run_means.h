@@ -57,6 +57,7 @@ bool stands_at(const FigureRun& run, double tilt);
 struct FrameColumn {
   std::string name, unit, meaning;  ///< as Column has them
   std::function<double(const FigureRun& run, std::size_t frame)> value;
+  bool has_side = false;  ///< has the other sign where the bed slopes to the other side (last_rise.h)
 };
 /// A quantity of frames, in the unit of tables; at threshold f where it depends on one.
 FrameColumn column_of(const std::string& name, const Quantity& quantity, std::size_t f = 0);

@@ -1,4 +1,5 @@
 #include <cfloat>
+#include <cmath>
 #include <fmt/core.h>
 
 #include "core/errors.h"
@@ -130,7 +131,8 @@ void draw_replay(Gui& gui) {
   fact("θ", fmt::format("{:.3f}°", degrees(model.frame().tilt)));
   const bool failed = model.theta_c_known();
   fact("θ_c", failed ? fmt::format("{:.2f}°", degrees(model.theta_c())) : "–");
-  fact("θ_c − θ", failed ? fmt::format("{:.2f}°", degrees(model.theta_c() - model.frame().tilt)) : "–");
+  fact("θ_c − θ",
+       failed ? fmt::format("{:.2f}°", degrees(model.theta_c() - std::abs(model.frame().tilt))) : "–");
   fact("step", std::to_string(model.frame().step));
   fact("time", fmt::format("{:.3f} s", model.frame().time));
   fact("contacts", std::to_string(model.frame().contacts.count()));

@@ -108,7 +108,7 @@ void find_failure_ratio(const std::vector<ObservableRow>& rows, Analysis& analys
 }
 
 void find_transitions(Analysis& analysis) {
-  const auto [first, frames, tilts] = last_rise(analysis.frames);
+  const auto [first, frames, tilts, other_side] = last_rise(analysis.frames);
   for (std::size_t f = 0; f < analysis.thresholds.size(); ++f) {
     std::vector<double> lengths;
     std::vector<Index> spans;
@@ -128,7 +128,7 @@ void find_transitions(Analysis& analysis) {
 }
 
 void find_growth(Analysis& analysis) {
-  const auto [first, frames, tilts] = last_rise(analysis.frames);
+  const auto [first, frames, tilts, other_side] = last_rise(analysis.frames);
   std::vector<double> means, weighted_means;
   for (const FrameRecord* frame : frames) {
     means.push_back(frame->critical_mean);

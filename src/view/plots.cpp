@@ -48,7 +48,7 @@ double place_on(const PlotAbscissa& abscissa, double tilt, double time) {
     case PlotAxis::tilt:
       return degrees(tilt);
     case PlotAxis::angle_left:
-      return degrees(abscissa.theta_c - tilt);
+      return degrees(abscissa.theta_c - std::abs(tilt));
     case PlotAxis::time:
       return time;
   }

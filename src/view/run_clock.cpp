@@ -4,6 +4,8 @@
 #include <cmath>
 #include <span>
 
+#include "analysis/last_rise.h"
+
 namespace talus {
 namespace {
 
@@ -31,7 +33,10 @@ std::optional<std::size_t> linked_frame(PlotAxis clock, const RunInstants& shown
   if (at.in_flow && other.times.size() > other.tilt_count)
     return other.tilt_count + nearest_place(std::span(other.times).subspan(other.tilt_count),
                                             at.time - end_of_tilt(shown) + end_of_tilt(other));
-  return nearest_place(std::span(other.tilts).first(other.tilt_count), at.tilt + ahead);
+  const auto tilts = std::span(other.tilts).first(other.tilt_count);
+  if (clock == PlotAxis::angle_left)
+    return nearest_place(magnitudes(tilts, {0, tilts.size()}), std::abs(at.tilt) + ahead);
+  return nearest_place(tilts, at.tilt);
 }
 
 }  // namespace talus

@@ -38,6 +38,7 @@ struct EventList {
   const TimelineSource& source;
   std::size_t rise_begins;                   ///< frame
   std::vector<double> rise_tilts;            ///< rad, magnitudes
+  bool other_side;                           ///< the bed slopes to it in the rise
   std::vector<double> row_tilts, row_times;  ///< rad, magnitudes, and s: of the rows of the rise
   std::vector<TimelineEvent> events;
 
@@ -45,17 +46,18 @@ struct EventList {
     const SeriesPart rise = last_rise(of.tilts);
     rise_begins = rise.first;
     rise_tilts = magnitudes(of.tilts, rise);
+    other_side = is_to_other_side(of.tilts, rise);
     const std::vector<ObservableRow> rows = rows_of_last_rise(of.rows);
     row_tilts = column_of(rows, Observable::tilt);
     row_times = column_of(rows, Observable::time);
   }
 
-  /// What happens at a tilt (rad) of the last rise.
+  /// What happens in the last rise, at a tilt of that magnitude (rad).
   void add(const char* name, const char* label, const std::string& what, double tilt,
            TimelineEvent::Kind kind = TimelineEvent::Kind::transition) {
     if (!std::isfinite(tilt)) return;
-    add_at(name, label, what, tilt, static_cast<double>(rise_begins) + place_among(rise_tilts, tilt),
-           time_of(tilt), kind);
+    add_at(name, label, what, other_side ? -tilt : tilt,
+           static_cast<double>(rise_begins) + place_among(rise_tilts, tilt), time_of(tilt), kind);
   }
 
   /// s, at which the last rise comes to a tilt (rad), between two rows.
@@ -110,7 +112,7 @@ void add_of_frames(EventList& list, double theta_c) {
                 static_cast<double>(*first), *first < source.times.size() ? source.times[*first] : not_known,
                 TimelineEvent::Kind::transition);
   if (source.may_change || source.values.size() < source.tilts.size()) return;
-  const auto [begin, frames, tilts] = last_rise(source.values);
+  const auto [begin, frames, tilts, other_side] = last_rise(source.values);
   std::vector<double> lengths;
   std::vector<Index> spans;
   for (const FrameRecord* frame : frames) {

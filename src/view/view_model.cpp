@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fmt/core.h>
 
+#include "analysis/last_rise.h"
 #include "core/errors.h"
 #include "core/trigonometry.h"
 #include "io/run_file.h"
@@ -261,7 +262,8 @@ void ViewModel::go_to_place(double x) {
   if (data_->axis == PlotAxis::time)
     frame = nearest_frame(data_->replay ? data_->frames->file().all_frame_times() : data_->frame_times(), x);
   else if (data_->axis == PlotAxis::angle_left)
-    frame = nearest_frame(frame_tilts(), data_->theta_c.value_or(not_known) - radians(x));
+    frame = nearest_frame(magnitudes(frame_tilts(), {0, frame_tilts().size()}),
+                          data_->theta_c.value_or(not_known) - radians(x));
   else
     frame = nearest_frame(frame_tilts(), radians(x));
   if (frame) go_to(*frame);

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/trigonometry.h"
+
 namespace talus {
 namespace {
 
@@ -58,6 +60,24 @@ TEST(LastRise, of_frames_tells_them_and_their_tilts) {
   EXPECT_EQ(rise.first, 1u);
   EXPECT_EQ(rise.tilts, (std::vector<double>{0.1, 0.2}));
   EXPECT_EQ(rise.frames, (std::vector<const FrameRecord*>{&frames[1], &frames[2]}));
+  EXPECT_TRUE(rise.other_side);
+  frames[3].tilt = 0.3;
+  EXPECT_FALSE(last_rise(frames).other_side);
+}
+
+TEST(LastRise, of_a_bed_that_slopes_to_the_other_side_is_mirrored) {
+  FrameRecord frame;
+  frame.sigma_t_over_n = -0.25;
+  frame.stress_ratio = 0.5;
+  frame.texture_axis = 2.0;
+  const auto number = [&frame](const QuantityMember& member, bool other_side) {
+    return number_on_one_side(quantity_of(member), frame, 0, other_side);
+  };
+  EXPECT_EQ(number(&FrameRecord::sigma_t_over_n, false), -0.25);
+  EXPECT_EQ(number(&FrameRecord::sigma_t_over_n, true), 0.25);
+  EXPECT_EQ(number(&FrameRecord::stress_ratio, true), 0.5);
+  EXPECT_EQ(number(&FrameRecord::texture_axis, false), 2.0);
+  EXPECT_NEAR(number(&FrameRecord::texture_axis, true), radians(180.0) - 2.0, 1e-15);
 }
 
 }  // namespace
