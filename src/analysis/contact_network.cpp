@@ -51,18 +51,17 @@ Backbone find_backbone(const BedFrame& bed, const std::vector<Index>& degree) {
   return backbone;
 }
 
-/// |f_t| / (mu f_n), rounded down to 1.
-double mobilisation(const BedFrame& bed, Index c) {
-  return std::min(1.0,
-                  std::fabs(bed.frame.contacts.ft[c]) / (bed.statics.friction * bed.frame.contacts.fn[c]));
-}
-
 /// Scalar product of the deviators of the symmetric parts of two tensors, up to a factor.
 double deviator_product(const Tensor2& one, const Tensor2& other) {
   return (one.xx - one.yy) * (other.xx - other.yy) + (one.xy + one.yx) * (other.xy + other.yx);
 }
 
 }  // namespace
+
+double mobilisation_of(const BedFrame& bed, Index c) {
+  const double allowed = friction_of_contact(bed.statics, bed.frame, c) * bed.frame.contacts.fn[c];
+  return allowed > 0.0 ? std::min(1.0, std::fabs(bed.frame.contacts.ft[c]) / allowed) : 1.0;
+}
 
 void take_coordination(const BedFrame& bed, FrameRecord& record) {
   const FrameContacts& contacts = bed.frame.contacts;
@@ -93,7 +92,7 @@ Histogram normal_forces(const Frame& frame, Histogram bins) {
 
 Histogram mobilised_friction(const BedFrame& bed, int bins) {
   Histogram histogram(0.0, 1.0, bins);
-  for (Index c = 0; c < bed.frame.contacts.count(); ++c) histogram.add(mobilisation(bed, c));
+  for (Index c = 0; c < bed.frame.contacts.count(); ++c) histogram.add(mobilisation_of(bed, c));
   return histogram;
 }
 
@@ -102,7 +101,7 @@ std::vector<double> mobilised_friction_of_grains(const BedFrame& bed) {
   std::vector<double> sum(count, 0.0), contacts(count, 0.0);
   for (Index c = 0; c < bed.frame.contacts.count(); ++c)
     for_each_free_end(bed, c, [&](Index i) {
-      sum[i] += mobilisation(bed, c);
+      sum[i] += mobilisation_of(bed, c);
       contacts[i] += 1.0;
     });
   for (std::size_t i = 0; i < count; ++i) sum[i] = contacts[i] > 0.0 ? sum[i] / contacts[i] : not_known;

@@ -17,12 +17,14 @@ void take_coordination(const BedFrame& bed, FrameRecord& record);
 
 /// Normal forces over their mean, counted into `bins`.
 Histogram normal_forces(const Frame& frame, Histogram bins);
-/// |f_t| / (mu f_n), mu that between grains, in equal bins from 0 to 1. Values above 1 (rounding) count as 1.
+/// |f_t| / (mu f_n) of contact c, mu that of the contact. Above 1 (rounding) it is 1, and without friction,
+/// too: such a contact can slide.
+double mobilisation_of(const BedFrame& bed, Index c);
+/// The same of all contacts, in equal bins from 0 to 1.
 Histogram mobilised_friction(const BedFrame& bed, int bins);
 
-/// Of each free grain, the mean of |f_t| / (mu f_n) over its contacts, those with floor and walls among them;
-/// mu is that between grains, and a contact with more (at a wall that is rougher) counts as 1. NaN where it
-/// has no contact.
+/// Of each free grain, the mean over its contacts, those with floor and walls among them. NaN where it has
+/// no contact.
 std::vector<double> mobilised_friction_of_grains(const BedFrame& bed);
 
 /// The mean normal force, and the contacts with more than it beside the weak others (Radjai et al. 1998). The

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <complex>
 
+#include "analysis/contact_network.h"
+
 namespace talus {
 namespace {
 
@@ -39,7 +41,7 @@ WeakContacts weak_contacts(const BedFrame& bed, double mean_normal_force, std::s
       strong.add(normal * normal);
       continue;
     }
-    const double mobilised = std::abs(contacts.ft[c]) / (bed.statics.friction * contacts.fn[c]);
+    const double mobilised = mobilisation_of(bed, c);
     (mobilised >= coherent_mobilisation ? coherent : incoherent).add(normal * normal);
     by_friction[bin_of(mobilised, edges)].add(normal * normal);
   }

@@ -24,8 +24,7 @@ struct WeakContacts {
   std::vector<double> fabric_by_friction;  ///< of weak contacts, by their |f_t| / (mu f_n)
 };
 
-/// `edges` of the bins of |f_t| / (mu f_n), mu that between grains; a value above the last, from rounding,
-/// belongs to the last bin.
+/// `edges` of the bins of mobilisation_of (contact_network.h).
 WeakContacts weak_contacts(const BedFrame& bed, double mean_normal_force, std::span<const double> edges);
 
 /// Sets members of a record, which are defined in the table of quantities; its mean normal force is known.

@@ -1,6 +1,17 @@
 #include "core/snapshot.h"
 
+#include <cmath>
+
 namespace talus {
+
+bool is_with_wall(const Frame& frame, Index c) {
+  const auto k = static_cast<std::size_t>(c);
+  return frame.contacts.b[k] >= frame.grain_count() && std::abs(frame.contacts.nx[k]) > 0.5;
+}
+
+double friction_of_contact(const RunStatics& statics, const Frame& frame, Index c) {
+  return is_with_wall(frame, c) ? statics.wall_friction : statics.friction;
+}
 
 RunStatics arrived_statics(const RunStatics& all, Index count) {
   RunStatics statics = all;

@@ -56,7 +56,13 @@ struct RunStatics {
   double mean_diameter = 0.0;  ///< m
   double gravity = 0.0;        ///< m/s^2
   double friction = 0.0;       ///< between grains
+  double wall_friction = 0.0;  ///< with the side walls
 };
+
+/// Whether contact c of a frame is one with a side wall: a plane with a normal along the bed.
+bool is_with_wall(const Frame& frame, Index c);
+/// mu of contact c of a frame, as the scenario has it.
+double friction_of_contact(const RunStatics& statics, const Frame& frame, Index c);
 
 /// The statics of a frame with `count` grains, floor included, of a bed that is being poured: the free grains
 /// with the highest ids have not arrived yet.

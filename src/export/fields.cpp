@@ -7,6 +7,7 @@
 #include <iterator>
 #include <numbers>
 
+#include "analysis/contact_network.h"
 #include "core/text.h"
 #include "stress/bed.h"
 
@@ -148,9 +149,8 @@ constexpr auto all_grain_fields = std::to_array<Field>({
 });
 
 Values mobilisation(const ExportedFrame& of, std::size_t) {
-  const FrameContacts& contacts = of.frame.contacts;
-  return of_each(contacts.count(), [&](Index c) {
-    return std::fabs(contacts.ft[c]) / (of.run.statics.friction * contacts.fn[c]);
+  return of_each(of.frame.contacts.count(), [&](Index c) {
+    return mobilisation_of({of.frame, of.run.statics}, c);
   });
 }
 
@@ -187,7 +187,7 @@ constexpr auto all_contact_fields = std::to_array<Field>({
      "f_t on b along t = (-n_y, n_x), per metre of thickness",
      [](const ExportedFrame& of, std::size_t) { return of.frame.contacts.ft; }},
     {"mobilisation", "", "", FieldShape::scalar, FieldNumber::real, "1",
-     "mobilised friction, the size of f_t over mu f_n; mu is that between grains", mobilisation},
+     "mobilised friction, the size of f_t over mu f_n", mobilisation},
     {"status", "", "", FieldShape::scalar, FieldNumber::integer, "1",
      "1 sticking, 2 sliding (friction fully mobilised)",
      [](const ExportedFrame& of, std::size_t) {

@@ -2,8 +2,10 @@
 #include <cmath>
 #include <fmt/core.h>
 
+#include "core/errors.h"
 #include "io/record_fields.h"
 #include "io/run_records.h"
+#include "scenario/scenario.h"
 
 namespace talus {
 namespace {
@@ -58,6 +60,16 @@ RunStatics read_statics(hdf5::Reader& reader) {
   fields.two(edges, statics.length, statics.depth, Range{0.1 * d, 1e6 * d});
   for_each_field(statics, d, fields);
   return statics;
+}
+
+/// What the scenario of the run says, and no data set of its own repeats.
+double stored_wall_friction(const hdf5::Reader& reader, const std::string& scenario) {
+  const std::string path = "/parameters/scenario_resolved";
+  try {
+    return parse_scenario(scenario, path).contact.wall_friction;
+  } catch (const Error& error) {
+    reader.refuse(path, std::string("is no scenario: ") + error.what());
+  }
 }
 
 /// Whether an inverse of a mass is that of the mass, or 0 for a grain of the floor.
@@ -123,6 +135,7 @@ RunHeader read_header(hdf5::Reader& reader, const std::function<bool(const std::
   header.scenario_given = reader.read_text("/parameters/scenario_given");
   header.scenario_resolved = reader.read_text("/parameters/scenario_resolved");
   header.statics = read_statics(reader);
+  header.statics.wall_friction = stored_wall_friction(reader, header.scenario_resolved);
   header.seed = reader.read_scalar<std::uint64_t>("/provenance/seed");
   if (reader.has("/branch") && (!keeps || keeps("/branch"))) {
     header.branch = read_branch(reader);

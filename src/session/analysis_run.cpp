@@ -64,15 +64,14 @@ void analyse_frames(const RunFile& run, const AnalysisParameters& parameters, in
   take_network_changes(networks, run.header().statics.free_count, analysis.frames);
 }
 
-/// What the run has observed already: for each frame that of the last row not after it, by the tilt where
-/// this ascends.
+/// What the run has observed already: for each frame that of the last row not after it. By the time: a
+/// command may hold the tilt.
 void take_observables(const RunFile& run, const std::vector<ObservableRow>& rows, Analysis& analysis) {
-  const Observable order = run.has_program() ? Observable::time : Observable::tilt;
+  const std::vector<double>& times = run.all_frame_times();
   for (std::size_t k = 0; k < analysis.frames.size(); ++k) {
     FrameRecord& frame = analysis.frames[k];
-    const double place = run.has_program() ? run.all_frame_times()[k] : frame.tilt;
-    const auto after = std::ranges::upper_bound(rows, place, {},
-                                                [order](const ObservableRow& row) { return at(row, order); });
+    const auto after = std::ranges::upper_bound(
+        rows, times[k], {}, [](const ObservableRow& row) { return at(row, Observable::time); });
     if (after == rows.begin()) continue;
     const ObservableRow& row = *std::prev(after);
     frame.volume_strain = at(row, Observable::volume_strain);
@@ -146,6 +145,14 @@ void find_growth(Analysis& analysis) {
 
 std::string analysis_key(const RunFile& run, const AnalysisParameters& parameters) {
   std::string text = fmt::format("{}\n{}\n", hash_text(state_hash(run.checkpoint().world)), analysis_version);
+  // Analyses without these lines took every contact for one between grains, and none for mobilised without
+  // friction, and the last row of a hold for all frames in it.
+  const RunStatics& statics = run.header().statics;
+  if (!statics.periodic && statics.wall_friction != statics.friction)
+    text += fmt::format("wall_friction={}\n", statics.wall_friction);
+  if (statics.friction == 0.0) text += "frictionless\n";
+  const auto sets_rate = [](const Command& command) { return command.kind == CommandKind::tilt_rate; };
+  if (std::ranges::any_of(run.commands(), sets_rate)) text += "rows by time\n";
   for (const auto& [name, value] : as_facts(parameters)) text += fmt::format("{}={}\n", name, value);
   return hash_text(hash_bytes(std::as_bytes(std::span(text))));
 }

@@ -29,7 +29,8 @@ ContactInspection inspect_contact(const BedFrame& bed, const ContactKey& key, do
     of.px = contacts.px[c];
     of.py = contacts.py[c];
     of.status = contacts.status[c];
-    of.mobilisation = mobilised(of.fn, of.ft, friction);
+    if (is_with_wall(bed.frame, *found)) of.friction = bed.statics.wall_friction;
+    of.mobilisation = mobilised(of.fn, of.ft, of.friction);
   }
   of.a_name = body_name(bed, key.a, -of.nx);
   of.b_name = body_name(bed, key.b, of.nx);

@@ -23,7 +23,8 @@ struct ContactInspection {
   double mobilisation = 0.0;  ///< the size of f_t over mu f_n; NaN without friction
 };
 
-/// `friction`: that between grains at the time of the frame.
+/// `friction`: that between grains at the time of the frame. A contact with a side wall has that of the
+/// walls.
 ContactInspection inspect_contact(const BedFrame& bed, const ContactKey& key, double friction);
 
 /// "contact forces", over the weight `weight` (N/m), and "mobilisation", with 1, where it slides: along the

@@ -25,6 +25,7 @@ HistoryInstant instant_of(const Frame& frame, const HistoryQuestion& question) {
     instant.fn = frame.contacts.fn[c];
     instant.ft = frame.contacts.ft[c];
     instant.status = frame.contacts.status[c];
+    instant.with_wall = is_with_wall(frame, *found);
   }
   return instant;
 }

@@ -37,6 +37,7 @@ struct HistoryInstant {
   double fn = not_known,
          ft = not_known;  ///< N per metre of thickness; NaN without a contact, 0 where it is open
   ContactStatus status = ContactStatus::open;
+  bool with_wall = false;  ///< where it carries force
 };
 
 HistoryInstant instant_of(const Frame& frame, const HistoryQuestion& question);

@@ -107,7 +107,8 @@ std::vector<Plot> ViewModel::contact_history() const {
   if (!data_->history || !data_->history->question().contact) return {};
   const std::vector<HistoryInstant>& instants = data_->history->instants();
   std::vector<double> friction;
-  for (const HistoryInstant& at : instants) friction.push_back(data_->friction_at(at.step));
+  for (const HistoryInstant& at : instants)
+    friction.push_back(at.with_wall ? statics().wall_friction : data_->friction_at(at.step));
   const double weight = mean_grain_mass(data_->all_statics) * statics().gravity;
   return contact_plots(instants, friction, weight, data_->abscissa());
 }

@@ -24,7 +24,7 @@ const std::map<std::string, std::vector<std::string>> rooms = {
     {"dynamics", {"contact/", "core/", "solver/"}},
     {"stress", {"core/"}},
     {"analysis", {"core/", "stress/"}},
-    {"io", {"analysis/", "core/"}},
+    {"io", {"analysis/", "core/", "scenario/"}},
     {"scenario", {"core/"}},
     {"session", {"analysis/", "contact/", "core/", "dynamics/", "io/", "scenario/", "stress/"}},
     {"problems", {"analysis/", "core/", "dynamics/", "io/", "scenario/", "session/", "solver/"}},

@@ -180,7 +180,7 @@ TEST(PictureSeries, keys_tell_runs_apart_whose_frames_are_the_same) {
   const std::string own = key({});
   EXPECT_EQ(own, key({})) << "wherever the file is";
   EXPECT_NE(own, key({.seed = 2, .scenario = {}, .start = {}}));
-  EXPECT_NE(own, key({.scenario = "another", .start = {}}));
+  EXPECT_NE(own, key({.scenario = "# another", .start = {}}));
   EXPECT_NE(own, key({.scenario = {}, .start = "2026-01-01T00:00:00Z"}));
   EXPECT_NE(own, key({.scenario = {}, .start = {}, .stress_ratio = 0.2}));
 }

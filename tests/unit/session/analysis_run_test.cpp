@@ -29,6 +29,7 @@ constexpr Index free_grains = 4;
 Frame column(double tilt, Index soft) {
   Frame frame;
   frame.tilt = radians(tilt);
+  frame.time = tilt;
   for (Index i = 0; i <= free_grains; ++i) {
     const bool floor = i == free_grains;
     frame.x.push_back(0.5);
@@ -54,9 +55,12 @@ Frame column(double tilt, Index soft) {
   return frame;
 }
 
-/// Frames of 1 deg, one for each entry of `soft`, and rows of observables of 0.5 deg.
-void write_run(const std::string& path, const std::vector<Index>& soft, double theta_c,
-               bool complete = true) {
+/// The tilt after a time (s), deg: 1 deg/s, but for a hold of 1 s at `held`.
+double tilt_at(double time, double held) { return time <= held ? time : std::max(held, time - 1.0); }
+
+/// Frames of 1 s, one for each entry of `soft`, and rows of observables of 0.5 s.
+void write_run(const std::string& path, const std::vector<Index>& soft, double theta_c, bool complete = true,
+               double held = 90.0) {
   RunHeader header;
   header.statics.free_count = free_grains;
   header.statics.radius.assign(free_grains + 1, 0.5 * diameter);
@@ -70,9 +74,11 @@ void write_run(const std::string& path, const std::vector<Index>& soft, double t
   Segment segment;
   for (std::size_t k = 0; k < soft.size(); ++k)
     segment.frames.push_back(column(static_cast<double>(k), soft[k]));
+  for (Frame& frame : segment.frames) frame.tilt = radians(tilt_at(frame.time, held));
   for (int i = 0; i <= 20; ++i) {
     ObservableRow row{};
-    at(row, Observable::tilt) = radians(0.5 * i);
+    at(row, Observable::tilt) = radians(tilt_at(0.5 * i, held));
+    at(row, Observable::time) = 0.5 * i;
     at(row, Observable::volume_strain) = std::fabs(i - 8.0);
     at(row, Observable::solid_fraction) = 0.1 * i;
     segment.observables.push_back(row);
@@ -305,6 +311,13 @@ TEST_F(AnalysisRun, of_a_folder_is_that_of_its_file) {
 TEST_F(AnalysisRun, without_frames_is_refused) {
   write_run(path_, {}, none);
   EXPECT_THROW(analyse_run(RunFile::open(path_), {}, 1, {}), Error);
+}
+
+TEST_F(AnalysisRun, takes_of_a_hold_the_strains_of_each_frame) {
+  write_run(path_, {-1, 1, 1, 1, 1}, 30.0, true, 2.0);
+  const Analysis a = analyse_run(RunFile::open(path_), parse_analysis_settings({"l_min=0"}), 1, {});
+  for (std::size_t k = 0; k < 5; ++k)
+    EXPECT_EQ(number(a, &FrameRecord::volume_strain, k), std::fabs(2.0 * static_cast<double>(k) - 8.0)) << k;
 }
 
 }  // namespace

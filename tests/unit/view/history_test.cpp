@@ -96,6 +96,21 @@ TEST(Contact, is_told_by_force_and_friction) {
   EXPECT_TRUE(std::isnan(inspect_contact({*frame, statics}, {3, 13, 0}, 0.0).mobilisation));
 }
 
+TEST(Contact, with_a_wall_has_the_friction_of_the_wall) {
+  RunStatics statics = example::bed_statics();
+  statics.wall_friction = 1.0;
+  Frame frame = *read_frame(4);
+  const auto c = static_cast<std::size_t>(contact_of_key(frame.contacts, {3, 13, 0}).value());
+  const Index wall = frame.grain_count();
+  frame.contacts.b[c] = wall;
+  frame.contacts.nx[c] = -1.0;
+  const ContactInspection of = inspect_contact({frame, statics}, {3, wall, 0}, 0.5);
+  EXPECT_EQ(of.b_name, "left wall");
+  EXPECT_EQ(of.friction, 1.0);
+  EXPECT_DOUBLE_EQ(of.mobilisation, 0.25);
+  EXPECT_TRUE(instant_of(frame, {{}, ContactKey{3, wall, 0}}).with_wall);
+}
+
 TEST(Contact, its_curves_are_along_the_run) {
   std::vector<HistoryInstant> instants;
   for (std::size_t k = 0; k < 4; ++k)
