@@ -10,7 +10,8 @@ set multiplot
 do for [k = 1:panels] {
   eval panel((k - 1) / 3 + 1, rows, (k - 1) % 3 + 1, 3)
   ordinate = value(sprintf("quantity_%d", k))
-  set label 1 sprintf("(%s) ", "abcdefghijklmnopqrstuvwxyz"[k:k]) . value(sprintf("title_%d", k)) at graph 0, graph 1.09 left font ",6"
+  heading = sprintf("(%s) ", "abcdefghijklmnopqrstuvwxyz"[k:k]) . value(sprintf("title_%d", k))
+  set label 1 heading at graph 0, graph 1.09 left font fitted(heading, 6, width / 3 - panel_left)
   plot @curves
   unset key
 }

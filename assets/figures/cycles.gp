@@ -1,7 +1,7 @@
 # Above, the tilt over time and loops over the tilt, each cycle in its own colour; below, what is left of each cycle.
 loops = figure . ".csv"
 ends = figure . "-ends.csv"
-bar_height = cycles > 1 ? 0.75 : 0  # cm, of the scale of colours above the panels
+bar_height = 0.75  # cm, of the scale of colours and the key above the panels
 set palette defined (0 "#a8cbe6", 0.5 "#3b7ab0", 1 "#0b2545")
 set cbrange [1 : (cycles > 1 ? cycles : 2)]
 unset key

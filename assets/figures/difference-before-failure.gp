@@ -11,7 +11,8 @@ set multiplot
 do for [k = 1:panels] {
   eval panel((k - 1) / 3 + 1, rows, (k - 1) % 3 + 1, 3)
   name = value(sprintf("quantity_%d", k))
-  set label 1 sprintf("(%s) ", "abcdefghijklmnopqrstuvwxyz"[k:k]) . value(sprintf("title_%d", k)) at graph 0, graph 1.09 left font ",6"
+  heading = sprintf("(%s) ", "abcdefghijklmnopqrstuvwxyz"[k:k]) . value(sprintf("title_%d", k))
+  set label 1 heading at graph 0, graph 1.09 left font fitted(heading, 6, width / 3 - panel_left)
   plot file using "angle_left":(difference(name, -2)):(difference(name, 2)) with filledcurves linetype 2 fillstyle transparent solid 0.13 noborder notitle, \
     file using "angle_left":(difference(name, -1)):(difference(name, 1)) with filledcurves linetype 2 fillstyle transparent solid 0.4 noborder notitle, \
     0 with lines linestyle 103 notitle, \

@@ -14,9 +14,10 @@ do for [g = 1:groups] {
     if (threshold > 1) { continue }
     set arrow f from threshold, graph 0 to threshold, graph 1 nohead linestyle 102
     name = f == 1 ? "Γ_c" : "2 Γ_c"
-    set label f name at threshold, graph 0.93 offset character 0.4, 0
+    if (threshold < 0.85) { set label f name at threshold, graph 0.93 left offset character 0.4, 0 }
+    else { set label f name at threshold, graph 0.93 right offset character -0.4, 0 }
   }
-  set label 3 label(g) at graph 0, graph 1 offset 0, character 0.6 font ",7"
+  set label 3 label(g) at graph 0, graph 1 offset 0, character 0.6 font fitted(label(g), 7, width - panel_left - 0.1)
   bands = value(sprintf("several_%d", g)) ? words(angles) : 0
   plot for [a = 1:bands] data(g) using "gamma":(band_low("density_" . word(angles, a), "_error")):(band_high("density_" . word(angles, a), "_error")) with filledcurves linetype a fillstyle transparent solid 0.3 noborder notitle, \
        for [a = 1:words(angles)] data(g) using "gamma":(column("density_" . word(angles, a))) with linespoints linetype a pointinterval 3 title "{/:Italic θ} = " . word(angles, a) . "°"

@@ -47,12 +47,13 @@ do for [i = 1:rows] {
 unset label
 unset arrow
 
-# The scale bar, 10 D.
+# The scale bar, 10 D, shorter in a short bed.
 x0 = left + label_width
-bar = 10.0 / bed_length * panel_width
+bar_diameters = bed_length < 25 ? 2 : bed_length < 40 ? 5 : 10
+bar = 1.0 * bar_diameters / bed_length * panel_width
 set arrow 1 from screen x0 / width, screen 0.3 / height to screen (x0 + bar) / width, screen 0.3 / height \
   heads size screen 0.005, 90 linewidth 1
-set label 1 "10 {/:Italic D}" at screen (x0 + bar + 0.15) / width, screen 0.3 / height left
+set label 1 sprintf("%d {/:Italic D}", bar_diameters) at screen (x0 + bar + 0.15) / width, screen 0.3 / height left
 eval place(x0, 0, panel_width, 0.3)
 plot [0:1] [0:1] NaN notitle
 unset multiplot

@@ -18,9 +18,9 @@ scale = 1
 unset ylabel
 set label 1 "(c)"
 set yrange [0.4 : estimators + 0.6]
-unset ytics
+set ytics ("" 0) scale 0
+eval sprintf('set ytics font ",%g"', estimators > 6 ? 42.0 / estimators : 7)
 do for [e = 1:estimators] { set ytics add (value(sprintf("estimator_%d", e)) e) }
-set ytics font ",7" scale 0
 set arrow 1 from 15, graph 0 to 15, graph 1 nohead linestyle 103
 row_of(g) = column("estimator") + 0.2 * (0.5 * (groups + 1) - g)
 plot for [g = 1:groups] value(sprintf("theta_d_%d", g)) using (bar_from("theta_d")):(row_of(g)):(bar_length("theta_d")):(0) with vectors nohead linetype g dashtype solid linewidth 1, \

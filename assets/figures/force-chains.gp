@@ -20,12 +20,14 @@ do for [side = 0:1] {
 }
 set arrow from 0, bed_bottom to bed_length, bed_bottom nohead linewidth 1
 
-# Scale bar, gravity (0.8 cm long), widths.
+# Scale bar, shorter in a short bed, gravity (0.8 cm long), widths.
+bar_diameters = bed_length < 25 ? 2 : bed_length < 40 ? 5 : 10
+bar = bar_diameters * cm
 x0 = margin * cm
 y0 = 0.65
-set arrow from screen x0 / width, screen y0 / height to screen (x0 + 10 * cm) / width, screen y0 / height heads size screen 0.005, 90 linewidth 1
-set label "10 {/:Italic D}" at screen (x0 + 10 * cm + 0.15) / width, screen y0 / height left
-xg = x0 + 10 * cm + 2.2
+set arrow from screen x0 / width, screen y0 / height to screen (x0 + bar) / width, screen y0 / height heads size screen 0.005, 90 linewidth 1
+set label sprintf("%d {/:Italic D}", bar_diameters) at screen (x0 + bar + 0.15) / width, screen y0 / height left
+xg = x0 + bar + 2.2
 set label "{/:Bold g}" at screen (xg - 0.35) / width, screen y0 / height right
 set arrow from screen (xg - 0.4 * sin(tilt)) / width, screen (y0 + 0.4 * cos(tilt)) / height \
   to screen (xg + 0.4 * sin(tilt)) / width, screen (y0 - 0.4 * cos(tilt)) / height head filled size screen 0.012, 18 linewidth 1

@@ -27,6 +27,9 @@ if (exists("key_entries")) {
   height = height + key_height
 }
 
+# The font of a text that is to be no longer than so many cm.
+fitted(text, size, longest) = sprintf(",%g", 0.0186 * size * strlen(text) > longest ? longest / (0.0186 * strlen(text)) : size)
+
 font = "DejaVu Sans,8"
 # Each terminal has its own unit: all scales below give 8 pt letters and lines of 0.5 pt for a width of 1.
 if (pass == 1) eval sprintf('set terminal pdfcairo enhanced color size %gcm,%gcm font "%s" fontscale 0.75', width, height, font)
@@ -40,7 +43,7 @@ set style fill solid 0.25 noborder
 set key above left Left reverse samplen 3 spacing 1.1 font ",7"
 # A text that is longer than the figure is wide has smaller letters.
 if (exists("key_entries") && 0.13 * key_longest > width - 2.4) {
-  eval sprintf('set key font ",%g"', 7 * (width - 2.4) / (0.13 * key_longest) < 5 ? 5 : 7 * (width - 2.4) / (0.13 * key_longest))
+  eval sprintf('set key font ",%g"', 7 * (width - 2.4) / (0.13 * key_longest) < 4 ? 4 : 7 * (width - 2.4) / (0.13 * key_longest))
 }
 if (exists("key_entries")) {
   eval sprintf('set key at screen %g, screen %g left top vertical maxrows %d', 1.2 / width, 1 - 0.1 / height, key_rows)
