@@ -13,32 +13,35 @@ constexpr Index nobody = -1;
 
 /// Each body has three pebbles, one for each of its motions. A pebble is free, or covers a constraint to
 /// another body. A constraint is independent if four pebbles can be brought together on its two bodies, since
-/// three always can be: the motions of both as one. Where no fourth is left after it, the bodies have become
-/// rigid, with all from which no free pebble but those three can be reached, and go on as one body.
+/// three always can be: the motions of both as one. Where a fourth cannot be brought, the bodies are rigid,
+/// with all that was met on the way, and go on as one body. So a search meets a rigid cluster once, however
+/// large it is.
 class PebbleGame {
  public:
   explicit PebbleGame(Index bodies)
       : bodies_(bodies),
         pebbles_(size(), {nobody, nobody, nobody}),
-        neighbours_(size()),
         seen_(size(), 0),
-        rigid_(size(), 0),
-        floppy_(size(), 0),
         from_(size(), nobody) {}
 
   /// Whether it is independent of the constraints before it.
   bool add_constraint(Index a, Index b) {
     const Index u = root(a), v = root(b);
-    if (u == v) return false;
-    while (free_of(u) + free_of(v) < 4)
-      if (!bring_pebble(u, v) && !bring_pebble(v, u)) return false;
+    if (u == v || join_if_rigid(u, v)) return false;
     const Index covering = free_of(u) > 0 ? u : v;
     *std::ranges::find(pebbles_[covering], nobody) = covering == u ? v : u;
-    neighbours_[u].push_back(v);
-    neighbours_[v].push_back(u);
-    const bool is_tight = free_of(u) + free_of(v) == 3;
-    if (is_tight && !bring_pebble(u, v) && !bring_pebble(v, u)) make_rigid(u, v);
+    join_if_rigid(u, v);
     return true;
+  }
+
+  /// Joins two bodies, with all that their pebbles lead to, if they can only move as one. Returns whether so.
+  bool join_if_rigid(Index u, Index v) {
+    while (free_of(u) + free_of(v) < 4)
+      if (!bring_pebble(u, v) && !bring_pebble(v, u)) {
+        make_rigid(u, v);
+        return true;
+      }
+    return false;
   }
 
   Index root(Index body) { return sets_.find(body).root; }
@@ -83,71 +86,31 @@ class PebbleGame {
     }
   }
 
-  /// Joins u, v, which hold the three free pebbles of their cluster, and all that is rigid with them.
+  /// Joins u, v, on which the last three pebbles are, and all that can be reached from them.
   void make_rigid(Index u, Index v) {
-    ++component_;
+    ++search_;
     cluster_.clear();
     for (const Index body : {u, v}) add_to_cluster(body);
-    for (std::size_t next = 0; next < cluster_.size(); ++next) {
+    for (std::size_t next = 0; next < cluster_.size(); ++next)
       for (const Index covered : pebbles_[cluster_[next]])
         if (covered != nobody) add_to_cluster(root(covered));
-      for (const Index neighbour : neighbours_[cluster_[next]]) take_if_held(root(neighbour));
-    }
-    merge_cluster();
+    for (const Index body : cluster_) sets_.join(cluster_.front(), body, 0);
+    pebbles_[root(cluster_.front())] = {nobody, nobody, nobody};
   }
 
   void add_to_cluster(Index body) {
-    if (rigid_[body] == component_) return;
-    rigid_[body] = component_;
-    cluster_.push_back(body);
-  }
-
-  /// Adds a body from which no free pebble can be reached but those of the cluster, and all on the way.
-  void take_if_held(Index body) {
-    if (rigid_[body] == component_ || floppy_[body] == component_) return;
-    ++search_;
+    if (seen_[body] == search_) return;
     seen_[body] = search_;
-    path_.assign(1, body);
-    for (std::size_t next = 0; next < path_.size(); ++next) {
-      if (floppy_[path_[next]] == component_ || free_of(path_[next]) > 0) {
-        floppy_[body] = component_;
-        return;
-      }
-      for (const Index covered : pebbles_[path_[next]]) {
-        const Index end = root(covered);
-        if (rigid_[end] == component_ || seen_[end] == search_) continue;
-        seen_[end] = search_;
-        path_.push_back(end);
-      }
-    }
-    for (const Index held : path_) add_to_cluster(held);
-  }
-
-  void merge_cluster() {
-    // The longest list of neighbours is kept, the others are appended, and what has become inner is left out.
-    const Index longest =
-        *std::ranges::max_element(cluster_, {}, [&](Index body) { return neighbours_[body].size(); });
-    std::vector<Index> outside = std::move(neighbours_[longest]);
-    for (const Index body : cluster_) {
-      if (body != longest) outside.insert(outside.end(), neighbours_[body].begin(), neighbours_[body].end());
-      neighbours_[body] = {};
-      sets_.join(cluster_.front(), body, 0);
-    }
-    const Index whole = root(cluster_.front());
-    std::erase_if(outside, [&](Index neighbour) { return root(neighbour) == whole; });
-    neighbours_[whole] = std::move(outside);
-    pebbles_[whole] = {nobody, nobody, nobody};
+    cluster_.push_back(body);
   }
 
   Index bodies_;
   DisjointSets sets_{size()};
-  std::vector<std::array<Index, 3>> pebbles_;   ///< of each root: the body that a pebble covers, or nobody
-  std::vector<std::vector<Index>> neighbours_;  ///< of each root: bodies with a constraint to it
-  // Of a large bed there are more searches than an Index counts.
-  std::vector<std::int64_t> seen_, rigid_, floppy_;  ///< the last search, or component, that met a body
-  std::vector<Index> from_;                          ///< the body before it in the last search
+  std::vector<std::array<Index, 3>> pebbles_;  ///< of each root: the body that a pebble covers, or nobody
+  std::vector<std::int64_t> seen_;             ///< the last search that met a body
+  std::vector<Index> from_;                    ///< the body before it in the last search
   std::vector<Index> path_, cluster_;
-  std::int64_t search_ = 0, component_ = 0;
+  std::int64_t search_ = 0;
 };
 
 }  // namespace
@@ -158,6 +121,11 @@ RigidClusters find_rigid_clusters(Index bodies, std::span<const Bond> bonds) {
   for (const Bond& bond : bonds)
     for (int k = 0; k < bond.constraints; ++k)
       ++(game.add_constraint(bond.a, bond.b) ? clusters.independent : clusters.redundant);
+  // A body that is held by a cluster, with no pebble from there to it, has not been joined to it yet.
+  for (const Bond& bond : bonds) {
+    const Index a = game.root(bond.a), b = game.root(bond.b);
+    if (a != b) game.join_if_rigid(a, b);
+  }
   for (Index body = 0; body < bodies; ++body) clusters.label.push_back(game.root(body));
   return clusters;
 }

@@ -32,8 +32,10 @@ Table curve_table(const FigureRun& run) {
                {"loops", "1", "total persistence of loops, per grain", {}},
                {"components_change", "1", "distance of the diagrams of components from the frame before", {}},
                {"loops_change", "1", "distance of the diagrams of loops from the frame before", {}}}};
-  for (const FrameRecord& frame : run.analysis.frames) {
-    const double row[] = {degrees(std::abs(frame.tilt)), frame.component_persistence, frame.loop_persistence,
+  const FramesOfRise rise = last_rise_of(run);
+  for (std::size_t k = 0; k < rise.frames.size(); ++k) {
+    const FrameRecord& frame = *rise.frames[k];
+    const double row[] = {degrees(rise.tilts[k]), frame.component_persistence, frame.loop_persistence,
                           frame.network_change[0], frame.network_change[1]};
     for (std::size_t c = 0; c < std::size(row); ++c) table.columns[c].values.push_back(row[c]);
   }
