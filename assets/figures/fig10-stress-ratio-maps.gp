@@ -36,7 +36,7 @@ unset label
 unset arrow
 
 # The scale bar, 10 D, shorter in a short bed.
-bar_diameters = bed_length < 25 ? 2 : bed_length < 40 ? 5 : 10
+bar_diameters = scale_bar(bed_length)
 bar = 1.0 * bar_diameters / bed_length * panel_width
 set arrow 1 from screen x0 / width, screen (legend_height - 0.45) / height to screen (x0 + bar) / width, screen (legend_height - 0.45) / height \
   heads size screen 0.005, 90 linewidth 1

@@ -1,6 +1,6 @@
 # Widths in ten classes of half the mean force: gray up to the mean, black above it. Lengths of the legend are in cm.
 class(force) = (c = ceil(2 * force), c < 1 ? 1 : c > 10 ? 10 : c)
-scale = 0.45 * 200 / bed_length * width / 17.8
+scale = 0.45 * 200 / (bed_length < 40 ? 40 : bed_length) * width / 17.8  # of short beds as far as the legend has room
 do for [c = 1:10] {
   eval sprintf('set style arrow %d nohead linecolor rgb "%s" linewidth %g', c, c <= 2 ? "#999999" : "#000000", scale * c)
 }
@@ -21,7 +21,7 @@ do for [side = 0:1] {
 set arrow from 0, bed_bottom to bed_length, bed_bottom nohead linewidth 1
 
 # Scale bar, shorter in a short bed, gravity (0.8 cm long), widths.
-bar_diameters = bed_length < 25 ? 2 : bed_length < 40 ? 5 : 10
+bar_diameters = scale_bar(bed_length)
 bar = bar_diameters * cm
 x0 = margin * cm
 y0 = 0.65

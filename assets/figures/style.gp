@@ -27,6 +27,9 @@ if (exists("key_entries")) {
   height = height + key_height
 }
 
+# The length of a scale bar, in D like that of the bed.
+scale_bar(bed_length) = bed_length < 12 ? 1 : bed_length < 25 ? 2 : bed_length < 40 ? 5 : 10
+
 # The font of a text that is to be no longer than so many cm.
 fitted(text, size, longest) = sprintf(",%g", 0.0186 * size * strlen(text) > longest ? longest / (0.0186 * strlen(text)) : size)
 
