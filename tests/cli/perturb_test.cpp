@@ -55,6 +55,17 @@ TEST(Perturb, reports_its_seeds_and_computes_none_again) {
   EXPECT_EQ(std::filesystem::last_write_time(folder.path("p/seed-1.trials.csv")), written);
 }
 
+TEST(Perturb, says_so_where_no_copy_was_pushed) {
+  const TemporaryFolder folder;
+  write_file(folder, "bed.toml", tiny_bed);
+  const Outcome outcome =
+      run_talus({"perturb", "bed.toml", "-o", "p", "--from", "30", "--seeds", "1"}, folder.path());
+  EXPECT_EQ(outcome.exit_code, 65);
+  EXPECT_NE(outcome.err.find("from --from 30 deg on was reached before failure, and none of the beds failed"),
+            std::string::npos)
+      << outcome.err;
+}
+
 TEST(Perturb, draws_its_figure_where_there_is_a_gnuplot) {
   const TemporaryFolder folder;
   write_file(folder, "bed.toml", tiny_bed);

@@ -135,6 +135,20 @@ TEST(MemberSeries, end_at_theta_c_and_have_units_of_tables) {
   EXPECT_EQ(member_series(analysis, 0.01).theta.size(), 3u);
 }
 
+TEST(MemberSeries, of_a_bed_that_slopes_to_the_other_side_are_mirrored) {
+  Analysis analysis = test::blank_analysis({.frames = 3, .thresholds = 1});
+  for (int k = 0; k < 3; ++k) {
+    FrameRecord& frame = analysis.frames[static_cast<std::size_t>(k)];
+    frame.tilt = radians(-10.0 * k);
+    frame.sigma_t_over_n = -0.1 * k;
+  }
+  analysis.theta_c = radians(25.0);
+  const MemberSeries found = member_series(analysis, 0.01);
+  EXPECT_NEAR(found.theta[2], 20.0, 1e-12);
+  const auto shear = std::ranges::find(found.series, "packing/sigma_t_over_n", &NamedSeries::name);
+  EXPECT_DOUBLE_EQ(shear->values[2], 0.2);
+}
+
 TEST(MemberSeries, are_read_back_to_the_last_bit_and_refused_where_they_were_changed) {
   MemberSeries series = member(1, 3.0, 10.0 / 3.0).series;
   series.series[0].values[1] = none;

@@ -66,6 +66,16 @@ class Curves : public ::testing::Test {
     }
   }
 
+  /// Beds between walls, 20 and 40 D deep, with ratios of 0.5 and 1 at failure.
+  void stand_between_walls() {
+    const FigureRun& run = groups_[0].runs[0];
+    const double length = run.scenario.bed.length, diameter = run.mean_diameter;
+    groups_[0].runs[0].scenario.bed.boundary = BedBoundary::walls;
+    fill(&Analysis::failure_ratio, 0.5, 0.0);
+    fill(&Analysis::failure_ratio_spread, 0.1, 0.0);
+    fill(&FrameRecord::volume, 20.0 * length * diameter * diameter, 0.0);
+  }
+
   test::TemporaryFolder folder_;
   std::string path_ = folder_.path("run.h5");
   std::vector<RunGroup> groups_;
@@ -83,6 +93,17 @@ TEST_F(Curves, OfThePackingAreMeansOverAllRuns) {
   EXPECT_NEAR(column(figure->tables[0], "ratio_error")[1], 0.1 / std::sqrt(3.0), 1e-15);
   EXPECT_EQ(variable(*figure, "label_1"), "'PBC, a\\_b (3 runs)'") << "no subscript in the key";
   EXPECT_EQ(variable(*figure, "data_1"), "\"fig05-stress-ratio-pbc-a_b.csv\"");
+}
+
+TEST_F(Curves, OfBedsThatSlopeToTheOtherSideAreMirrored) {
+  fill(&FrameRecord::sigma_t_over_n, -0.1, -0.01);
+  fill(&FrameRecord::stress_ratio, 0.1, 0.01);
+  for (FigureRun& run : groups_[0].runs)
+    for (std::size_t k = 0; k < 3; ++k) run.analysis.frames[k].tilt = radians(-static_cast<double>(k));
+  const auto shear = shear_stress_figure(groups_), ratio = stress_ratio_figure(groups_);
+  EXPECT_NEAR(column(shear->tables[0], "ratio")[1], 0.21, 1e-15);
+  EXPECT_NEAR(column(ratio->tables[0], "ratio")[1], 0.21, 1e-15);
+  EXPECT_NEAR(column(shear->tables[0], "theta")[1], 1.0, 1e-12);
 }
 
 TEST_F(Curves, AreOfAnyQuantityOfFrames) {
@@ -361,13 +382,8 @@ TEST_F(Curves, OfWallsAreThoseOfTheShortestBed) {
 }
 
 TEST_F(Curves, OfWallsNeedNumbersOnly) {
-  RunGroup& group = groups_[0];
-  const double length = group.runs[0].scenario.bed.length, diameter = group.runs[0].mean_diameter;
-  group.runs[0].scenario.bed.boundary = BedBoundary::walls;
-  fill(&Analysis::failure_ratio, 0.5, 0.0);
-  fill(&Analysis::failure_ratio_spread, 0.1, 0.0);
-  fill(&FrameRecord::volume, 20.0 * length * diameter * diameter, 0.0);
-  for (FigureRun& run : group.runs) run.file.reset();
+  stand_between_walls();
+  for (FigureRun& run : groups_[0].runs) run.file.reset();
   const auto figure = wall_ratio_figure(groups_);
   ASSERT_TRUE(figure);
   const Table& table = figure->tables[0];
@@ -378,13 +394,8 @@ TEST_F(Curves, OfWallsNeedNumbersOnly) {
 }
 
 TEST_F(Curves, OfWallsLeaveOutRunsWithoutARatio) {
-  RunGroup& group = groups_[0];
-  const double length = group.runs[0].scenario.bed.length, diameter = group.runs[0].mean_diameter;
-  group.runs[0].scenario.bed.boundary = BedBoundary::walls;
-  fill(&Analysis::failure_ratio, 0.5, 0.0);
-  fill(&Analysis::failure_ratio_spread, 0.1, 0.0);
-  fill(&FrameRecord::volume, 20.0 * length * diameter * diameter, 0.0);
-  for (FigureRun& run : group.runs)
+  stand_between_walls();
+  for (FigureRun& run : groups_[0].runs)
     if (run.analysis.failure_ratio == 1.0) run.analysis.failure_ratio = not_known;
   const auto figure = wall_ratio_figure(groups_);
   ASSERT_TRUE(figure);

@@ -82,6 +82,11 @@ TEST(Plots, of_frames_are_over_degrees) {
   EXPECT_EQ(plot(plots, "lengths").series[1].y[0], 7.0);
 }
 
+TEST(Plots, have_the_same_angle_left_on_either_side) {
+  EXPECT_NEAR(place_on({PlotAxis::angle_left, radians(20.0)}, radians(-18.0), 0.0), 2.0, 1e-12);
+  EXPECT_NEAR(place_on({PlotAxis::tilt, radians(20.0)}, radians(-18.0), 0.0), -18.0, 1e-12);
+}
+
 TEST(Plots, are_over_the_tilt_the_angle_left_or_time) {
   FrameRecord frame{.tilt = radians(18.0), .thresholds = {{}}};
   ObservableRow row{};

@@ -24,6 +24,8 @@ TEST(LinkedFrame, ByTheTilt) {
 TEST(LinkedFrame, ByTheAngleLeft) {
   EXPECT_EQ(linked_frame(PlotAxis::angle_left, failed(3.0), {1.0, 11.0, false}, failed(4.1)), 2u);
   EXPECT_EQ(linked_frame(PlotAxis::angle_left, failed(3.0), {1.0, 11.0, false}, unfailed()), std::nullopt);
+  EXPECT_EQ(linked_frame(PlotAxis::angle_left, failed(3.0), {-1.0, 11.0, false}, failed(4.1)), 2u)
+      << "to whichever side the bed slopes";
 }
 
 TEST(LinkedFrame, ByTheTimeSinceTheFirstFrame) {
