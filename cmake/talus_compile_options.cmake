@@ -8,7 +8,9 @@ target_compile_options(talus_options INTERFACE
   # Same bits for every compiler and optimisation level: no fused multiply-add behind our back.
   -ffp-contract=off
   # Nobody reads errno or the flags of the arithmetic: so loops with a square root or a choice vectorise, with the same bits.
-  -fno-math-errno -fno-trapping-math)
+  -fno-math-errno -fno-trapping-math
+  # gcc looks for memory to free again only from half a gigabyte on: a tenth less time to compile.
+  "$<$<CXX_COMPILER_ID:GNU>:SHELL:--param ggc-min-heapsize=524288>")
 string(TOUPPER "${CMAKE_BUILD_TYPE}" build_type)
 # With a sanitizer gcc warns of faults that are none, as its manual says (array-bounds within std::string, by the length of
 # the path of the sources): there a warning is only that.

@@ -4,39 +4,79 @@ function(talus_room name)
   cmake_parse_arguments(ROOM "" "" "LINK" ${ARGN})
   add_library(talus_${name} STATIC ${ROOM_UNPARSED_ARGUMENTS})
   target_link_libraries(talus_${name} PUBLIC talus_options ${ROOM_LINK})
+  target_compile_options(talus_${name} PRIVATE ${TALUS_ROOM_OPTIONS})
+  if(TALUS_EMBEDDED)
+    talus_embed_into(talus_${name} ${TALUS_EMBEDDED})
+  endif()
   if(TARGET talus_headers)
     target_precompile_headers(talus_${name} REUSE_FROM talus_headers)
+  endif()
+  if(TALUS_JOIN)
     talus_join_sources(talus_${name})
   endif()
 endfunction()
 
-# Compiles the sources of a target several at a time, as one text: most of the time goes into headers, which are read
-# once then. Names that sources keep to themselves must not clash within a target.
+# talus_join_sources(target): compiles the sources of a target eight at a time, as one text, since most of the time goes into
+# headers, which are read once then. Names that sources keep to themselves must not clash within a target. CMake's own
+# UNITY_BUILD names the sources by absolute paths, so that no other clone finds them in the cache of the compiler.
 function(talus_join_sources target)
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ${TALUS_UNITY})
-  if(TALUS_UNITY)
-    # gcc takes a type of such a source for one of a header.
-    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+  # gcc takes a type of such a source for one of a header.
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+  get_target_property(sources ${target} SOURCES)
+  set(number 0)
+  set(count 0)
+  set(text "")
+  foreach(source ${sources})
+    get_source_file_property(alone ${source} SKIP_UNITY_BUILD_INCLUSION)
+    if(alone OR NOT source MATCHES "\\.cpp$")
+      continue()
+    endif()
+    cmake_path(ABSOLUTE_PATH source NORMALIZE OUTPUT_VARIABLE path)
+    cmake_path(IS_PREFIX CMAKE_BINARY_DIR ${path} built)
+    if(built)
+      continue()
+    endif()
+    cmake_path(RELATIVE_PATH path BASE_DIRECTORY ${CMAKE_SOURCE_DIR})
+    string(APPEND text "#include \"${path}\"\n")
+    set_source_files_properties(${source} PROPERTIES HEADER_FILE_ONLY ON)
+    math(EXPR count "${count} + 1")
+    if(count EQUAL TALUS_BATCH)
+      talus_add_batch(${target} ${number} "${text}")
+      math(EXPR number "${number} + 1")
+      set(count 0)
+      set(text "")
+    endif()
+  endforeach()
+  if(count GREATER 0)
+    talus_add_batch(${target} ${number} "${text}")
   endif()
 endfunction()
 
-# talus_test(NAME LABEL sources... [SHARED_BED] [TIMEOUT s] [LINK libraries...]): one GoogleTest program, its cases known
-# to ctest; the target LABEL_tests builds those of a label. Cases that share a bed, which takes long to make, run in one
-# process and are one test of ctest; with AddressSanitizer, whose processes start slowly, all cases of a program are.
+set(TALUS_BATCH 8)
+function(talus_add_batch target number text)
+  set(batch ${CMAKE_CURRENT_BINARY_DIR}/${target}_${number}.cpp)
+  file(CONFIGURE OUTPUT ${batch} CONTENT "${text}" @ONLY)
+  target_sources(${target} PRIVATE ${batch})
+endfunction()
+
+# talus_test(NAME LABEL sources... [TOGETHER] [ALONE sources...] [CHOSEN cases...] [TIMEOUT s] [LINK libraries...]): one
+# GoogleTest program, its cases known to ctest; the target LABEL_tests builds those of a label. Sources named after ALONE
+# use names that others of the program use too, and are compiled by themselves. Cases named after CHOSEN (as a filter of GoogleTest
+# names them) have the label LABEL_chosen: `./bootstrap test` runs them, and --all the others too. TOGETHER, for cases that
+# take less time than the start of a process or share a bed, makes them one test of ctest; AddressSanitizer, whose
+# processes start slowly, does so for all programs.
 function(talus_test name label)
-  cmake_parse_arguments(TEST "SHARED_BED" "TIMEOUT" "LINK" ${ARGN})
+  cmake_parse_arguments(TEST "TOGETHER" "TIMEOUT" "ALONE;LINK;CHOSEN" ${ARGN})
   if(NOT TEST_TIMEOUT)
     set(TEST_TIMEOUT 120)
   endif()
-  add_executable(${name} ${TEST_UNPARSED_ARGUMENTS})
+  add_executable(${name} ${TEST_UNPARSED_ARGUMENTS} ${TEST_ALONE})
+  set_source_files_properties(${TEST_ALONE} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   target_link_libraries(${name} PRIVATE ${TEST_LINK} talus_test_options GTest::gtest_main)
   target_precompile_headers(${name} REUSE_FROM talus_test_headers)
-  # Sources of the program that a test compiles too: clang-tidy reads them, and knows no precompiled headers of gcc.
-  foreach(source ${TEST_UNPARSED_ARGUMENTS})
-    if(source MATCHES "/src/")
-      set_source_files_properties(${source} PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
-    endif()
-  endforeach()
+  if(TALUS_JOIN)
+    talus_join_sources(${name})
+  endif()
   if(NOT TARGET ${label}_tests)
     add_custom_target(${label}_tests)
   endif()
@@ -44,9 +84,15 @@ function(talus_test name label)
   if(TALUS_SANITIZE)
     math(EXPR TEST_TIMEOUT "5 * ${TEST_TIMEOUT}")
   endif()
-  if(TEST_SHARED_BED OR TALUS_SANITIZE)
+  if(TEST_TOGETHER OR TALUS_SANITIZE)
     add_test(NAME ${name} COMMAND ${name})
     set_tests_properties(${name} PROPERTIES LABELS ${label} TIMEOUT ${TEST_TIMEOUT})
+  elseif(TEST_CHOSEN)
+    list(JOIN TEST_CHOSEN ":" chosen)
+    gtest_discover_tests(${name} TEST_FILTER "${chosen}" TEST_LIST ${name}_chosen DISCOVERY_TIMEOUT 60
+      PROPERTIES LABELS ${label}_chosen TIMEOUT ${TEST_TIMEOUT})
+    gtest_discover_tests(${name} TEST_FILTER "-${chosen}" TEST_LIST ${name}_others DISCOVERY_TIMEOUT 60
+      PROPERTIES LABELS ${label} TIMEOUT ${TEST_TIMEOUT})
   else()
     gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES LABELS ${label} TIMEOUT ${TEST_TIMEOUT})
   endif()

@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "core/trigonometry.h"
-#include "process.h"
+#include "support/process.h"
 
 namespace talus::test {
 namespace {

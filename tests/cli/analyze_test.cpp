@@ -7,7 +7,7 @@
 #include <sstream>
 #include <thread>
 
-#include "process.h"
+#include "support/process.h"
 
 namespace talus::test {
 namespace {

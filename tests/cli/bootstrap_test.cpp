@@ -5,7 +5,8 @@
 #include <cstdlib>
 
 #include "pictures.h"
-#include "process.h"
+#include "support/process.h"
+#include "support/places.h"
 
 namespace talus::test {
 namespace {
@@ -22,9 +23,9 @@ const char* const failing_bed =
 class BootstrapDemo : public testing::Test {
  protected:
   void SetUp() override {
-    fs::copy_file(TALUS_BOOTSTRAP, folder_.path() / "bootstrap");
+    fs::copy_file(source_folder() + "/bootstrap", folder_.path() / "bootstrap");
     fs::create_directories(folder_.path() / "build/release");
-    fs::create_symlink(TALUS_PROGRAM, folder_.path() / "build/release/talus");
+    fs::create_symlink(talus_program(), folder_.path() / "build/release/talus");
     fs::create_directories(folder_.path() / "assets/scenarios");
     fs::create_directory(folder_.path() / "bin");
     make_command("dpkg-query", "shift 3\nprintf '%s installed\\n' \"$@\"");

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "process.h"
+#include "support/process.h"
 
 namespace talus::test {
 namespace {

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "process.h"
+#include "support/process.h"
 
 namespace talus::test {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "process.h"
+#include "support/process.h"
 
 namespace talus::test {
 namespace {

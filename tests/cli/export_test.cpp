@@ -9,7 +9,8 @@
 #include <sstream>
 
 #include "pictures.h"
-#include "process.h"
+#include "support/process.h"
+#include "support/places.h"
 
 namespace talus::test {
 namespace {
@@ -156,7 +157,7 @@ TEST_F(Export, leaves_whole_files_where_it_is_stopped) {
 
 /// The commands of a page that export, in words.
 std::vector<Words> export_commands(const std::string& page) {
-  std::ifstream file(std::string(TALUS_SOURCE_DIR "/") + page);
+  std::ifstream file(source_folder() + "/" + page);
   std::vector<Words> found;
   for (std::string line; std::getline(file, line);) {
     std::istringstream text(line.substr(0, line.find('#')));

@@ -8,7 +8,7 @@
 #include <iterator>
 #include <sstream>
 
-#include "process.h"
+#include "support/process.h"
 
 namespace talus::test {
 namespace {

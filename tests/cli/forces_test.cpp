@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "process.h"
+#include "support/process.h"
 #include "unit/io/example_run.h"
 
 namespace talus::test {

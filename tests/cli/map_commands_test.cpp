@@ -7,7 +7,8 @@
 #include <thread>
 
 #include "pictures.h"
-#include "process.h"
+#include "support/process.h"
+#include "support/places.h"
 
 namespace talus::test {
 namespace {
@@ -251,7 +252,7 @@ TEST_F(MapCommands, a_full_disk_leaves_no_part_of_a_picture) {
   make_run();
   // No file may grow beyond a block; the write fails as on a full disk.
   const std::string command = "cd '" + folder_.path().string() + "' && ulimit -f 1 && trap '' XFSZ && '" +
-                              TALUS_PROGRAM + "' render bed.h5 --map pressure -o maps 2> /dev/null";
+                              talus_program() + "' render bed.h5 --map pressure -o maps 2> /dev/null";
   const int status = std::system(("sh -c \"" + command + "\"").c_str());
   EXPECT_EQ(WEXITSTATUS(status), 74);
   EXPECT_EQ(files("maps"), std::set<std::string>{});

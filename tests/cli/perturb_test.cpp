@@ -6,7 +6,7 @@
 #include <csignal>
 #include <thread>
 
-#include "process.h"
+#include "support/process.h"
 
 namespace talus::test {
 namespace {

@@ -7,7 +7,8 @@
 #include <iterator>
 #include <sstream>
 
-#include "process.h"
+#include "support/process.h"
+#include "support/places.h"
 
 namespace talus::test {
 namespace {
@@ -16,9 +17,8 @@ const char* const bed =
     "seed = 8\n[bed]\nlength = 12\ndepth = 5\n[tilt]\nend_angle = 1.0\n[output]\nframe_every = 0.5\n";
 
 bool h5py(const std::string& arguments, const TemporaryFolder& folder) {
-  const std::string command = "cd " + folder.path().string() +
-                              " && /usr/bin/python3 " TALUS_SOURCE_DIR "/tests/cli/problem_with_h5py.py " +
-                              arguments + " > h5py.txt 2>&1";
+  const std::string command = "cd " + folder.path().string() + " && /usr/bin/python3 " + source_folder() +
+                              "/tests/cli/problem_with_h5py.py " + arguments + " > h5py.txt 2>&1";
   if (std::system(command.c_str()) == 0) return true;
   std::ifstream file(folder.path("h5py.txt"));
   ADD_FAILURE() << arguments << "\n" << std::string(std::istreambuf_iterator<char>(file), {});
@@ -214,7 +214,7 @@ TEST_F(MovingBed, is_named_with_the_tolerances_that_a_solve_has_reached) {
 
 /// The commands of a page that dump or solve a problem, in words, without their comments.
 std::vector<std::vector<std::string>> problem_commands(const std::string& page) {
-  std::ifstream file(std::string(TALUS_SOURCE_DIR "/") + page);
+  std::ifstream file(source_folder() + "/" + page);
   std::vector<std::vector<std::string>> found;
   for (std::string line; std::getline(file, line);) {
     std::istringstream text(line.substr(0, line.find('#')));

@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "io/run_file.h"
-#include "process.h"
+#include "support/process.h"
 #include "session/run.h"
 #include "session/run_header.h"
 #include "support/small_bed.h"

@@ -6,7 +6,7 @@
 
 #include "core/trigonometry.h"
 #include "io/run_file.h"
-#include "process.h"
+#include "support/process.h"
 #include "session/run.h"
 #include "session/run_header.h"
 

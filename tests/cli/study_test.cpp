@@ -7,7 +7,7 @@
 #include <fstream>
 #include <thread>
 
-#include "process.h"
+#include "support/process.h"
 
 namespace talus::test {
 namespace {

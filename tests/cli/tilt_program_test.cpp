@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <set>
 
-#include "process.h"
+#include "support/process.h"
 
 namespace talus::test {
 namespace {

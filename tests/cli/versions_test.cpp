@@ -4,12 +4,13 @@
 #include <gtest/gtest.h>
 
 #include "io/run_schema.h"
-#include "process.h"
+#include "support/process.h"
+#include "support/places.h"
 
 namespace talus::test {
 namespace {
 
-const std::filesystem::path kept_runs = std::filesystem::path(TALUS_SOURCE_DIR) / "tests/runs";
+const std::filesystem::path kept_runs = std::filesystem::path(source_folder()) / "tests/runs";
 
 const std::string kept_name = "schema_" + std::to_string(run_schema_version);
 

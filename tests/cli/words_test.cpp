@@ -4,7 +4,7 @@
 
 #include <sstream>
 
-#include "process.h"
+#include "support/process.h"
 
 namespace talus::test {
 namespace {

@@ -11,7 +11,7 @@
 #include <thread>
 #include <utility>
 
-#include "cli/process.h"
+#include "support/process.h"
 #include "gui/offscreen.h"
 
 namespace talus::test {

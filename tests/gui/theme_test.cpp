@@ -11,6 +11,7 @@
 
 #include "gui/offscreen_fixture.h"
 #include "render/png.h"
+#include "support/places.h"
 
 namespace talus {
 namespace {
@@ -48,7 +49,7 @@ bool has_colour(const std::string& text) {
 
 TEST(Theme, is_the_only_place_of_colours) {
   int read = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(TALUS_SOURCE "/src/gui")) {
+  for (const auto& entry : std::filesystem::directory_iterator(test::source_folder() + "/src/gui")) {
     const std::string name = entry.path().filename().string();
     if (name == "theme.cpp" || name == "theme.h") continue;
     std::ifstream file(entry.path());

@@ -9,7 +9,7 @@
 #include <memory>
 #include <thread>
 
-#include "cli/process.h"
+#include "support/process.h"
 #include "gui/desktop.h"
 
 namespace talus::test {

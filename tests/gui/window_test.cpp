@@ -8,7 +8,7 @@
 #include <set>
 #include <thread>
 
-#include "cli/process.h"
+#include "support/process.h"
 #include "gui/window_fixture.h"
 
 namespace talus::test {

@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <limits>
 
-#include "cli/process.h"
+#include "support/process.h"
 #include "core/random.h"
 #include "io/child_process.h"
 #include "io/run_file.h"

@@ -7,12 +7,13 @@
 #include <algorithm>
 #include <optional>
 
-#include "cli/process.h"
+#include "support/process.h"
 #include "core/random.h"
 #include "core/sanitizers.h"
 #include "io/child_process.h"
 #include "io/run_file.h"
 #include "reliability/hostile_test.h"
+#include "support/places.h"
 
 namespace talus::hostile {
 namespace {
@@ -182,7 +183,7 @@ TEST_F(HostileRun, a_byte_flipped_anywhere_is_refused) {
 /// Addresses of lists of links that lie outside the file: HDF5 reads there, and crashes.
 TEST_F(HostileRun, that_HDF5_crashes_on_is_refused_by_the_program) {
   if (sanitizes_addresses || sanitizes_threads) GTEST_SKIP() << "sanitizers report a crash themselves";
-  const Bytes kept = read_bytes(TALUS_SOURCE_DIR "/tests/runs/schema_4.h5");
+  const Bytes kept = read_bytes(test::source_folder() + "/tests/runs/schema_4.h5");
   for (const auto& [at, value] : {std::pair<std::size_t, int>{647, 0x0e}, {2480, 0x0e}}) {
     Bytes bytes = kept;
     ASSERT_EQ(bytes.at(at), std::byte{0xff}) << "no address";

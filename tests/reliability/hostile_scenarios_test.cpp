@@ -4,14 +4,15 @@
 
 #include <iterator>
 
-#include "cli/process.h"
+#include "support/process.h"
+#include "support/places.h"
 
 namespace talus::test {
 namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path bad = fs::path(TALUS_SOURCE_DIR) / "tests/scenarios/bad";
+const fs::path bad = fs::path(test::source_folder()) / "tests/scenarios/bad";
 
 std::size_t file_count(const TemporaryFolder& folder) {
   return static_cast<std::size_t>(

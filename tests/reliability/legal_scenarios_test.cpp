@@ -13,7 +13,7 @@
 #include <map>
 #include <thread>
 
-#include "cli/process.h"
+#include "support/process.h"
 #include "reliability/legal_scenario.h"
 #include "session/estimate.h"
 

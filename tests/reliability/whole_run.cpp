@@ -6,6 +6,7 @@
 
 #include "core/hash.h"
 #include "io/run_file.h"
+#include "support/places.h"
 
 namespace talus::test {
 namespace {
@@ -82,7 +83,7 @@ int committed_frames(const std::string& path) {
 }
 
 std::vector<std::string> with_fault(const std::string& fault) {
-  return {"LD_PRELOAD=" TALUS_FAULTS, "TALUS_FAULT=" + fault};
+  return {"LD_PRELOAD=" + faults_library(), "TALUS_FAULT=" + fault};
 }
 
 Counts count_calls(const std::vector<std::string>& arguments, const TemporaryFolder& folder) {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "cli/process.h"
+#include "support/process.h"
 #include "core/snapshot.h"
 
 namespace talus::test {

@@ -9,14 +9,16 @@
 
 #include "render/png.h"
 #include "render/read_png.h"
+#include "support/places.h"
 
 namespace talus::test {
 
 /// Compares with tests/golden/NAME.png, and leaves the picture beside the tests.
 inline void expect_golden(const Image& image, const std::string& name) {
-  const std::string drawn = std::string(TALUS_BINARY_DIR "/").append(name).append(".png");
+  const std::string drawn = std::string(test::build_folder() + "/").append(name).append(".png");
   write_png(drawn, image);
-  const Image golden = read_png(std::string(TALUS_SOURCE_DIR "/tests/golden/").append(name).append(".png"));
+  const Image golden =
+      read_png(std::string(test::source_folder() + "/tests/golden/").append(name).append(".png"));
   ASSERT_EQ(image.width, golden.width) << "see " << drawn;
   ASSERT_EQ(image.height, golden.height) << "see " << drawn;
   ASSERT_EQ(image.channels, golden.channels) << "see " << drawn;

@@ -7,6 +7,7 @@
 
 #include "core/errors.h"
 #include "render/context.h"
+#include "support/places.h"
 #include "support/temporary_folder.h"
 
 namespace talus {
@@ -19,7 +20,7 @@ struct Outcome {
 
 /// What picture_hash says in a process of its own: a process uses one kind of context.
 Outcome picture_hash(const std::string& environment, const std::string& kind) {
-  const std::string command = environment + " '" TALUS_PICTURE_HASH "' " + kind;
+  const std::string command = environment + " '" + test::build_folder() + "/picture_hash' " + kind;
   std::FILE* pipe = popen(command.c_str(), "r");
   Outcome outcome;
   for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) outcome.text.push_back(static_cast<char>(c));

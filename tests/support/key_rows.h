@@ -6,6 +6,7 @@
 #include <string>
 
 #include "scenario/key.h"
+#include "support/places.h"
 
 namespace talus {
 
@@ -18,7 +19,7 @@ inline std::string row_text(const KeyHead& key, const std::string& by_default) {
 /// All rows of keys on a page of the documents.
 inline std::string rows_of(const std::string& path) {
   std::string rows;
-  std::ifstream page(std::filesystem::path(TALUS_SOURCE_DIR) / path);
+  std::ifstream page(std::filesystem::path(test::source_folder()) / path);
   for (std::string line; std::getline(page, line);)
     if (line.starts_with("| `") && !line.starts_with("| `/")) rows += line + "\n";
   return rows;

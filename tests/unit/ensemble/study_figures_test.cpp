@@ -14,6 +14,7 @@
 #include "ensemble/member_state.h"
 #include "ensemble/study.h"
 #include "io/durable_file.h"
+#include "support/places.h"
 #include "support/temporary_folder.h"
 
 namespace talus {
@@ -186,7 +187,7 @@ TEST(StudyFields, are_documented_as_they_are) {
   ASSERT_EQ(study_fields().size(), study_quantity_count);
   for (const StudyField& field : study_fields())
     expected += "| `" + field.name + "` | " + field.help + " |\n";
-  std::ifstream page(std::string(TALUS_SOURCE_DIR) + "/docs/study.md");
+  std::ifstream page(test::source_folder() + "/docs/study.md");
   for (std::string line; std::getline(page, line);)
     if (line.starts_with("| `")) found += line + "\n";
   EXPECT_EQ(found, expected) << "the table of docs/study.md must be:\n" << expected;

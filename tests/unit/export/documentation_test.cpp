@@ -9,12 +9,13 @@
 #include "export/fields.h"
 #include "export/formats.h"
 #include "export/vti.h"
+#include "support/places.h"
 
 namespace talus::test {
 namespace {
 
 std::string page() {
-  std::ifstream file(TALUS_SOURCE_DIR "/docs/export.md");
+  std::ifstream file(test::source_folder() + "/docs/export.md");
   std::stringstream text;
   text << file.rdbuf();
   return text.str();

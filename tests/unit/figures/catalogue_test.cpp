@@ -11,6 +11,7 @@
 #include <string>
 
 #include "figures/scripts.h"
+#include "support/places.h"
 
 namespace talus {
 namespace {
@@ -49,7 +50,7 @@ TEST(Catalogue, NoFigureIsMadeOfNoRuns) {
 }
 
 TEST(Catalogue, IsThatOfItsPage) {
-  std::ifstream file(std::string(TALUS_SOURCE_DIR) + "/docs/figures.md");
+  std::ifstream file(test::source_folder() + "/docs/figures.md");
   const std::string page{std::istreambuf_iterator<char>(file), {}};
   for (const FigureRecipe& recipe : figure_catalogue()) {
     const std::size_t row = page.find("| `" + std::string(recipe.name) + "` |");

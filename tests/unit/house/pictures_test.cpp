@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "support/places.h"
 #include "unit/house/source_tree.h"
 
 namespace talus::house {
@@ -97,7 +98,7 @@ TEST(Pictures, are_made_by_the_commands_beside_them) {
     EXPECT_FALSE(picture.commands.empty()) << name;
     EXPECT_TRUE(shown.contains(name)) << "no page shows " << name;
   }
-  const fs::path folder = fs::path(TALUS_SOURCE_DIR) / "docs/images";
+  const fs::path folder = fs::path(test::source_folder()) / "docs/images";
   for (const auto& file : fs::recursive_directory_iterator(folder)) {
     const std::string name = fs::relative(file.path(), folder).replace_extension().string();
     if (file.path().extension() == ".png" && !name.starts_with("cookbook/")) {
@@ -109,7 +110,7 @@ TEST(Pictures, are_made_by_the_commands_beside_them) {
 TEST(Pictures, of_first_pages_are_small) {
   for (const char* name : {"tutorial", "gallery"}) {
     int found = 0;
-    for (const auto& file : fs::directory_iterator(fs::path(TALUS_SOURCE_DIR) / "docs/images" / name)) {
+    for (const auto& file : fs::directory_iterator(fs::path(test::source_folder()) / "docs/images" / name)) {
       EXPECT_LT(file.file_size(), 150'000u) << file.path();
       ++found;
     }

@@ -9,11 +9,13 @@
 #include <string>
 #include <vector>
 
+#include "support/places.h"
+
 namespace talus::house {
 namespace {
 
 std::string text_of(const std::string& path) {
-  std::ifstream file(std::string(TALUS_SOURCE_DIR) + "/" + path);
+  std::ifstream file(test::source_folder() + "/" + path);
   std::stringstream text;
   text << file.rdbuf();
   return text.str();
@@ -45,11 +47,10 @@ TEST(Readme, commands_name_what_exists) {
       EXPECT_NE(text_of("bootstrap").find("\n  " + subcommand + " "), std::string::npos) << command;
     } else {
       EXPECT_EQ(program, "build/release/talus");
-      EXPECT_TRUE(
-          std::filesystem::exists(std::string(TALUS_SOURCE_DIR) + "/src/app/" + subcommand + "_command.cpp"))
+      EXPECT_TRUE(std::filesystem::exists(test::source_folder() + "/src/app/" + subcommand + "_command.cpp"))
           << command;
       if (argument.rfind("assets/", 0) == 0) {
-        EXPECT_TRUE(std::filesystem::exists(std::string(TALUS_SOURCE_DIR) + "/" + argument)) << command;
+        EXPECT_TRUE(std::filesystem::exists(test::source_folder() + "/" + argument)) << command;
       }
     }
   }
@@ -135,7 +136,7 @@ TEST(Readme, pages_it_links_to_exist) {
   int links = 0;
   for (std::size_t at = readme.find("]("); at != std::string::npos; at = readme.find("](", at + 1)) {
     const std::string target = readme.substr(at + 2, readme.find(')', at) - at - 2);
-    EXPECT_TRUE(std::filesystem::exists(std::string(TALUS_SOURCE_DIR) + "/" + target)) << target;
+    EXPECT_TRUE(std::filesystem::exists(test::source_folder() + "/" + target)) << target;
     ++links;
   }
   EXPECT_GT(links, 5);

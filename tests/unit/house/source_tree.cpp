@@ -7,11 +7,13 @@
 #include <iterator>
 #include <sstream>
 
+#include "support/places.h"
+
 namespace talus::house {
 namespace fs = std::filesystem;
 namespace {
 
-const fs::path root = TALUS_SOURCE_DIR;
+const fs::path root = test::source_folder();
 
 void read_text(const fs::path& path, std::vector<TextFile>& texts) {
   std::ifstream stream(path, std::ios::binary);

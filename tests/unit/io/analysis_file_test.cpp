@@ -17,6 +17,7 @@
 #include "io/packed_file.h"
 #include "io/run_file.h"
 #include "support/blank_analysis.h"
+#include "support/places.h"
 #include "unit/io/example_analysis.h"
 
 namespace talus {
@@ -154,7 +155,7 @@ TEST_F(AnalysisFile, tells_other_readers_what_it_holds) {
   const std::string python = "/usr/bin/python3 ";
   if (std::system((python + "-c 'import h5py' 2>/dev/null").c_str()) != 0) GTEST_SKIP() << "no python3-h5py";
   store_analysis(path_, example::analysis(2, 1), state_);
-  const std::string script = std::string(TALUS_SOURCE_DIR) + "/tests/unit/io/check_analysis_with_h5py.py ";
+  const std::string script = test::source_folder() + "/tests/unit/io/check_analysis_with_h5py.py ";
   EXPECT_EQ(std::system((python + script + path_).c_str()), 0) << "see the message above";
 }
 
@@ -198,7 +199,7 @@ std::string row_text(const DataSetField& field) {
 TEST(AnalysisSchema, is_documented_as_it_is) {
   std::string expected, found;
   for (const DataSetField& field : analysis_schema()) expected += row_text(field);
-  std::istringstream page(example::file_text(std::string(TALUS_SOURCE_DIR) + "/docs/analysis.md"));
+  std::istringstream page(example::file_text(test::source_folder() + "/docs/analysis.md"));
   for (std::string line; std::getline(page, line);)
     if (line.starts_with("| `/analysis/")) found += line + "\n";
   EXPECT_EQ(found, expected) << "the table of docs/analysis.md must be:\n" << expected;

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "io/run_schema.h"
+#include "support/places.h"
 #include "unit/io/example_run.h"
 
 namespace talus {
@@ -20,7 +21,7 @@ std::string row_text(const DataSetField& field) {
 TEST(FileFormat, is_documented_as_it_is) {
   std::string expected, found;
   for (const DataSetField& field : run_schema()) expected += row_text(field);
-  std::istringstream page(example::file_text(std::string(TALUS_SOURCE_DIR) + "/docs/file_format.md"));
+  std::istringstream page(example::file_text(test::source_folder() + "/docs/file_format.md"));
   for (std::string line; std::getline(page, line);)
     if (line.starts_with("| `/")) found += line + "\n";
   EXPECT_EQ(found, expected) << "the table of docs/file_format.md must be:\n" << expected;

@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 
+#include "support/places.h"
 #include "unit/io/example_run.h"
 
 namespace talus {
@@ -34,7 +35,7 @@ TEST(H5py, reads_a_packed_file_and_finds_it_valid) {
            << ", \"seed\": " << example::header().seed
            << ", \"vx_last\": " << example::checkpoint(4).world.grains.vx[2] << "}";
   example::write_text(folder.path("expected.json"), expected.str());
-  const std::string command = std::string(interpreter) + " " + TALUS_SOURCE_DIR +
+  const std::string command = std::string(interpreter) + " " + test::source_folder() +
                               "/tests/unit/io/check_with_h5py.py " + path + " " +
                               folder.path("expected.json");
   EXPECT_EQ(std::system(command.c_str()), 0) << "see the message above";

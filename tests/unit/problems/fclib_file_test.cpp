@@ -10,6 +10,7 @@
 
 #include "core/errors.h"
 #include "problems/fclib_schema.h"
+#include "support/places.h"
 #include "unit/io/example_run.h"
 
 namespace talus {
@@ -165,7 +166,7 @@ TEST(FclibFile, is_documented_as_it_is) {
              << (field.shape.empty() ? "-" : field.shape) << " | " << field.unit << " | " << field.help
              << " |\n";
   std::string found;
-  std::istringstream page(example::file_text(std::string(TALUS_SOURCE_DIR) + "/docs/problem_files.md"));
+  std::istringstream page(example::file_text(test::source_folder() + "/docs/problem_files.md"));
   for (std::string line; std::getline(page, line);)
     if (line.starts_with("| `/")) found += line + "\n";
   EXPECT_EQ(found, expected.str()) << "the table of docs/problem_files.md must be:\n" << expected.str();

@@ -9,13 +9,14 @@
 
 #include "core/errors.h"
 #include "scenario/scenario.h"
+#include "support/places.h"
 
 namespace talus {
 namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path folder = fs::path(TALUS_SOURCE_DIR) / "tests/scenarios/bad";
+const fs::path folder = fs::path(test::source_folder()) / "tests/scenarios/bad";
 
 std::string file_text(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);

@@ -8,11 +8,12 @@
 #include "scenario/keys.h"
 #include "scenario/text.h"
 #include "support/key_rows.h"
+#include "support/places.h"
 
 namespace talus {
 namespace {
 
-const std::string root = TALUS_SOURCE_DIR;
+const std::string root = test::source_folder();
 
 TEST(ScenarioKeys, are_documented_as_they_are) {
   std::string expected;

@@ -11,6 +11,7 @@
 #include "scenario/keys.h"
 #include "scenario/rules.h"
 #include "scenario/scenario.h"
+#include "support/places.h"
 
 namespace talus {
 namespace {
@@ -211,7 +212,7 @@ TEST(ScenarioErrors, a_packed_run_is_told_from_a_scenario) {
 }
 
 TEST(ScenarioFile, a_missing_file_and_a_folder_are_missing_input) {
-  for (const std::string& path : {std::string("no/such/file.toml"), std::string(TALUS_SOURCE_DIR)}) try {
+  for (const std::string& path : {std::string("no/such/file.toml"), test::source_folder()}) try {
       read_scenario(path);
       ADD_FAILURE() << path;
     } catch (const Error& error) {
@@ -221,12 +222,12 @@ TEST(ScenarioFile, a_missing_file_and_a_folder_are_missing_input) {
 }
 
 TEST(ScenarioFile, gives_its_text_and_its_name_in_messages) {
-  const std::string path = std::string(TALUS_SOURCE_DIR) + "/assets/scenarios/demo.toml";
+  const std::string path = test::source_folder() + "/assets/scenarios/demo.toml";
   std::string text;
   const Scenario s = read_scenario(path, {}, &text);
   EXPECT_EQ(parse_scenario(text, path), s);
   EXPECT_EQ(text.size(), std::filesystem::file_size(path));
-  const std::string bad = std::string(TALUS_SOURCE_DIR) + "/tests/scenarios/bad/seed_negative.toml";
+  const std::string bad = test::source_folder() + "/tests/scenarios/bad/seed_negative.toml";
   EXPECT_TRUE(message_of([&] { read_scenario(bad); }).starts_with(bad + ":1:8: error: "));
 }
 

@@ -15,6 +15,7 @@
 #include "core/errors.h"
 #include "core/trigonometry.h"
 #include "session/analysis_parameters.h"
+#include "support/places.h"
 #include "support/temporary_folder.h"
 
 namespace talus {
@@ -215,7 +216,7 @@ TEST_F(AnalysisRun, search_does_not_end_before_it_begins) {
 }
 
 TEST(AnalysisOfAStoredRun, deformation_is_that_since_the_frame_before) {
-  const RunFile run = RunFile::open(TALUS_SOURCE_DIR "/tests/runs/schema_4.h5");
+  const RunFile run = RunFile::open(test::source_folder() + "/tests/runs/schema_4.h5");
   for (const int threads : {1, 3}) {
     const Analysis a = analyse_run(run, {}, threads, {});
     EXPECT_TRUE(std::isnan(a.frames[0].nonaffine)) << "there is none before it";

@@ -13,6 +13,7 @@
 #include "export/fields.h"
 #include "io/run_schema.h"
 #include "pictures/overload_rule.h"
+#include "support/places.h"
 #include "support/temporary_folder.h"
 #include "unit/view/example_bed.h"
 #include "unit/view/opened_view.h"
@@ -122,7 +123,7 @@ TEST(GrainQuantitiesOfARun, have_the_units_of_the_run_file) {
 }
 
 TEST(GrainQuantitiesOfARun, are_listed_in_the_document) {
-  std::ifstream file(std::string(TALUS_SOURCE_DIR) + "/docs/view.md");
+  std::ifstream file(test::source_folder() + "/docs/view.md");
   std::stringstream page;
   page << file.rdbuf();
   for (const GrainQuantity& quantity : grain_quantities()) {

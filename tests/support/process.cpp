@@ -1,4 +1,4 @@
-#include "process.h"
+#include "support/process.h"
 
 #include <fcntl.h>
 #include <sys/wait.h>
@@ -7,16 +7,31 @@
 #include <chrono>
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
 #include <thread>
 
+#include "support/places.h"
+
 namespace talus::test {
 namespace {
 
+/// Adds a line to the file that the variable TALUS_CALLS names, if there is one: which commands were called,
+/// and how they ended (tests/cli/calls_cover).
+void note(const std::string& line) {
+  const char* path = std::getenv("TALUS_CALLS");
+  if (path == nullptr) return;
+  const int file = open(path, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0600);
+  const std::string text = line + "\n";
+  if (file < 0 || write(file, text.data(), text.size()) < 0) std::perror(path);
+  close(file);
+}
+
 pid_t start(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
             const std::vector<std::string>& environment, const std::string& out, const std::string& err) {
+  if (!arguments.empty()) note("command " + arguments.front());
   const pid_t child = fork();
   if (child != 0) return child;
   if (chdir(folder.c_str()) != 0) _exit(126);
@@ -25,7 +40,7 @@ pid_t start(const std::vector<std::string>& arguments, const std::filesystem::pa
   dup2(open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDOUT_FILENO);
   dup2(open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDERR_FILENO);
   std::vector<char*> argv;
-  std::string program = TALUS_PROGRAM;
+  std::string program = talus_program();
   argv.push_back(program.data());
   std::vector<std::string> copies = arguments;
   for (std::string& argument : copies) argv.push_back(argument.data());
@@ -63,7 +78,9 @@ std::string errors_in(const std::filesystem::path& folder) { return text_of((fol
 int wait_for(pid_t process) {
   int status = 0;
   waitpid(process, &status, 0);
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  const int code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  note("code " + std::to_string(code));
+  return code;
 }
 
 bool has_ended(pid_t process) {
