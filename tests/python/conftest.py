@@ -32,6 +32,10 @@ frame_every = 0.5
 """
 
 
+def pytest_configure(config):
+    config.addinivalue_line("markers", "chosen: ./bootstrap test runs it without --all")
+
+
 def run_talus(*words, folder=None):
     """What `talus` prints; a failure of it is one of the test."""
     done = subprocess.run([PROGRAM, *map(str, words)], cwd=folder, capture_output=True, text=True)

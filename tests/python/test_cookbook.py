@@ -30,6 +30,15 @@ def size_of(picture):
     return tuple(int.from_bytes(begin[i : i + 4], "big") for i in (16, 20))
 
 
+@pytest.mark.chosen
+def test_a_recipe_draws_any_run(analysed, tmp_path):
+    pytest.importorskip("matplotlib.pyplot", reason="matplotlib is not installed: python3-matplotlib")
+    (tmp_path / "runs").mkdir()
+    (tmp_path / "runs/cookbook.h5").symlink_to(analysed)
+    name = next(name for name, code in make.recipes().items() if 'talus.open("runs/cookbook.h5"' in code)
+    assert size_of(make.make_picture(name, tmp_path)) == size_of(make.PICTURES / f"{name}.png")
+
+
 @pytest.mark.parametrize("name", make.recipes())
 def test_recipe_runs_and_draws_the_picture_of_the_page(drawn, name):
     for package in NEEDED.get(name, []):

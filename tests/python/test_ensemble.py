@@ -95,6 +95,7 @@ def test_stages_of_members_that_are_not_done(folder_of, tmp_path):
     assert ensemble.mean("theta_c", VARIANTS[0]).count == 1 and len(ensemble.done()) == 5
 
 
+@pytest.mark.chosen
 def test_ensemble_of_one_variant_needs_no_name(folder, tmp_path):
     run_talus("ensemble", folder / "bed.toml", "--seeds", "3,7-8", "--until", "theta_c:50",
               "--set", "tilt.end_angle=1", "-o", tmp_path / "one")

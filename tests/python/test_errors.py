@@ -22,6 +22,7 @@ def sealed(path, change):
     return path
 
 
+@pytest.mark.chosen
 @pytest.mark.parametrize("path, text", [
     ("nothing.h5", "no such run; expected a run file, or a folder .*nothing.h5.run"),
     ("bed.toml", "is not a Talus run file"),

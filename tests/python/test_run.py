@@ -10,6 +10,7 @@ from conftest import ROOT, json_of, run_talus
 import talus
 
 
+@pytest.mark.chosen
 def test_facts_are_those_of_talus_info(run, analysed):
     info = json_of("info", analysed)
     assert run.complete and info["complete"]
@@ -30,6 +31,7 @@ def test_scenario_is_the_one_that_was_computed(run):
     assert run.periodic and run.gravity == 9.81
 
 
+@pytest.mark.chosen
 def test_analysis_is_that_of_talus_analyze(run, analysed):
     [printed] = json_of("analyze", analysed)
     names = [name for name in printed if name in run.analysis]
@@ -68,6 +70,7 @@ def test_floats_are_doubles_and_scalars_are_plain(run):
     assert run.frames[0].position.dtype == np.float64 and type(run.theta_c) is float and type(run.seed) is int
 
 
+@pytest.mark.chosen
 def test_frames_are_chosen_as_by_talus_render(run, analysed):
     assert run.frame_at(10).tilt == pytest.approx(math.radians(10))
     assert run.frame_at(10.2).tilt == pytest.approx(math.radians(10))

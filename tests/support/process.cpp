@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdint>
@@ -31,7 +32,6 @@ void note(const std::string& line) {
 
 pid_t start(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
             const std::vector<std::string>& environment, const std::string& out, const std::string& err) {
-  if (!arguments.empty()) note("command " + arguments.front());
   const pid_t child = fork();
   if (child != 0) return child;
   if (chdir(folder.c_str()) != 0) _exit(126);
@@ -65,6 +65,8 @@ Outcome run_talus(const std::vector<std::string>& arguments, const std::filesyst
   Outcome outcome;
   outcome.exit_code = wait_for(start(arguments, folder, environment, out, err));
   outcome.out = text_of(out);
+  const bool is_help = std::ranges::find(arguments, "--help") != arguments.end();
+  if (outcome.exit_code == 0 && !arguments.empty() && !is_help) note("command " + arguments.front());
   outcome.err = text_of(err);
   return outcome;
 }

@@ -4,7 +4,7 @@
 #include <cctype>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
+#include <map>
 #include <sstream>
 
 #include "support/places.h"
@@ -15,14 +15,23 @@ namespace {
 
 const fs::path root = test::source_folder();
 
-void read_text(const fs::path& path, std::vector<TextFile>& texts) {
+/// Of a file that is no text: no lines, and no path.
+TextFile read_text(const fs::path& path) {
   std::ifstream stream(path, std::ios::binary);
-  const std::string content{std::istreambuf_iterator<char>(stream), {}};
-  if (content.find('\0') != std::string::npos) return;
+  std::stringstream content;
+  content << stream.rdbuf();
+  if (content.view().find('\0') != std::string_view::npos) return {};
   TextFile file{path.lexically_relative(root).generic_string(), {}};
-  std::istringstream lines(content);
-  for (std::string line; std::getline(lines, line);) file.lines.push_back(line);
-  texts.push_back(std::move(file));
+  for (std::string line; std::getline(content, line);) file.lines.push_back(line);
+  return file;
+}
+
+/// Each file is read once: most tests ask for all of them.
+void add_text(const fs::path& path, std::vector<TextFile>& texts) {
+  static std::map<fs::path, TextFile> seen;
+  auto at = seen.find(path);
+  if (at == seen.end()) at = seen.emplace(path, read_text(path)).first;
+  if (!at->second.path.empty()) texts.push_back(at->second);
 }
 
 bool is_part_of_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
@@ -35,10 +44,10 @@ std::vector<TextFile> read_texts(const std::vector<std::string>& folders) {
     if (!fs::exists(root / folder)) continue;
     if (folder == ".") {
       for (const auto& entry : fs::directory_iterator(root))
-        if (entry.is_regular_file()) read_text(entry.path(), texts);
+        if (entry.is_regular_file()) add_text(entry.path(), texts);
     } else {
       for (const auto& entry : fs::recursive_directory_iterator(root / folder))
-        if (entry.is_regular_file()) read_text(entry.path(), texts);
+        if (entry.is_regular_file()) add_text(entry.path(), texts);
     }
   }
   std::ranges::sort(texts, {}, &TextFile::path);
