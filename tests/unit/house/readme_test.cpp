@@ -37,6 +37,35 @@ TEST(Readme, test_command_is_the_one_of_ci) {
   EXPECT_NE(text_of(".ci/run").find("\n./bootstrap test\n"), std::string::npos);
 }
 
+/// The rows between two lines of a text.
+std::vector<std::string> lines_between(const std::string& text, const std::string& first,
+                                       const std::string& last) {
+  std::istringstream stream(text);
+  std::vector<std::string> found;
+  bool inside = false;
+  for (std::string line; std::getline(stream, line) && !(inside && line == last);) {
+    if (inside) found.push_back(line);
+    inside = inside || line == first;
+  }
+  return found;
+}
+
+/// "a  | b | c" as a row of a page: "| `a` | b | c |".
+std::string row_of_page(const std::string& row) {
+  const std::size_t end = row.find_first_of(" |");
+  return "| `" + row.substr(0, end) + "` " + row.substr(row.find('|')) + " |";
+}
+
+TEST(Testing, page_has_the_parts_of_the_full_check) {
+  const std::vector<std::string> parts =
+      lines_between(text_of(".ci/full"), "  sed 's/ *| */\\t/g' <<'TABLE'", "TABLE");
+  ASSERT_GT(parts.size(), 10u);
+  const std::string page = text_of("docs/testing.md");
+  std::string table;
+  for (const std::string& part : parts) table += row_of_page(part) + "\n";
+  EXPECT_NE(page.find("|---|---|---|\n" + table), std::string::npos) << table;
+}
+
 TEST(Readme, commands_name_what_exists) {
   ASSERT_GT(commands().size(), 5u);
   for (const std::string& command : commands()) {
