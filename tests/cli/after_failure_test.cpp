@@ -9,6 +9,7 @@
 
 #include "core/trigonometry.h"
 #include "support/process.h"
+#include "support/runs.h"
 
 namespace talus::test {
 namespace {
@@ -18,6 +19,12 @@ const char* const lowered_bed =
     "seed = 2\n[bed]\nlength = 20\ndepth = 6\n[deposition]\nrest_velocity = 0.05\n"
     "[tilt]\nrate = 20\nstep = 0.02\nafter_failure = \"lower\"\nlowering_rate = 5\n"
     "[output]\nframe_every = 1\nobservable_every = 0.2\n";
+
+/// One of 40 grains, with few frames.
+const char* const smaller_bed =
+    "seed = 2\n[bed]\nlength = 10\ndepth = 4\n[deposition]\nrest_velocity = 0.05\n"
+    "[tilt]\nrate = 20\nstep = 0.02\nafter_failure = \"lower\"\nlowering_rate = 5\n"
+    "[output]\nframe_every = 5\nobservable_every = 0.2\n";
 
 class AfterFailure : public testing::Test {
  protected:
@@ -74,8 +81,8 @@ TEST_F(AfterFailure, a_flow_that_does_not_stop_is_told) {
 }
 
 TEST_F(AfterFailure, the_other_commands_see_the_tilt_alone) {
-  ASSERT_EQ(talus({"run", "bed.toml", "-o", "flow.h5"}).exit_code, 0);
-  ASSERT_EQ(talus({"run", "bed.toml", "-o", "stop.h5", "--set", "tilt.after_failure=stop"}).exit_code, 0);
+  take_run(folder_, "flow.h5", lowered_bed);
+  take_run(folder_, "stop.h5", lowered_bed, {"--set", "tilt.after_failure=stop"});
   EXPECT_EQ(info("flow.h5", "frames"), info("stop.h5", "frames"));
   EXPECT_EQ(info("flow.h5", "theta_c_deg"), info("stop.h5", "theta_c_deg"));
   EXPECT_EQ(info("stop.h5", "theta_r_deg"), "null");
@@ -97,13 +104,12 @@ TEST_F(AfterFailure, the_other_commands_see_the_tilt_alone) {
 }
 
 TEST_F(AfterFailure, a_flow_that_was_stopped_is_resumed_to_the_same_bits) {
-  const std::string frames = "output.frame_every=5";
-  ASSERT_EQ(talus({"run", "bed.toml", "-o", "whole.h5", "--set", frames}).exit_code, 0);
+  take_run(folder_, "whole.h5", smaller_bed);
+  write_file(folder_, "bed.toml", smaller_bed);
   // Each part ends with the first frame that it commits, however long that takes.
   int stops_in_flow = 0;
   for (int stops = 0; stops < 200; ++stops) {
-    const pid_t process =
-        start_talus({"run", "bed.toml", "-o", "parts.h5", "--set", frames, "--resume"}, folder_.path());
+    const pid_t process = start_talus({"run", "bed.toml", "-o", "parts.h5", "--resume"}, folder_.path());
     wait_for_commit(process, "parts.h5");
     kill(process, SIGTERM);
     if (wait_for(process) == 0) break;

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "support/process.h"
+#include "support/runs.h"
 
 namespace talus::test {
 namespace {
@@ -16,9 +17,8 @@ namespace {
 class Analyze : public testing::Test {
  protected:
   Analyze() {
-    write_file(folder_, "bed.toml",
-               "[bed]\nlength = 10\ndepth = 4\n[tilt]\nend_angle = 1.5\n[output]\nframe_every = 0.5\n");
-    EXPECT_EQ(run_talus({"run", "bed.toml", "-q"}, folder_.path()).exit_code, 0);
+    take_run(folder_, "bed.h5",
+             "[bed]\nlength = 10\ndepth = 4\n[tilt]\nend_angle = 1.5\n[output]\nframe_every = 0.5\n");
   }
 
   Outcome analyze(std::vector<std::string> more = {}) const {
@@ -105,8 +105,8 @@ TEST_F(Analyze, refuses_what_it_does_not_know) {
 
 TEST_F(Analyze, does_not_store_what_is_not_complete) {
   write_file(folder_, "long.toml",
-             "[bed]\nlength = 10\ndepth = 4\n[tilt]\nend_angle = 15\n[output]\nframe_every = 0.01\n"
-             "checkpoint_every = 0\n");
+             "[bed]\nlength = 10\ndepth = 4\n[tilt]\nrate = 0.1\nend_angle = 15\n"
+             "[output]\nframe_every = 0.01\n");
   const pid_t process = start_talus({"run", "long.toml"}, folder_.path());
   Outcome outcome;
   for (int wait = 0; wait < 1000 && outcome.exit_code != 0; ++wait) {

@@ -5,8 +5,8 @@
 #include <cstdlib>
 
 #include "pictures.h"
-#include "support/process.h"
 #include "support/places.h"
+#include "support/process.h"
 
 namespace talus::test {
 namespace {
@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 /// Few frames, as the demo draws all of them.
 const char* const failing_bed =
     "[bed]\nlength = 20\ndepth = 6\n[deposition]\nrest_velocity = 0.05\n[tilt]\nrate = 20\nstep = 0.02\n"
-    "[output]\nframe_every = 2.5\nobservable_every = 0.2\n";
+    "[output]\nframe_every = 5\nobservable_every = 0.2\n";
 
 /// A checkout with nothing but what the demo needs. Commands before those of the system say that everything
 /// is installed, and install and build nothing.

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "support/process.h"
+#include "support/runs.h"
 
 namespace talus::test {
 namespace {
@@ -13,10 +14,9 @@ namespace {
 class Events : public testing::Test {
  protected:
   Events() {
-    write_file(
-        folder_, "bed.toml",
+    take_run(
+        folder_, "bed.h5",
         "seed = 2\n[bed]\nlength = 10\ndepth = 4\n[tilt]\nend_angle = 1.5\n[output]\nframe_every = 0.5\n");
-    EXPECT_EQ(run_talus({"run", "bed.toml", "-q"}, folder_.path()).exit_code, 0);
   }
 
   Outcome events(std::vector<std::string> more = {}) const {

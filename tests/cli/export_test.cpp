@@ -9,8 +9,9 @@
 #include <sstream>
 
 #include "pictures.h"
-#include "support/process.h"
 #include "support/places.h"
+#include "support/process.h"
+#include "support/runs.h"
 
 namespace talus::test {
 namespace {
@@ -21,10 +22,9 @@ using Words = std::vector<std::string>;
 class Export : public testing::Test {
  protected:
   void SetUp() override {
-    write_file(folder_, "bed.toml",
-               "seed = 3\n[bed]\nlength = 10\ndepth = 4\n[tilt]\nstep = 0.01\nend_angle = 1.5\n[output]\n"
-               "frame_every = 0.5\n");
-    ASSERT_EQ(talus({"run", "bed.toml", "-o", "bed.h5"}).exit_code, 0);
+    take_run(folder_, "bed.h5",
+             "seed = 3\n[bed]\nlength = 10\ndepth = 4\n[tilt]\nstep = 0.01\nend_angle = 1.5\n[output]\n"
+             "frame_every = 0.5\n");
   }
   Outcome talus(const Words& arguments) { return run_talus(arguments, folder_.path()); }
   Outcome exported(const Words& more) {
@@ -135,10 +135,9 @@ TEST_F(Export, replaces_files_only_when_told_and_never_the_run) {
 
 TEST_F(Export, leaves_whole_files_where_it_is_stopped) {
   // The bed is tilted by so little between frames that there are many of them.
-  write_file(folder_, "long.toml",
-             "seed = 3\n[bed]\nlength = 10\ndepth = 4\n[tilt]\nstep = 0.01\nend_angle = 2\n[output]\n"
-             "frame_every = 0.01\n");
-  ASSERT_EQ(talus({"run", "long.toml", "-o", "long.h5"}).exit_code, 0);
+  take_run(folder_, "long.h5",
+           "seed = 3\n[bed]\nlength = 10\ndepth = 4\n[tilt]\nstep = 0.01\nend_angle = 2\n[output]\n"
+           "frame_every = 0.01\n");
   const pid_t process = start_talus({"export", "long.h5", "--to", "paraview", "-o", "out"}, folder_.path());
   while (!has_ended(process) && files("out/frames").size() < 6) usleep(1000);
   kill(process, SIGINT);
@@ -171,9 +170,8 @@ std::vector<Words> export_commands(const std::string& page) {
 
 TEST(ExportExamples, of_the_documents_are_carried_out) {
   const TemporaryFolder folder;
-  write_file(folder, "bed.toml",
-             "seed = 1\n[bed]\nlength = 12\ndepth = 5\n[tilt]\nstep = 0.01\n[output]\nframe_every = 1\n");
-  ASSERT_EQ(run_talus({"run", "bed.toml", "-o", "RUN.h5"}, folder.path()).exit_code, 0);
+  take_run(folder, "RUN.h5",
+           "seed = 1\n[bed]\nlength = 12\ndepth = 5\n[tilt]\nstep = 0.01\n[output]\nframe_every = 1\n");
   std::filesystem::create_directory(folder.path("runs"));
   std::filesystem::copy(folder.path("RUN.h5"), folder.path("runs/paper.h5"));
   EXPECT_GE(export_commands("README.md").size(), 1U);

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "support/process.h"
+#include "support/runs.h"
 
 namespace talus::test {
 namespace {
@@ -28,9 +29,10 @@ void expect_parts(const std::string& text, const std::vector<std::string>& parts
 class Figures : public testing::Test {
  protected:
   Figures() {
-    write_file(folder_, "bed.toml",
-               "[bed]\nlength = 10\ndepth = 4\n[tilt]\nend_angle = 1.5\n[output]\nframe_every = 0.5\n");
-    EXPECT_EQ(run_talus({"run", "bed.toml", "-q"}, folder_.path()).exit_code, 0);
+    const char* const bed =
+        "[bed]\nlength = 10\ndepth = 4\n[tilt]\nend_angle = 1.5\n[output]\nframe_every = 0.5\n";
+    write_file(folder_, "bed.toml", bed);
+    take_run(folder_, "bed.h5", bed);
   }
 
   Outcome figures(std::vector<std::string> more = {}) const {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "support/process.h"
+#include "support/runs.h"
 #include "unit/io/example_run.h"
 
 namespace talus::test {
@@ -22,8 +23,7 @@ TEST(Forces, of_a_run_are_compared) {
   const auto talus = [&](const std::vector<std::string>& arguments) {
     return run_talus(arguments, folder.path());
   };
-  write_file(folder, "bed.toml", bed);
-  ASSERT_EQ(talus({"run", "bed.toml", "-o", "bed.h5"}).exit_code, 0);
+  take_run(folder, "bed.h5", bed);
 
   const std::vector<std::string> ask = {"forces", "bed.h5", "--at", "0,1",   "--solutions",
                                         "7",      "--tol",  "1e-6", "--set", "gamma_c=0.3"};
@@ -70,8 +70,7 @@ TEST(Forces, of_a_run_without_frames_are_refused) {
 // them.
 TEST(Forces, of_contacts_that_resist_rolling_are_refused_and_so_are_their_problems) {
   const TemporaryFolder folder;
-  write_file(folder, "bed.toml", std::string(bed) + "[contact]\nrolling_friction = 0.1\n");
-  ASSERT_EQ(run_talus({"run", "bed.toml", "-o", "bed.h5"}, folder.path()).exit_code, 0);
+  take_run(folder, "bed.h5", std::string(bed) + "[contact]\nrolling_friction = 0.1\n");
   for (const std::vector<std::string>& asked :
        {std::vector<std::string>{"forces", "bed.h5", "--at", "0", "--set", "gamma_c=0.3"},
         {"dump", "bed.h5", "--frame", "1", "-o", "p.h5"}}) {

@@ -7,8 +7,9 @@
 #include <thread>
 
 #include "pictures.h"
-#include "support/process.h"
 #include "support/places.h"
+#include "support/process.h"
+#include "support/runs.h"
 
 namespace talus::test {
 namespace {
@@ -32,7 +33,7 @@ class MapCommands : public testing::Test {
   Outcome talus(const Words& arguments) { return run_talus(arguments, folder_.path()); }
   void make_run() {
     write_file(folder_, "bed.toml", tiny_bed);
-    ASSERT_EQ(talus({"run", "bed.toml", "-o", "bed.h5"}).exit_code, 0);
+    take_run(folder_, "bed.h5", tiny_bed);
   }
   /// Its theta_c is not known: the bed stands.
   Outcome render(const Words& more) { return talus(Words{"render", "bed.h5", "--theta-c", "20"} + more); }
@@ -208,7 +209,7 @@ TEST_F(MapCommands, pictures_of_another_run_are_not_taken_for_those_of_this_one)
     return talus({"render", run, "--map", "pressure", "--at", "1", "-o", "maps"}).exit_code;
   };
   ASSERT_EQ(draw("bed.h5"), 0);
-  ASSERT_EQ(talus({"run", "bed.toml", "-o", "other.h5", "--seed", "4"}).exit_code, 0);
+  take_run(folder_, "other.h5", tiny_bed, {"--seed", "4"});
   EXPECT_EQ(draw("other.h5"), 73);
   fs::create_directory(folder_.path() / "elsewhere");
   fs::rename(folder_.path() / "other.h5", folder_.path() / "elsewhere/bed.h5");

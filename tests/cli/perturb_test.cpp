@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "support/process.h"
+#include "support/runs.h"
 
 namespace talus::test {
 namespace {
@@ -28,7 +29,7 @@ std::string hash_of(const std::string& run, const TemporaryFolder& folder) {
 TEST(Perturb, leaves_the_run_as_it_is_without) {
   const TemporaryFolder folder;
   write_file(folder, "bed.toml", tiny_bed);
-  ASSERT_EQ(run_talus({"run", "bed.toml", "--seed", "2", "-o", "plain.h5"}, folder.path()).exit_code, 0);
+  take_run(folder, "plain.h5", tiny_bed, {"--seed", "2"});
   const Outcome outcome = run_talus(perturb("p", {"--seed", "2"}), folder.path());
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_NE(hash_of("plain.h5", folder), "");
@@ -163,7 +164,7 @@ TEST(Perturb, takes_no_run_that_lacks_its_trials) {
   const TemporaryFolder folder;
   write_file(folder, "bed.toml", tiny_bed);
   std::filesystem::create_directory(folder.path("p"));
-  ASSERT_EQ(run_talus({"run", "bed.toml", "-o", "p/seed-1.h5"}, folder.path()).exit_code, 0);
+  take_run(folder, "p/seed-1.h5", tiny_bed);
   const Outcome missing = run_talus(perturb("p", {"--seed", "1"}), folder.path());
   EXPECT_EQ(missing.exit_code, 65);
   EXPECT_NE(missing.err.find("no table of trials beside it"), std::string::npos) << missing.err;

@@ -7,8 +7,9 @@
 #include <iterator>
 #include <sstream>
 
-#include "support/process.h"
 #include "support/places.h"
+#include "support/process.h"
+#include "support/runs.h"
 
 namespace talus::test {
 namespace {
@@ -31,8 +32,7 @@ bool has_h5py() { return std::system("/usr/bin/python3 -c 'import h5py' 2>/dev/n
 class Problem : public testing::Test {
  protected:
   void SetUp() override {
-    write_file(folder, "bed.toml", bed);
-    ASSERT_EQ(talus({"run", "bed.toml", "-o", "bed.h5"}).exit_code, 0);
+    take_run(folder, "bed.h5", bed);
     ASSERT_EQ(talus({"dump", "bed.h5", "--frame", "1", "-o", "p.h5"}).exit_code, 0);
   }
   Outcome talus(const std::vector<std::string>& arguments) { return run_talus(arguments, folder.path()); }
@@ -176,9 +176,8 @@ TEST_F(Problem, refusals_leave_with_the_code_of_their_cause) {
 class MovingBed : public testing::Test {
  protected:
   void SetUp() override {
-    write_file(folder, "bed.toml",
-               "seed = 8\n[bed]\nlength = 12\ndepth = 5\n[tilt]\nstep = 0.01\n[output]\nframe_every = 1\n");
-    ASSERT_EQ(talus({"run", "bed.toml", "-o", "bed.h5"}).exit_code, 0);
+    take_run(folder, "bed.h5",
+             "seed = 8\n[bed]\nlength = 12\ndepth = 5\n[tilt]\nstep = 0.01\n[output]\nframe_every = 1\n");
     const std::string frames = json_value(talus({"info", "bed.h5", "--json"}).out, "frames");
     const std::string last = std::to_string(std::stoi(frames) - 1);
     ASSERT_EQ(talus({"dump", "bed.h5", "--frame", last, "-o", "p.h5"}).exit_code, 0);
@@ -230,9 +229,8 @@ std::vector<std::vector<std::string>> problem_commands(const std::string& page) 
 // In this bed the step at 10 deg is one at rest that does not come to 3e-7 from zero.
 TEST(ProblemExamples, of_the_documents_end_as_they_say) {
   const TemporaryFolder folder;
-  write_file(folder, "bed.toml",
-             "seed = 4\n[bed]\nlength = 30\ndepth = 10\n[tilt]\nstep = 0.01\nend_angle = 10.5\n");
-  ASSERT_EQ(run_talus({"run", "bed.toml", "-o", "RUN.h5"}, folder.path()).exit_code, 0);
+  take_run(folder, "RUN.h5",
+           "seed = 4\n[bed]\nlength = 30\ndepth = 10\n[tilt]\nstep = 0.01\nend_angle = 10.5\n");
   std::filesystem::create_directory(folder.path("runs"));
   std::filesystem::copy(folder.path("RUN.h5"), folder.path("runs/paper.h5"));
   for (const char* page : {"README.md", "docs/problem_files.md"}) {

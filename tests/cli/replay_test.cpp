@@ -6,9 +6,10 @@
 
 #include "core/trigonometry.h"
 #include "io/run_file.h"
-#include "support/process.h"
 #include "session/run.h"
 #include "session/run_header.h"
+#include "support/process.h"
+#include "support/runs.h"
 
 namespace talus::test {
 namespace {
@@ -43,8 +44,7 @@ class Replay : public testing::Test {
 };
 
 TEST_F(Replay, of_a_plain_run_finds_its_end) {
-  write_file(folder_, "bed.toml", small_bed);
-  ASSERT_EQ(talus({"run", "bed.toml", "-o", "bed.h5"}).exit_code, 0);
+  take_run(folder_, "bed.h5", small_bed);
   const Outcome replay = talus({"replay", "bed.h5"});
   EXPECT_EQ(replay.exit_code, 0) << replay.err;
   const std::string hash = info("bed.h5", "state_hash");

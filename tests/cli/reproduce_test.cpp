@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "support/process.h"
+#include "support/runs.h"
 
 namespace talus::test {
 namespace {
@@ -45,8 +46,12 @@ TEST(Reproduce, that_is_stopped_leaves_with_75_and_goes_on_where_it_was) {
   EXPECT_EQ(wait_for(first), 75);
   const int steps = steps_of_first_run(folder);
   EXPECT_GT(steps, 1);
+  const std::string lock = folder.path(std::string(first_run) + ".run/lock"), holder = text_of(lock);
   const pid_t second = start_quick(folder);
-  std::this_thread::sleep_for(std::chrono::seconds(1));
+  const auto goes_on = [&] { return !text_of(lock).empty() && text_of(lock) != holder; };
+  for (int wait = 0; wait < 1000 && !goes_on(); ++wait)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  EXPECT_TRUE(goes_on());
   kill(second, SIGTERM);
   EXPECT_EQ(wait_for(second), 75);
   EXPECT_GE(steps_of_first_run(folder), steps) << "it began again";
@@ -68,9 +73,8 @@ TEST(Reproduce, begins_an_ensemble_that_others_may_compute) {
 
 TEST(Reproduce, refuses_a_folder_with_another_run_in_it) {
   const TemporaryFolder folder;
-  write_file(folder, "bed.toml", "[bed]\nlength = 10\ndepth = 4\n[tilt]\nend_angle = 0.5\n");
   std::filesystem::create_directories(folder.path("quick/wbc-150"));
-  ASSERT_EQ(run_talus({"run", "bed.toml", "-o", first_run}, folder.path()).exit_code, 0);
+  take_run(folder, first_run, "[bed]\nlength = 10\ndepth = 4\n[tilt]\nend_angle = 0.5\n");
   const Outcome outcome = run_talus({"reproduce", "--quick", "-o", "quick"}, folder.path());
   EXPECT_EQ(outcome.exit_code, 65);
   EXPECT_NE(outcome.err.find(first_run), std::string::npos) << outcome.err;

@@ -7,6 +7,7 @@
 
 #include "pictures.h"
 #include "support/process.h"
+#include "support/runs.h"
 
 namespace talus::test {
 namespace {
@@ -40,7 +41,7 @@ class RunFrames : public testing::Test {
 };
 
 TEST_F(RunFrames, do_not_change_the_run) {
-  ASSERT_EQ(talus({"run", "bed.toml", "-o", "plain.h5"}).exit_code, 0);
+  take_run(folder_, "plain.h5", failing_bed);
   const Outcome drawn = talus(run("drawn.h5", "maps"));
   ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
   EXPECT_NE(drawn.err.find("20 deg; --theta-c"), std::string::npos) << drawn.err;
@@ -62,10 +63,11 @@ TEST_F(RunFrames, do_not_change_the_run) {
 }
 
 TEST_F(RunFrames, of_an_interrupted_run_are_those_of_a_whole_one) {
-  ASSERT_EQ(talus(run("whole.h5", "whole")).exit_code, 0);
+  const std::vector<std::string> few = {"--resume", "--set", "output.frame_every=4"};
+  ASSERT_EQ(talus(run("whole.h5", "whole", few)).exit_code, 0);
   int stops = 0;
   for (int attempt = 0; attempt < 40; ++attempt) {
-    const pid_t process = start_talus(run("parts.h5", "parts", {"--resume"}), folder_.path());
+    const pid_t process = start_talus(run("parts.h5", "parts", few), folder_.path());
     pause_before(attempt, 150);
     kill(process, attempt % 2 == 0 ? SIGTERM : SIGKILL);
     const int code = wait_for(process);
@@ -74,7 +76,7 @@ TEST_F(RunFrames, of_an_interrupted_run_are_those_of_a_whole_one) {
     if (!names_in(folder_.path() / "parts").empty()) ++stops;
   }
   EXPECT_GT(stops, 0) << "it was never interrupted while it drew: nothing was tested";
-  const Outcome last = talus(run("parts.h5", "parts", {"--resume"}));
+  const Outcome last = talus(run("parts.h5", "parts", few));
   ASSERT_EQ(last.exit_code, 0) << last.err;
   EXPECT_EQ(info("parts.h5", "state_hash"), info("whole.h5", "state_hash"));
   const std::set<std::string> parts = names_in(folder_.path() / "parts");
@@ -96,7 +98,7 @@ TEST_F(RunFrames, of_a_complete_run_are_made_whole) {
 }
 
 TEST_F(RunFrames, that_cannot_be_written_do_not_lose_the_run) {
-  ASSERT_EQ(talus({"run", "bed.toml", "-o", "plain.h5"}).exit_code, 0);
+  take_run(folder_, "plain.h5", failing_bed);
   fs::create_directories(folder_.path() / "maps/clusters_005.00.png/x");  // no file can take its place
   const Outcome outcome = talus(run("bed.h5", "maps", {"--overwrite"}));
   EXPECT_EQ(outcome.exit_code, 73);
@@ -120,7 +122,7 @@ TEST_F(RunFrames, refuse_before_anything_is_computed) {
 }
 
 TEST_F(RunFrames, of_the_flow_are_drawn_from_the_file_too) {
-  ASSERT_EQ(talus({"run", "bed.toml", "-o", "bed.h5"}).exit_code, 0);
+  take_run(folder_, "bed.h5", failing_bed);
   const Outcome outcome = talus(
       {"render", "bed.h5", "--map", "clusters", "--every", "1", "--flow", "--width", "400", "-o", "maps"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "support/process.h"
+#include "support/runs.h"
 
 namespace talus::test {
 namespace {
@@ -63,7 +64,9 @@ TEST(Run, existing_output_is_refused_unless_told) {
 TEST(Run, same_bits_for_any_number_of_threads) {
   const TemporaryFolder folder;
   // Large enough for two threads to share its contacts.
-  write_file(folder, "bed.toml", "[bed]\nlength = 60\ndepth = 20\n[tilt]\nend_angle = 0.05\n");
+  write_file(folder, "bed.toml",
+             "[bed]\nlength = 60\ndepth = 20\n[deposition]\nmethod = \"collapse\"\nrest_velocity = 0.1\n"
+             "[tilt]\nend_angle = 0.05\n");
   ASSERT_EQ(run_talus({"run", "bed.toml", "-o", "one.h5", "--threads", "1"}, folder.path()).exit_code, 0);
   ASSERT_EQ(run_talus({"run", "bed.toml", "-o", "two.h5", "--threads", "2"}, folder.path()).exit_code, 0);
   EXPECT_EQ(hash_of("one.h5", folder), hash_of("two.h5", folder));
@@ -109,7 +112,7 @@ class Interrupted : public testing::TestWithParam<int> {};
 TEST_P(Interrupted, run_resumes_to_the_same_bits) {
   const TemporaryFolder folder;
   write_file(folder, "bed.toml", small_bed);
-  ASSERT_EQ(run_talus({"run", "bed.toml", "-o", "whole.h5"}, folder.path()).exit_code, 0);
+  take_run(folder, "whole.h5", small_bed);
   int stops = 0;
   for (int attempt = 0; attempt < 40; ++attempt) {
     const pid_t process = start_talus({"run", "bed.toml", "-o", "parts.h5", "--resume"}, folder.path());
@@ -228,8 +231,7 @@ TEST(Run, of_another_scenario_is_not_taken_for_the_one_asked_for) {
 
 TEST(Run, maps_are_drawn_from_the_file) {
   const TemporaryFolder folder;
-  write_file(folder, "bed.toml", small_bed);
-  ASSERT_EQ(run_talus({"run", "bed.toml", "-o", "bed.h5"}, folder.path()).exit_code, 0);
+  take_run(folder, "bed.h5", small_bed);
   const Outcome refused = run_talus({"render", "bed.h5", "--map", "overloaded", "-o", "maps"}, folder.path());
   EXPECT_EQ(refused.exit_code, 65) << "this bed did not fail: Gamma_c is not known";
   const Outcome outcome = run_talus(

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "support/process.h"
+#include "support/runs.h"
 
 namespace talus::test {
 namespace {
@@ -23,8 +24,12 @@ std::vector<std::string> study_of(const std::string& folder) {
           "--seeds", "1-2",
           "-o",      folder};
 }
-const char* const runs[] = {"baseline/seed-1", "baseline/seed-2", "tilt.rate=2,tilt.step=0.002/seed-1",
-                            "solver.tolerance=1e-05/seed-2"};
+/// Some of its runs, and what `talus run` is told to make the same.
+const std::pair<const char*, std::vector<std::string>> runs[] = {
+    {"baseline/seed-1", {}},
+    {"baseline/seed-2", {"--seed", "2"}},
+    {"tilt.rate=2,tilt.step=0.002/seed-1", {"--set", "tilt.rate=2", "--set", "tilt.step=0.002"}},
+    {"solver.tolerance=1e-05/seed-2", {"--seed", "2", "--set", "solver.tolerance=1e-5"}}};
 
 std::string hash_of(const std::string& run, const TemporaryFolder& folder) {
   return json_value(run_talus({"info", run, "--json"}, folder.path()).out, "state_hash");
@@ -35,15 +40,11 @@ TEST(Study, runs_have_the_bits_of_talus_run) {
   write_file(folder, "bed.toml", tiny_bed);
   const Outcome study = run_talus(study_of("study"), folder.path());
   ASSERT_EQ(study.exit_code, 0) << study.err;
-  ASSERT_EQ(run_talus({"run", "bed.toml", "--seed", "2", "-o", "base.h5"}, folder.path()).exit_code, 0);
-  ASSERT_EQ(
-      run_talus({"run", "bed.toml", "--set", "tilt.rate=2", "--set", "tilt.step=0.002", "-o", "fast.h5"},
-                folder.path())
-          .exit_code,
-      0);
-  EXPECT_EQ(hash_of("base.h5", folder), hash_of("study/baseline/seed-2.h5", folder));
-  EXPECT_EQ(hash_of("fast.h5", folder), hash_of("study/tilt.rate=2,tilt.step=0.002/seed-1.h5", folder));
-  EXPECT_NE(hash_of("base.h5", folder), hash_of("study/baseline/seed-1.h5", folder));
+  for (const auto& [run, arguments] : runs)
+    EXPECT_EQ(hash_of(std::string("study/") + run + ".h5", folder),
+              hash_of(kept_run(tiny_bed, arguments).string(), folder))
+        << run;
+  EXPECT_NE(hash_of("study/baseline/seed-1.h5", folder), hash_of("study/baseline/seed-2.h5", folder));
 }
 
 TEST(Study, leaves_tables_and_prints_them) {
@@ -81,7 +82,6 @@ class InterruptedStudy : public testing::TestWithParam<int> {};
 TEST_P(InterruptedStudy, goes_on_to_the_same_bits) {
   const TemporaryFolder folder;
   write_file(folder, "bed.toml", tiny_bed);
-  ASSERT_EQ(run_talus(study_of("whole"), folder.path()).exit_code, 0);
   int stops = 0;
   int code = -1;
   for (int attempt = 0; attempt < 40 && code != 0; ++attempt) {
@@ -96,9 +96,9 @@ TEST_P(InterruptedStudy, goes_on_to_the_same_bits) {
   }
   EXPECT_EQ(code, 0);
   EXPECT_GT(stops, 0) << "the study was never interrupted: nothing was tested";
-  for (const char* run : runs)
+  for (const auto& [run, arguments] : runs)
     EXPECT_EQ(hash_of(std::string("parts/") + run + ".h5", folder),
-              hash_of(std::string("whole/") + run + ".h5", folder))
+              hash_of(kept_run(tiny_bed, arguments).string(), folder))
         << run;
 }
 
@@ -126,7 +126,8 @@ int steps_of_long_run(const TemporaryFolder& folder) {
 TEST(Study, that_is_stopped_stops_its_runs_and_goes_on_where_they_were) {
   const TemporaryFolder folder;
   const pid_t first = start_long_study(folder);
-  std::this_thread::sleep_for(std::chrono::seconds(1));
+  for (int wait = 0; wait < 1000 && steps_of_long_run(folder) < 10; ++wait)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
   const auto asked = std::chrono::steady_clock::now();
   kill(first, SIGTERM);
   EXPECT_EQ(wait_for(first), 75);
@@ -189,7 +190,7 @@ TEST(Study, takes_runs_that_are_there_and_no_run_of_another_scenario) {
   write_file(folder, "bed.toml", tiny_bed);
   std::filesystem::create_directories(folder.path("study/baseline"));
   const std::string run = "study/baseline/seed-1.h5";
-  ASSERT_EQ(run_talus({"run", "bed.toml", "--seed", "1", "-o", run}, folder.path()).exit_code, 0);
+  take_run(folder, run, tiny_bed, {"--seed", "1"});
   const Outcome other = run_talus(
       {"study", "bed.toml", "--seeds", "1", "-o", "study", "--set", "contact.friction=0.3"}, folder.path());
   EXPECT_EQ(other.exit_code, 65);

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "support/process.h"
+#include "support/runs.h"
 
 namespace talus::test {
 namespace {
@@ -93,7 +94,7 @@ TEST_F(TiltProgramCommands, a_run_is_made_told_replayed_drawn_and_exported) {
 }
 
 TEST_F(TiltProgramCommands, the_analysis_says_what_its_angles_refer_to) {
-  ASSERT_EQ(talus({"run", "bed.toml", "-q", "-o", "bed.h5"}).exit_code, 0);
+  take_run(folder_, "bed.h5", cycled_bed);
   const Outcome analysis = talus({"analyze", "bed.h5"});
   ASSERT_EQ(analysis.exit_code, 0) << analysis.err;
   EXPECT_NE(analysis.out.find("theta_c, theta_d and the first slide are of the last rise, from 0"),
@@ -104,15 +105,12 @@ TEST_F(TiltProgramCommands, the_analysis_says_what_its_angles_refer_to) {
 }
 
 TEST_F(TiltProgramCommands, cycles_are_a_figure_of_runs_that_have_them) {
-  ASSERT_EQ(talus({"run", "bed.toml", "-q", "-o", "bed.h5"}).exit_code, 0);
+  take_run(folder_, "bed.h5", cycled_bed);
   const Outcome figure = talus({"figures", "bed.h5", "--only", "cycles", "-o", "figures"});
   ASSERT_EQ(figure.exit_code, 0) << figure.err;
   for (const char* file : {"cycles.png", "cycles.pdf", "cycles.svg", "cycles.csv", "cycles-ends.csv"})
     EXPECT_TRUE(files_in("figures").contains(file)) << file;
-  ASSERT_EQ(talus({"run", "bed.toml", "-q", "--set", "tilt.program=none", "--set", "tilt.end_angle=2", "-o",
-                   "plain.h5"})
-                .exit_code,
-            0);
+  take_run(folder_, "plain.h5", cycled_bed, {"--set", "tilt.program=none", "--set", "tilt.end_angle=2"});
   EXPECT_NE(talus({"figures", "plain.h5", "--only", "cycles", "-o", "none"}).exit_code, 0);
 }
 

@@ -6,13 +6,13 @@
 #include <algorithm>
 #include <chrono>
 #include <functional>
-#include <stdexcept>
 #include <string>
 #include <thread>
 #include <utility>
 
-#include "support/process.h"
 #include "gui/offscreen.h"
+#include "support/process.h"
+#include "support/runs.h"
 
 namespace talus::test {
 
@@ -26,12 +26,7 @@ class Replay : public testing::Test {
  protected:
   Replay() : model_(open_run()), gui_(model_, 1400, 900) {}
 
-  ViewModel open_run() {
-    write_file(folder_, "bed.toml", small_bed);
-    const Outcome run = run_talus({"run", "bed.toml", "-q"}, folder_.path());
-    if (run.exit_code != 0) throw std::runtime_error(run.err);
-    return ViewModel::open(folder_.path("bed.h5"), {}, "", false, "");
-  }
+  ViewModel open_run() { return ViewModel::open(take_run(folder_, "bed.h5", small_bed), {}, "", false, ""); }
 
   /// Where a grain is in the map: shares of its width and height.
   std::pair<float, float> share_of(Index grain) {

@@ -9,8 +9,9 @@
 #include <memory>
 #include <thread>
 
-#include "support/process.h"
 #include "gui/desktop.h"
+#include "support/process.h"
+#include "support/runs.h"
 
 namespace talus::test {
 

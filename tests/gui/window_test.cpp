@@ -8,8 +8,8 @@
 #include <set>
 #include <thread>
 
-#include "support/process.h"
 #include "gui/window_fixture.h"
+#include "support/process.h"
 
 namespace talus::test {
 namespace {
@@ -42,7 +42,7 @@ TEST(View, takes_a_picture_of_itself_without_a_display) {
 TEST(View, shows_two_views_in_the_picture_and_says_what_cannot_be_beside) {
   const TemporaryFolder folder;
   write_file(folder, "bed.toml", small_bed);
-  ASSERT_EQ(run_talus({"run", "bed.toml", "-q"}, folder.path()).exit_code, 0);
+  take_run(folder, "bed.h5", small_bed);
   const auto view = [&](const std::string& file, std::vector<std::string> words) {
     words.insert(words.begin(), {"view", file, "--screenshot", "view.png", "--overwrite"});
     return run_talus(words, folder.path());
@@ -60,7 +60,7 @@ TEST(View, shows_two_views_in_the_picture_and_says_what_cannot_be_beside) {
 TEST(View, a_picture_of_the_window_replaces_nothing_that_is_shown_in_it) {
   const TemporaryFolder folder;
   write_file(folder, "bed.toml", small_bed);
-  ASSERT_EQ(run_talus({"run", "bed.toml", "-q"}, folder.path()).exit_code, 0);
+  take_run(folder, "bed.h5", small_bed);
   for (const char* copy : {"other.h5", "behind.h5"})
     std::filesystem::copy_file(folder.path("bed.h5"), folder.path(copy));
   const std::string run = text_of(folder.path("bed.h5")), scenario = text_of(folder.path("bed.toml"));
@@ -134,7 +134,7 @@ std::size_t colours_of(const Image& image) {
 }
 
 TEST_F(Window, replays_a_run) {
-  ASSERT_EQ(run_talus({"run", "bed.toml", "-q"}, folder_.path()).exit_code, 0);
+  take_run(folder_, "bed.h5", small_bed);
   start({"bed.h5"});
   EXPECT_TRUE(desktop_->wait_for_title("bed.h5, 0.00° ")) << desktop_->title();
   move_to("map");  // the window under the mouse has the keys
@@ -157,9 +157,8 @@ TEST_F(Window, replays_a_run) {
 }
 
 TEST_F(Window, puts_another_run_behind_its_curves_and_writes_them_as_figures) {
-  ASSERT_EQ(run_talus({"run", "bed.toml", "-q"}, folder_.path()).exit_code, 0);
-  ASSERT_EQ(run_talus({"run", "bed.toml", "-q", "--seed", "4", "-o", "other.h5"}, folder_.path()).exit_code,
-            0);
+  take_run(folder_, "bed.h5", small_bed);
+  take_run(folder_, "other.h5", small_bed, {"--seed", "4"});
   start({"bed.h5", "--behind", "other.h5"});
   click("export plots");
   click("write plots");
@@ -181,7 +180,7 @@ TEST_F(Window, puts_another_run_behind_its_curves_and_writes_them_as_figures) {
 }
 
 TEST_F(Window, lists_its_keys_and_follows_its_size) {
-  ASSERT_EQ(run_talus({"run", "bed.toml", "-q"}, folder_.path()).exit_code, 0);
+  take_run(folder_, "bed.h5", small_bed);
   start({"bed.h5"});
   move_to("map");
   desktop_->key("question");
@@ -210,7 +209,7 @@ TEST_F(Window, computes_a_run_and_records_it) {
   const Outcome info = run_talus({"info", "bed.h5", "--json"}, folder_.path());
   ASSERT_EQ(info.exit_code, 0) << info.err;
   EXPECT_EQ(json_value(info.out, "complete"), "true");
-  ASSERT_EQ(run_talus({"run", "bed.toml", "-q", "-o", "headless.h5"}, folder_.path()).exit_code, 0);
+  take_run(folder_, "headless.h5", small_bed);
   const Outcome headless = run_talus({"info", "headless.h5", "--json"}, folder_.path());
   EXPECT_EQ(json_value(info.out, "state_hash"), json_value(headless.out, "state_hash"))
       << "looking changes nothing";

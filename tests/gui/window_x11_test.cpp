@@ -7,8 +7,7 @@ namespace talus::test {
 namespace {
 
 TEST_F(Window, opens_a_file_that_is_dropped_on_it) {
-  ASSERT_EQ(run_talus({"run", "bed.toml", "-q", "-o", "first.h5"}, folder_.path()).exit_code, 0);
-  ASSERT_EQ(run_talus({"run", "bed.toml", "-q", "-o", "second.h5"}, folder_.path()).exit_code, 0);
+  for (const char* name : {"first.h5", "second.h5"}) take_run(folder_, name, small_bed);
   start({"first.h5"});
   ASSERT_TRUE(drop_file(desktop_->window(), folder_.path("second.h5")));
   EXPECT_TRUE(desktop_->wait_for_title("second.h5")) << desktop_->title();

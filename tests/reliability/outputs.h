@@ -19,6 +19,7 @@
 #include "io/run_file.h"
 #include "reliability/whole_run.h"
 #include "render/whole_file.h"
+#include "support/runs.h"
 
 namespace talus::test {
 namespace fs = std::filesystem;
@@ -96,8 +97,9 @@ class Outputs : public testing::Test {
   static void SetUpTestSuite() {
     inputs_ = std::make_unique<TemporaryFolder>();
     write_file(*inputs_, "bed.toml", tiny_bed);
-    for (const Words& words : {Words{"run", "bed.toml", "-q", "-o", "f.h5"}, Words{"analyze", "f.h5", "-q"},
-                               Words{"dump", "f.h5", "--frame", "1", "-o", "p.h5"}}) {
+    take_run(*inputs_, "f.h5", tiny_bed);
+    for (const Words& words :
+         {Words{"analyze", "f.h5", "-q"}, Words{"dump", "f.h5", "--frame", "1", "-o", "p.h5"}}) {
       const Outcome outcome = run_talus(words, inputs_->path());
       ASSERT_EQ(outcome.exit_code, done) << outcome.err;
     }

@@ -211,7 +211,7 @@ TEST_F(Outputs, runs_that_may_only_be_read_are_analysed_and_drawn) {
   const TemporaryFolder own;  // of the reader
   ASSERT_EQ(chown(own.path().c_str(), AsNobody::nobody, AsNobody::nobody), 0);
   ASSERT_EQ(chmod(folder_.path().c_str(), 0755), 0);
-  ASSERT_EQ(talus({"run", "bed.toml", "-q", "-o", "new.h5", "--seed", "2"}).exit_code, done);
+  take_run(folder_, "new.h5", tiny_bed, {"--seed", "2"});
   const std::string run = path("new.h5"), before = content(run);
   const auto read_by_nobody = [&](const std::string& reason) {
     SCOPED_TRACE(reason);
