@@ -49,11 +49,11 @@ function(talus_join_sources target)
 endfunction()
 
 # talus_test(NAME LABEL sources... [TOGETHER] [ALONE sources...] [CHOSEN cases...] [TIMEOUT s] [LINK libraries...]): one
-# GoogleTest program, its cases known to ctest; the target LABEL_tests builds those of a label. Sources named after ALONE
-# use names that others of the program use too, and are compiled by themselves. Cases named after CHOSEN (as a filter of GoogleTest
-# names them) have the label LABEL_chosen: `./bootstrap test` runs them, and --all the others too. TOGETHER, for cases that
-# take less time than the start of a process or share a bed, makes them one test of ctest; AddressSanitizer, whose
-# processes start slowly, does so for all programs.
+# GoogleTest program, its cases known to ctest; the target LABEL_tests builds those of a label.
+#   ALONE     sources with names that others of the program use too: they are compiled by themselves
+#   CHOSEN    cases, as a filter of GoogleTest names them, that have the label LABEL_chosen: `./bootstrap test` runs them
+#   TOGETHER  all cases are one test of ctest, because each takes less time than the start of a process, or they share a bed;
+#             with AddressSanitizer, whose processes start slowly, those of every program are
 function(talus_test name label)
   cmake_parse_arguments(TEST "TOGETHER" "TIMEOUT" "ALONE;LINK;CHOSEN" ${ARGN})
   if(NOT TEST_TIMEOUT)
@@ -70,7 +70,7 @@ function(talus_test name label)
     add_custom_target(${label}_tests)
   endif()
   add_dependencies(${label}_tests ${name})
-  if(TALUS_SANITIZE)
+  if(TALUS_SANITIZE OR CMAKE_CXX_FLAGS_RELWITHDEBINFO MATCHES "-fsanitize")
     math(EXPR TEST_TIMEOUT "5 * ${TEST_TIMEOUT}")
   endif()
   if(TEST_TOGETHER OR TALUS_SANITIZE)
