@@ -7,8 +7,8 @@
 #include <fstream>
 #include <thread>
 
-#include "support/process.h"
 #include "support/places.h"
+#include "support/process.h"
 
 namespace talus::test {
 namespace {
@@ -79,8 +79,7 @@ TEST(Ensemble, has_averages_over_tilt_that_do_not_depend_on_when_members_came) {
       std::string::npos);
   if (std::system("/usr/bin/python3 -c 'import h5py' 2>/dev/null") != 0)
     GTEST_SKIP() << "python3-h5py is not installed";
-  const std::string read = "cd " + folder.path().string() +
-                           " && /usr/bin/python3 " + source_folder() +
+  const std::string read = "cd " + folder.path().string() + " && /usr/bin/python3 " + source_folder() +
                            "/tests/cli/ensemble_with_h5py.py at-once/ensemble.h5 > read.txt 2>&1";
   EXPECT_EQ(std::system(read.c_str()), 0) << text_of(folder.path("read.txt"));
   EXPECT_EQ(text_of(folder.path("read.txt")), "1 2 3 0.0 0.5 1.0 1.5\n");

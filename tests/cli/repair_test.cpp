@@ -6,9 +6,9 @@
 #include <fstream>
 
 #include "io/run_file.h"
-#include "support/process.h"
 #include "session/run.h"
 #include "session/run_header.h"
+#include "support/process.h"
 #include "support/small_bed.h"
 #include "unit/io/damaged_run.h"
 

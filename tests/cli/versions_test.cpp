@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "io/run_schema.h"
-#include "support/process.h"
 #include "support/places.h"
+#include "support/process.h"
 
 namespace talus::test {
 namespace {

@@ -9,7 +9,6 @@
 #include <filesystem>
 #include <limits>
 
-#include "support/process.h"
 #include "core/random.h"
 #include "io/child_process.h"
 #include "io/run_file.h"
@@ -18,6 +17,7 @@
 #include "reliability/hostile_test.h"
 #include "session/frame_state.h"
 #include "session/run_check.h"
+#include "support/process.h"
 
 namespace talus::hostile {
 namespace {

@@ -7,13 +7,13 @@
 #include <algorithm>
 #include <optional>
 
-#include "support/process.h"
 #include "core/random.h"
 #include "core/sanitizers.h"
 #include "io/child_process.h"
 #include "io/run_file.h"
 #include "reliability/hostile_test.h"
 #include "support/places.h"
+#include "support/process.h"
 
 namespace talus::hostile {
 namespace {

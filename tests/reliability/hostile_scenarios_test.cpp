@@ -4,8 +4,8 @@
 
 #include <iterator>
 
-#include "support/process.h"
 #include "support/places.h"
+#include "support/process.h"
 
 namespace talus::test {
 namespace {

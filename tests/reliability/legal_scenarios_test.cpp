@@ -13,9 +13,9 @@
 #include <map>
 #include <thread>
 
-#include "support/process.h"
 #include "reliability/legal_scenario.h"
 #include "session/estimate.h"
+#include "support/process.h"
 
 namespace talus::test {
 namespace {

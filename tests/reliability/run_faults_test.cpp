@@ -151,8 +151,8 @@ TEST_F(RunFaults, a_file_that_may_not_grow_is_an_error_and_not_a_signal) {
 
 TEST_F(RunFaults, results_that_cannot_be_printed_are_an_error) {
   if (!fs::exists("/dev/full")) GTEST_SKIP() << "needs /dev/full";
-  const std::string shell = talus_program() + " info " + reference_folder_.path("run.h5") + " > /dev/full 2> " +
-                            reference_folder_.path("said");
+  const std::string shell = talus_program() + " info " + reference_folder_.path("run.h5") +
+                            " > /dev/full 2> " + reference_folder_.path("said");
   const int status = std::system(shell.c_str());
   EXPECT_EQ(WEXITSTATUS(status), 74);
 }

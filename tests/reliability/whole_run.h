@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "support/process.h"
 #include "core/snapshot.h"
+#include "support/process.h"
 
 namespace talus::test {
 

@@ -134,6 +134,18 @@ TEST(ChangeMap, ALostContactPointsToTheImageThatItWasWith) {
   EXPECT_FLOAT_EQ(layers[1].lines[0].x1, 2.4f);
 }
 
+TEST(ChangeMap, ALostContactPointsThroughTheEdgeThatItsGrainHasLeftThrough) {
+  Changed changed({0.1, 0.1, 0.1}, {0.1, 0.1, 0.1});
+  test::add_contact(changed.before, 0, 2, 1.0);  // grain 2 to the right of grain 0, in the same image
+  changed.now.frame.x[0] = 2.9;                  // out on the left
+  changed.now.frame.image[0] = -1;
+  changed.now.frame.x[2] = 2.0;
+  const auto layers = change_layers(changed.frame(), settings_of("gamma"), extent_of(changed.now));
+  ASSERT_EQ(layers[1].lines.size(), 2u);
+  EXPECT_FLOAT_EQ(layers[1].lines[0].x0, 2.9f);
+  EXPECT_FLOAT_EQ(layers[1].lines[0].x1, 3.4f);
+}
+
 TEST(ChangeMap, NothingHasChangedWithoutAReference) {
   const Packing packing = row_of_grains({0.1, 0.2, 0.3});
   const auto layers =

@@ -29,9 +29,15 @@ Scene make_scene() {
   const auto force = [&] { return random.uniform(0.1, 3.0); };
   for (Index i = 0; i < free_count; ++i) {
     const Index row = i / columns, column = i % columns;
-    if (column + 1 < columns) test::add_contact(packing, i, i + 1, force(), 0.3 * force());
-    if (row + 1 < free_count / columns)
-      test::add_contact(packing, i, i + columns, force(), random.uniform(-0.5, 0.5));
+    // One draw a statement: compilers evaluate arguments in an order of their own.
+    if (column + 1 < columns) {
+      const double tangential = 0.3 * force();
+      test::add_contact(packing, i, i + 1, force(), tangential);
+    }
+    if (row + 1 < free_count / columns) {
+      const double tangential = random.uniform(-0.5, 0.5);
+      test::add_contact(packing, i, i + columns, force(), tangential);
+    }
   }
   for (Index c = 0; c < packing.frame.contacts.count(); c += 4)
     packing.frame.contacts.status[c] = ContactStatus::sliding;
