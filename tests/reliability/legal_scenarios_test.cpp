@@ -1,6 +1,6 @@
 /// Scenarios of chance that the table of keys allows: each ends in a run or in a refusal that is documented,
 /// in time, and `talus check` calls each run whole, while it computes and when it is done. The long version
-/// takes TALUS_TRIES scenarios: ctest -L slow -R legal_long.
+/// takes TALUS_TRIES scenarios: .ci/full legal.
 
 #include <gtest/gtest.h>
 
