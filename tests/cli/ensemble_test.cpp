@@ -126,18 +126,12 @@ TEST_P(InterruptedEnsemble, goes_on_to_the_same_bits) {
   const TemporaryFolder folder;
   write_file(folder, "bed.toml", tiny_bed);
   ASSERT_EQ(run_talus(ensemble_of("whole"), folder.path()).exit_code, 0);
-  int stops = 0;
-  int code = -1;
-  for (int attempt = 0; attempt < 40 && code != 0; ++attempt) {
-    const pid_t process = start_talus(ensemble_of("parts"), folder.path());
-    pause_before(attempt, 50);
-    kill(process, GetParam());
-    code = wait_for(process);
+  const std::vector<int> codes =
+      stop_until_done([&] { return start_talus(ensemble_of("parts"), folder.path()); }, GetParam(), 50,
+                      folder.path("parts"));
+  for (const int code : codes)
     EXPECT_TRUE(code == 0 || code == -1 || code == 75) << code << errors_in(folder.path());
-    if (code != 0) ++stops;
-  }
-  EXPECT_EQ(code, 0);
-  EXPECT_GT(stops, 0) << "the ensemble was never interrupted: nothing was tested";
+  EXPECT_EQ(codes.back(), 0);
   for (const char* member : {"seed-1.csv", "seed-2.csv", "seed-3.csv", "seed-4.csv"})
     EXPECT_EQ(hash_in(folder.path(std::string("parts/") + member)),
               hash_in(folder.path(std::string("whole/") + member)))
@@ -150,14 +144,9 @@ TEST_P(InterruptedEnsemble, that_keeps_no_runs_ends_with_the_tables_of_all) {
   ASSERT_EQ(run_talus(ensemble_of("whole"), folder.path()).exit_code, 0);
   std::vector<std::string> words = ensemble_of("parts");
   words.insert(words.end(), {"--keep", "analysis"});
-  int code = -1;
-  for (int attempt = 0; attempt < 40 && code != 0; ++attempt) {
-    const pid_t process = start_talus(words, folder.path());
-    pause_before(attempt, 50);
-    kill(process, GetParam());
-    code = wait_for(process);
-  }
-  EXPECT_EQ(code, 0);
+  const std::vector<int> codes = stop_until_done([&] { return start_talus(words, folder.path()); },
+                                                 GetParam(), 50, folder.path("parts"));
+  EXPECT_EQ(codes.back(), 0);
   EXPECT_EQ(text_of(folder.path("parts/averages.csv")), text_of(folder.path("whole/averages.csv")));
   for (const char* seed : {"1", "2", "3", "4"}) {
     const std::string member = folder.path(std::string("parts/seed-") + seed);

@@ -83,19 +83,13 @@ TEST_P(InterruptedPerturb, goes_on_to_the_same_table) {
   const TemporaryFolder folder;
   write_file(folder, "bed.toml", tiny_bed);
   ASSERT_EQ(run_talus(perturb("whole", {"--seed", "1"}), folder.path()).exit_code, 0);
-  int stops = 0;
-  int code = -1;
-  for (int attempt = 0; attempt < 40 && code != 0; ++attempt) {
-    const pid_t process = start_talus(perturb("parts", {"--seed", "1"}), folder.path());
-    pause_before(attempt, 200);
-    kill(process, GetParam());
-    code = wait_for(process);
-    // A signal may come before the program waits for it.
-    EXPECT_TRUE(code == 0 || code == -1 || (code == 75 && GetParam() != SIGKILL)) << code;
-    if (code != 0) ++stops;
-  }
-  EXPECT_EQ(code, 0);
-  EXPECT_GT(stops, 0) << "it was never interrupted: nothing was tested";
+  const std::vector<int> codes = stop_until_done([&] { return start_talus(perturb("parts", {"--seed", "1"}), folder.path()); },
+                                                 GetParam(), 200, folder.path("parts"));
+  // A signal may come before the program waits for it.
+  for (const int code : codes)
+    EXPECT_TRUE(code == 0 || code == -1 || (code == 75 && GetParam() != SIGKILL))
+        << code << errors_in(folder.path());
+  EXPECT_EQ(codes.back(), 0);
   EXPECT_EQ(hash_of("parts/seed-1.h5", folder), hash_of("whole/seed-1.h5", folder));
   EXPECT_EQ(text_of(folder.path("parts/seed-1.trials.csv")), text_of(folder.path("whole/seed-1.trials.csv")));
 }

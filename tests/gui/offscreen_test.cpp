@@ -69,6 +69,16 @@ TEST_F(Replay, moves_by_keys) {
   EXPECT_EQ(model_.frame_index(), 0u);
 }
 
+TEST_F(Replay, overlays_by_keys_are_each_map_but_the_one_below) {
+  const MapLayers& layers = model_.state.map.layers;
+  model_.state.map.layers = {map_kinds()[1]};
+  std::vector<MapKind> seen;
+  for (gui_.key('o'); layers.size() > 1; gui_.key('o')) seen.push_back(layers[1]);
+  std::vector<MapKind> others(map_kinds().begin(), map_kinds().end());
+  std::erase(others, layers[0]);
+  EXPECT_EQ(seen, others);
+}
+
 TEST_F(Replay, a_map_is_chosen_in_the_list) {
   const Image before = gui_.frame();
   gui_.key('M');

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <csignal>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -107,6 +108,21 @@ bool wait_until_it_catches(pid_t process, int signal) {
 void pause_before(int attempt, double milliseconds) {
   std::this_thread::sleep_for(
       std::chrono::duration<double, std::milli>(milliseconds * std::pow(1.25, attempt)));
+}
+
+std::vector<int> stop_until_done(const std::function<pid_t()>& start, int signal, double milliseconds,
+                                 const std::filesystem::path& result) {
+  std::vector<int> codes;
+  for (int attempt = 0; attempt < 40 && (codes.empty() || codes.back() != 0); ++attempt) {
+    const pid_t process = start();
+    pause_before(attempt, milliseconds);
+    kill(process, signal);
+    codes.push_back(wait_for(process));
+    if (codes.size() > 1 || codes.back() != 0) continue;
+    codes.clear();
+    std::filesystem::remove_all(result);
+  }
+  return codes;
 }
 
 std::string write_file(const TemporaryFolder& folder, const std::string& name, const std::string& text) {
