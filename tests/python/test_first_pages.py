@@ -1,6 +1,8 @@
 """The commands and the Python of docs/tutorial.md, docs/questions.md and docs/gallery.md run as they are printed, in their
 order, as a reader types them. Only the bed of the demo is a smaller one."""
 
+import importlib.machinery
+import importlib.util
 import os
 import re
 import shutil
@@ -92,3 +94,69 @@ def test_commands_are_recognised():
     for step in ["./bootstrap demo", "talus info", "talus panel", "talus run", "talus ensemble", "talus figures", "talus view", "python3"]:
         assert any(step in command for command in commands), step
     assert [name for name, _ in pieces("tutorial") if name] == ["first.py"]
+
+
+@pytest.mark.chosen
+def test_pictures_are_made_by_the_commands_beside_them():
+    """docs/make finds the command of each picture on the page that shows it; the runs are made by printed commands too."""
+    make = docs_make()
+    texts = {path.name: path.read_text() for path in make.pages().values()}
+    shown = {picture for text in texts.values() for picture in make.pictures_of(text) if not picture.startswith("cookbook/")}
+    assert shown == set(make.PICTURES)
+    folder = ROOT / "docs/images"
+    kept = {str(path.relative_to(folder).with_suffix("")) for path in folder.rglob("*.png")}
+    assert {name for name in kept if not name.startswith("cookbook/")} == shown
+    for picture in shown:
+        make.command_of(picture)
+    printed = {line.strip() for text in texts.values() for line in text.splitlines() if line.startswith("    ")}
+    for run, commands in make.RUNS.items():
+        missing = {line.strip() for line in commands.splitlines()} - printed
+        assert not missing, f"{run} is made by what no page prints: {missing}"
+
+
+@pytest.mark.chosen
+def test_commands_name_the_program_where_a_build_leaves_it():
+    """Nobody has `talus` on the path in the first hour."""
+    for path in docs_make().pages().values():
+        bare = re.findall(r"^ {4,8}talus .*$", path.read_text(), re.MULTILINE)
+        assert not bare, f"{path}: {bare}"
+
+
+@pytest.mark.chosen
+def test_pictures_of_first_pages_are_small():
+    found = [path for name in ("tutorial", "gallery") for path in (ROOT / f"docs/images/{name}").glob("*.png")]
+    assert len(found) > 20
+    for path in found:
+        assert path.stat().st_size < 150_000, path
+
+
+@pytest.mark.chosen
+def test_a_number_or_picture_that_differs_is_found(tmp_path, monkeypatch):
+    make = docs_make()
+    monkeypatch.setattr(make, "ROOT", tmp_path)
+    monkeypatch.setattr(make, "DOCS", tmp_path)
+    monkeypatch.setattr(make, "NUMBERS", {"page": [("It fails at {:.2f} deg, and {:.1f} % {:.1f}.", ["a", "b", "a"])]})
+    page = tmp_path / "page.md"
+    page.write_text("It\nfails at 2.00 deg,\nand 1.0 % 2.0.\n")
+    (tmp_path / "README.md").write_text("")
+    values = {"a": 2.0, "b": 1.04}
+    assert make.settle_numbers(values, "page", check=True) == []
+    values["b"] = 1.06
+    assert len(make.settle_numbers(values, "page", check=True)) == 1
+    assert page.read_text().split()[6] == "1.0"
+    make.settle_numbers(values, "page", check=False)
+    assert page.read_text() == "It\nfails at 2.00 deg,\nand 1.1 % 2.0.\n"
+    image = pytest.importorskip("PIL.Image").new("L", (50, 50), 255)
+    other = image.copy()
+    assert make.difference(image, other) == ""
+    other.paste(0, (0, 0, 5, 5))
+    assert make.difference(image, other) == "25 pixels differ"
+
+
+def docs_make():
+    """docs/make as a module."""
+    pytest.importorskip("PIL", reason="Pillow is not installed: python3-pil")
+    loader = importlib.machinery.SourceFileLoader("docs_make", str(ROOT / "docs/make"))
+    module = importlib.util.module_from_spec(importlib.util.spec_from_loader("docs_make", loader))
+    loader.exec_module(module)
+    return module
