@@ -205,6 +205,7 @@ void print_text(const RunInfo& info) {
   const double theta_c = figure(info.results, "theta_c");
   print_line("run",
              info.path + (info.complete ? "" : fmt::format(" (not complete, at {})", in_degrees(info.tilt))));
+  if (!info.complete) print_line("to go on", fmt::format("talus run --resume {}", info.path));
   if (!info.lost.empty()) print_line("lost", info.lost + " (the run was repaired)");
   if (info.branch)
     print_line("branch of",

@@ -20,6 +20,7 @@
 #include "core/errors.h"
 #include "core/hash.h"
 #include "core/trigonometry.h"
+#include "io/mistaken_path.h"
 #include "pictures/live_maps.h"
 #include "session/run_header.h"
 
@@ -52,6 +53,7 @@ void settle_names(RunArguments& arguments) {
   const bool names_run =
       arguments.resume && arguments.output.empty() && !arguments.scenario.ends_with(".toml");
   if (!names_run) {
+    refuse_no_scenario(arguments.scenario);
     if (arguments.output.empty())
       arguments.output = std::filesystem::path(arguments.scenario).stem().string() + ".h5";
     return;
