@@ -82,8 +82,9 @@ std::optional<RowsAround> rows_around(std::int64_t step, std::span<const Observa
 
 /// A value that goes from one place to another linearly in the steps.
 double between(double step, double first, double first_value, double last, double last_value) {
-  return step <= first || last <= first ? first_value
-                                        : std::lerp(first_value, last_value, (step - first) / (last - first));
+  return step <= first || last <= first
+             ? first_value
+             : first_value + (last_value - first_value) * ((step - first) / (last - first));
 }
 
 }  // namespace
