@@ -5,14 +5,14 @@
 namespace talus {
 namespace {
 
-/// "TEXT" of "TEXT:{a,b}".
+/// "DEG" of "DEG:in [0 - 90]"; "HH:MM[:SS]" is a word of its own.
 std::string value_of(const CLI::Option& option) {
   if (option.get_expected_max() == 0) return {};
   const std::string type = option.get_type_name();
-  return type.substr(0, std::min(type.find(':'), type.find(' ')));
+  return type.substr(0, std::min({type.find(":{"), type.find(":in ["), type.find(' ')}));
 }
 
-/// Those of "TEXT:{a,b}".
+/// Those of "CHOICE:{a,b}".
 std::vector<std::string> choices_of(const CLI::Option& option) {
   const std::string type = option.get_type_name();
   const std::size_t open = type.find(":{"), close = type.find('}', open);

@@ -11,7 +11,7 @@ namespace talus {
 struct OptionPage {
   std::vector<std::string> names;  ///< "-o", "--output"; none for an argument
   std::string argument;            ///< "RUN"; empty for an option
-  std::string value;               ///< what follows its name, "TEXT" or "FLOAT"; empty for a flag
+  std::string value;               ///< what follows its name, "DEG" or "FOLDER"; empty for a flag
   std::vector<std::string> choices;
   std::string description;
   std::string default_text;  ///< empty where there is none to show

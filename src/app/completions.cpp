@@ -92,8 +92,8 @@ std::string zsh_text(const std::string& text) {
 std::string zsh_option(const OptionPage& option) {
   const std::string value = option.value.empty() ? ""
                             : !option.choices.empty()
-                                ? fmt::format(":{}:({})", option.value, joined(option.choices, " "))
-                                : fmt::format(":{}:_files", option.value);
+                                ? fmt::format(":{}:({})", zsh_text(option.value), joined(option.choices, " "))
+                                : fmt::format(":{}:_files", zsh_text(option.value));
   if (option.names.empty()) return fmt::format(" \\\n    '*:{}:_files'", zsh_text(option.argument));
   std::string specs;
   for (const std::string& name : option.names)

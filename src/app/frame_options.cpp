@@ -38,7 +38,7 @@ void add_frame_options(CLI::App& command, FrameOptions& options) {
   CLI::Option* const numbers =
       command
           .add_option("--frames", options.numbers,
-                      "Frames by their numbers, counted from 0: --frames 0-10,20 [all of the tilt]")
+                      "Numbers of the frames, counted from 0: --frames 0-10,20 [all of the tilt]")
           ->delimiter(',')
           ->allow_extra_args(false);
   CLI::Option* const at =

@@ -54,6 +54,23 @@ void add_examples_below(CLI::App& app, const std::string& words) {
   }
 }
 
+/// "DEG in [2 - 89]" of "DEG:in [2 - 89]", and the choices of "CHOICE:{a,b}"; nothing for an argument, whose
+/// name says what it is.
+std::string value_text(const CLI::Option& option) {
+  const std::string type = option.get_type_name();
+  const std::size_t colon = type.find(":in ["), choices = type.find(":{");
+  if (choices != std::string::npos) return type.substr(choices + 1);
+  const std::string word = option.get_positional() ? "" : type.substr(0, colon);
+  const std::string range = colon == std::string::npos ? "" : type.substr(colon + 1);
+  return word + (word.empty() || range.empty() ? "" : " ") + range;
+}
+
+/// Several values are shown by the parser as "[0,10]".
+std::string without_brackets(const std::string& text) {
+  const bool has_them = text.size() > 1 && text.starts_with('[') && text.ends_with(']');
+  return has_them ? text.substr(1, text.size() - 2) : text;
+}
+
 }  // namespace
 
 const char* const first_example =
@@ -80,10 +97,9 @@ HelpText::HelpText() { column_width(name_width); }
 std::string HelpText::make_option_opts(const CLI::Option* option) const {
   std::string text;
   if (option->get_type_size() != 0) {
-    const std::string type = option->get_type_name();  // "FLOAT:FLOAT in [0 - 90]", "TEXT:{a,b}"
-    const std::size_t colon = type.find(':');
-    text = " " + (colon == std::string::npos ? type : type.substr(colon + 1));
-    if (!option->get_default_str().empty()) text += fmt::format(" [{}]", option->get_default_str());
+    if (const std::string value = value_text(*option); !value.empty()) text = " " + value;
+    if (const std::string standard = without_brackets(option->get_default_str()); !standard.empty())
+      text += fmt::format(" [{}]", standard);
     if (option->get_expected_max() == CLI::detail::expected_max_vector_size) text += " ...";
     if (option->get_required()) text += " (required)";
   }

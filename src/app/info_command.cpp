@@ -39,7 +39,7 @@ struct RunInfo {
   double tilt = 0.0;                               ///< rad, of the last state
   std::size_t steps = 0;
   std::vector<Command> commands;
-  std::vector<double> command_tilts;  ///< rad; none where no row of observables came before
+  std::vector<double> command_tilts;  ///< rad; none while the bed was being deposited
   std::size_t unconverged_steps = 0;  ///< of the tilt
   double solver_tolerance = none;     ///< asked of a bed at rest
   double residual_max = none;         ///< worst natural-map residual of the steps of the tilt
@@ -77,15 +77,12 @@ void count_steps(const std::vector<StepRow>& steps, RunInfo& info) {
   }
 }
 
-/// The tilt of the last row of observables before each command.
-std::vector<double> tilts_of(const std::vector<Command>& commands, const std::vector<ObservableRow>& rows) {
+std::vector<double> tilts_of(const std::vector<Command>& commands, const RunFile& run) {
+  const World& end = run.checkpoint().world;
+  std::vector<ObservableRow> rows = run.all_observables();
+  if (run.has_state()) rows = rows_up_to(rows, end.step, end.time, end.tilt);
   std::vector<double> tilts;
-  for (const Command& command : commands) {
-    const auto after =
-        std::ranges::upper_bound(rows, static_cast<double>(command.step), {},
-                                 [](const ObservableRow& row) { return at(row, Observable::step); });
-    tilts.push_back(after == rows.begin() ? none : at(*std::prev(after), Observable::tilt));
-  }
+  for (const Command& command : commands) tilts.push_back(tilt_before(command, commands, rows));
   return tilts;
 }
 
@@ -111,7 +108,7 @@ RunInfo look_at(const std::string& path) {
   count_steps(run.steps(), info);
   info.commands = given_commands(run.commands());
   info.branch = run.header().branch;
-  info.command_tilts = tilts_of(info.commands, run.all_observables());
+  info.command_tilts = tilts_of(info.commands, run);
   info.solver_tolerance = tolerance_of(run.header(), path);
   info.state_hash = run.has_state() ? hash_text(state_hash(run.checkpoint().world)) : "none";
   info.lost = run.lost();
@@ -195,7 +192,7 @@ void print_commands(const RunInfo& info) {
   print_line("commands", std::to_string(info.commands.size()));
   for (std::size_t k = 0; k < info.commands.size(); ++k) {
     const double tilt = info.command_tilts[k];
-    std::printf("  step %-12lld %-12s %s\n", static_cast<long long>(info.commands[k].step),
+    std::printf("  after step %-12lld %-12s %s\n", static_cast<long long>(info.commands[k].step),
                 std::isnan(tilt) ? "deposition" : in_degrees(tilt).c_str(),
                 command_text(info.commands[k]).c_str());
   }
@@ -205,6 +202,7 @@ void print_text(const RunInfo& info) {
   const double theta_c = figure(info.results, "theta_c");
   print_line("run",
              info.path + (info.complete ? "" : fmt::format(" (not complete, at {})", in_degrees(info.tilt))));
+  if (!info.complete) print_line("to go on", fmt::format("talus run --resume {}", info.path));
   if (!info.lost.empty()) print_line("lost", info.lost + " (the run was repaired)");
   if (info.branch)
     print_line("branch of",

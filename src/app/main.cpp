@@ -14,6 +14,7 @@
 #include "app/program_help.h"
 #include "app/stop_signals.h"
 #include "app/usage_error.h"
+#include "app/value_words.h"
 #include "core/errors.h"
 
 namespace {
@@ -75,6 +76,7 @@ void run(std::vector<std::string> words, CLI::App& app) {
   app.formatter(std::make_shared<talus::HelpText>());
   add_commands(app);
   talus::add_examples(app);
+  talus::name_values(app);
   app.footer(
       "Exit codes: 0 done, 64 usage, 65 bad scenario, run or problem, 66 missing input,\n"
       "69 no context, display or tool, 70 internal, 71 out of memory, 73 cannot create output,\n"

@@ -20,6 +20,7 @@
 #include "core/errors.h"
 #include "core/hash.h"
 #include "core/trigonometry.h"
+#include "io/mistaken_path.h"
 #include "pictures/live_maps.h"
 #include "session/run_header.h"
 
@@ -52,6 +53,7 @@ void settle_names(RunArguments& arguments) {
   const bool names_run =
       arguments.resume && arguments.output.empty() && !arguments.scenario.ends_with(".toml");
   if (!names_run) {
+    refuse_no_scenario(arguments.scenario);
     if (arguments.output.empty())
       arguments.output = std::filesystem::path(arguments.scenario).stem().string() + ".h5";
     return;
@@ -253,9 +255,10 @@ void add_run_command(CLI::App& app) {
                  "Replace a run of this name; the old file is kept until the new run is complete")
       ->excludes(resume);
   command->add_flag("-q,--quiet", arguments->quiet, "Print errors and warnings only");
-  CLI::Option* frames =
-      command->add_option("--frames", arguments->frames,
-                          "Draw maps of each frame into this folder while the run computes; needs --map");
+  CLI::Option* frames = command->add_option(
+      "--frames", arguments->frames,
+      "Folder into which maps of each frame are drawn while the run computes, also where its "
+      "name is a number; needs --map");
   add_map_options(*command, arguments->maps, MapOptionSet::drawn_live, frames);
   command->callback([arguments] {
     settle_names(*arguments);

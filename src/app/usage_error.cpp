@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "app/command_tree.h"
+#include "app/parse_error_text.h"
 #include "core/errors.h"
 #include "core/nearest_word.h"
 #include "core/text.h"
@@ -214,12 +215,8 @@ std::string usage_message(const CLI::App& app, const CLI::ParseError& error) {
   if (commands.size() == 1)
     return fmt::format("a command is missing, such as talus run SCENARIO.toml; {} --help lists them",
                        app.get_name());
-  std::string said = error.what();
-  constexpr std::string_view unread = "Could not convert: ";  // of the library: "--seed = abc" follows
-  if (const std::size_t sign = said.find(" = "); said.starts_with(unread) && sign != std::string::npos)
-    said = fmt::format("{}: expected a number, found {}", said.substr(unread.size(), sign - unread.size()),
-                       visible_word(said.substr(sign + 3)));
-  while (said.ends_with('\n') || said.ends_with('.')) said.pop_back();
+  std::string said = parse_error_text(*commands.back().command, error);
+  while (said.ends_with('\n') || (said.ends_with('.') && !said.ends_with("..."))) said.pop_back();
   return fmt::format("{}{} {} --help tells more", said, said.ends_with('?') ? "" : ";", commands.back().name);
 }
 

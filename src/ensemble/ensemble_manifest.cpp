@@ -17,6 +17,7 @@
 #include "core/version.h"
 #include "ensemble/axes.h"
 #include "io/durable_file.h"
+#include "io/mistaken_path.h"
 
 namespace talus {
 namespace {
@@ -148,7 +149,7 @@ std::vector<std::vector<std::string>> combined(const std::vector<std::vector<std
 }  // namespace
 
 std::string manifest_path(const std::string& folder) {
-  return (fs::path(folder) / "ensemble.manifest").string();
+  return (fs::path(folder) / ensemble_manifest_name).string();
 }
 
 bool is_ensemble(const std::string& folder) {
@@ -181,6 +182,7 @@ EnsembleManifest read_ensemble(const std::string& folder) {
 
 std::vector<Variant> plan_variants(const std::string& scenario_file, const std::vector<std::string>& settings,
                                    const std::vector<std::string>& axes) {
+  refuse_no_scenario(scenario_file);
   std::vector<std::vector<std::string>> combinations = {{}};
   for (const std::string& axis : axes) combinations = combined(combinations, parse_axis(axis));
   std::vector<Variant> variants;

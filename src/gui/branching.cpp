@@ -119,7 +119,7 @@ void draw_branch_button(Gui& gui) {
 void draw_branch_origin(Gui& gui) {
   const auto line = gui.model.branch_line();
   if (!line) return;
-  ImGui::TextWrapped("branch at frame %zu, %.2f°", line->frame + 1, degrees(line->tilts[line->frame]));
+  ImGui::TextWrapped("branch at frame %zu, %.2f°", line->frame, degrees(line->tilts[line->frame]));
   if (named_button(gui, "return to the run", "return to the run",
                    "open the run again that this branch left")) {
     gui.requests.open_path = line->run;

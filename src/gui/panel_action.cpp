@@ -35,29 +35,9 @@ void draw_action_panel(Gui& gui) {
   ImGui::Separator();
   ImGui::TextWrapped("ctrl and the mouse drag a grain of the map.");
   draw_back_button(gui);
-  ImGui::TextWrapped("Each of these is a command with a step number; talus replay repeats them.");
-  for (const Command& command : given_commands(live->commands())) {
-    const long long step = command.step;
-    switch (command.kind) {
-      case CommandKind::push:
-        ImGui::Text("%lld push grain %d", step, command.grain);
-        break;
-      case CommandKind::drop:
-        ImGui::Text("%lld drop %d grains", step, command.grain);
-        break;
-      case CommandKind::friction:
-        ImGui::Text("%lld friction %.3g", step, command.x);
-        break;
-      case CommandKind::drag:
-        ImGui::Text("%lld drag grain %d", step, command.grain);
-        break;
-      case CommandKind::release:
-        break;
-      case CommandKind::tilt_rate:
-        ImGui::Text("%lld tilt rate %.3g deg/s", step, command.x);
-        break;
-    }
-  }
+  ImGui::TextWrapped("Commands, each after the step that is named; talus replay repeats them:");
+  for (const Command& command : given_commands(live->commands()))
+    ImGui::TextWrapped("%lld: %s", static_cast<long long>(command.step), command_text(command).c_str());
 }
 
 }  // namespace talus

@@ -118,7 +118,8 @@ void draw_replay(Gui& gui) {
   int frame = static_cast<int>(model.frame_index());
   ImGui::SetNextItemWidth(-1.0f);
   if (ImGui::SliderInt("##frame", &frame, 0, static_cast<int>(model.frame_count()) - 1,
-                       frame_counter(model).c_str(), ImGuiSliderFlags_AlwaysClamp))
+                       frame_counter(model.frame_index(), model.frame_count()).c_str(),
+                       ImGuiSliderFlags_AlwaysClamp))
     model.go_to(static_cast<std::size_t>(frame));
   note_place(gui, "frame");
   draw_landmarks(gui);
@@ -140,8 +141,8 @@ void draw_replay(Gui& gui) {
 
 }  // namespace
 
-std::string frame_counter(const ViewModel& model) {
-  return fmt::format("frame {} of {}", model.frame_index() + 1, model.frame_count());
+std::string frame_counter(std::size_t frame, std::size_t count) {
+  return fmt::format("frame {} (0 to {})", frame, count - 1);
 }
 
 void draw_run_panel(Gui& gui) {

@@ -13,8 +13,8 @@ const char* group_of_key(ImWchar key);
 
 /// Playing and stepping, of a run that is computed or replayed.
 void draw_run_panel(Gui& gui);
-/// "frame 1 of 82": which of its frames a replay shows, from 1.
-std::string frame_counter(const ViewModel& model);
+/// "frame 12 (0 to 81)": a frame of a run with so many of them, counted from 0 as everywhere.
+std::string frame_counter(std::size_t frame, std::size_t count);
 /// Which map is drawn, and how.
 void draw_map_panel(Gui& gui);
 /// Commands to a run that is computed.

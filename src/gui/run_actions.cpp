@@ -37,7 +37,8 @@ void send(Gui& gui, const Command& command) {
   gui.model.follow();  // a command is to the run as it is now
   try {
     live->apply(command);
-    gui.model.state.message = fmt::format("Applied before step {}.", live->status().step + 1);
+    const Command given = live->commands().back();
+    gui.model.state.message = fmt::format("Done after step {}: {}.", given.step, command_text(given));
   } catch (const Error& error) {
     gui.model.state.message = error.what();
   }

@@ -138,7 +138,7 @@ void tell(const Gui& gui, const Track& track, const std::vector<double>& tilts) 
   ImGui::BeginTooltip();
   if (!event_near(gui, track, x)) {
     const std::size_t k = std::min(frame, tilts.size() - 1);
-    rich_text(fmt::format("frame {} of {}, {:.2f}°", k + 1, tilts.size(), degrees(tilts[k])));
+    rich_text(fmt::format("{}, {:.2f}°", frame_counter(k, tilts.size()), degrees(tilts[k])));
   }
   for (const TimelineEvent& event : gui.model.events())
     if (std::abs(track.px(event.place) - x) <= 0.4f * gui.em) {

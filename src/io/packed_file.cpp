@@ -16,6 +16,7 @@
 #include "core/errors.h"
 #include "core/hash.h"
 #include "core/version.h"
+#include "io/mistaken_path.h"
 #include "io/run_records.h"
 #include "io/run_signature.h"
 
@@ -101,9 +102,7 @@ void verify_seal(const std::string& path) {
   if (file.get() < 0) throw system_error(ExitCode::missing_input, "open", path, errno);
   std::vector<std::byte> block(seal_size);
   const std::size_t block_size = read_at_most(file, block, path);
-  if (std::memcmp(block.data(), seal_begin, std::strlen(seal_begin)) != 0)
-    throw Error(ExitCode::bad_data,
-                path + ": is not a Talus run file (it does not begin with 'talus run file 1')");
+  if (std::memcmp(block.data(), seal_begin, std::strlen(seal_begin)) != 0) refuse_no_run(path);
   Hasher hasher;
   std::uint64_t size = block_size;
   std::vector<std::byte> buffer(read_size);

@@ -9,6 +9,7 @@
 #include "io/durable_file.h"
 #include "io/frames_of_tilt.h"
 #include "io/manifest.h"
+#include "io/mistaken_path.h"
 #include "io/packed_file.h"
 #include "io/run_records.h"
 
@@ -179,17 +180,6 @@ struct RunFile::State {
 
 namespace {
 
-[[noreturn]] void refuse_absent(const std::string& path) {
-  std::error_code unknown;
-  if (fs::is_directory(run_folder(path), unknown))
-    throw Error(ExitCode::missing_input, run_folder(path) +
-                                             ": nothing is committed there yet; wait for the first "
-                                             "checkpoint, or start its command again; if it was damaged, "
-                                             "save what is undamaged with: talus repair");
-  throw Error(ExitCode::missing_input,
-              fmt::format("{}: no such run; expected a run file, or a folder {}", path, run_folder(path)));
-}
-
 /// The manifest of a folder; empty where there is none any more.
 std::string manifest_if_there(const std::string& folder) {
   const fs::path manifest = fs::path(folder) / Manifest::file_name;
@@ -209,7 +199,7 @@ std::optional<std::string> folder_to_read(const std::string& path) {
   for (const std::string& folder : {path, run_folder(path)})
     if (fs::exists(fs::path(folder) / Manifest::file_name, unknown)) return folder;
   if (fs::is_regular_file(path, unknown)) return std::nullopt;  // packed at this very moment
-  refuse_absent(path);
+  refuse_no_run(path);
 }
 
 }  // namespace

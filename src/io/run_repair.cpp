@@ -16,6 +16,7 @@
 #include "io/child_process.h"
 #include "io/durable_file.h"
 #include "io/manifest.h"
+#include "io/mistaken_path.h"
 #include "io/packed_file.h"
 #include "io/run_records.h"
 #include "io/writer_lock.h"
@@ -54,11 +55,10 @@ bool has_header(const std::string& folder) {
 
 std::optional<std::string> folder_of(const std::string& run) {
   std::error_code unknown;
-  if (fs::is_regular_file(run, unknown)) return std::nullopt;
+  if (fs::is_regular_file(run, unknown) && !run.ends_with(".toml")) return std::nullopt;
   for (const std::string& folder : {run, run_folder(run)})
     if (fs::exists(fs::path(folder) / Manifest::file_name, unknown) || has_header(folder)) return folder;
-  throw Error(ExitCode::missing_input,
-              fmt::format("{}: no such run; expected a run file, or a folder {}", run, run_folder(run)));
+  refuse_no_run(run);
 }
 
 /// HDF5 opens no file that is shorter than it was; what lies before the cut can be read then.

@@ -142,6 +142,10 @@ std::string events_json(const PageRun& run) {
   source.rows = rows;
   source.values = values;
   source.commands = commands;
+  const World& end = run.file.checkpoint().world;
+  const std::vector<ObservableRow> command_rows =
+      rows_up_to(run.file.all_observables(), end.step, end.time, end.tilt);
+  source.command_rows = command_rows;
   source.rearrangements = run.analysis.events;
   source.energy_unit = mean_grain_mass(run.statics()) * run.statics().gravity * run.statics().mean_diameter;
   if (std::isfinite(run.analysis.theta_c)) source.theta_c = run.analysis.theta_c;

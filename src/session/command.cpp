@@ -1,5 +1,6 @@
 #include "session/command.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -7,6 +8,7 @@
 #include <optional>
 
 #include "core/errors.h"
+#include "core/trigonometry.h"
 #include "session/drag.h"
 
 namespace talus {
@@ -64,6 +66,27 @@ void check_drag(const Command& command, const Scenario& scenario, const World& w
            fmt::format("at most {:g} D = {:.4g} m", farthest_drag, farthest));
 }
 
+/// The rows around a step: the last one up to it, and the first one after it, or the same one at the end of
+/// the run. None before the first row.
+struct RowsAround {
+  const ObservableRow *before, *after;
+};
+std::optional<RowsAround> rows_around(std::int64_t step, std::span<const ObservableRow> rows) {
+  const auto wanted = static_cast<double>(step);
+  const auto after = std::ranges::partition_point(
+      rows, [wanted](const ObservableRow& row) { return at(row, Observable::step) <= wanted; });
+  if (after == rows.begin()) return std::nullopt;
+  const ObservableRow* const before = &*std::prev(after);
+  return RowsAround{before, after == rows.end() ? before : &*after};
+}
+
+/// A value that goes from one place to another linearly in the steps.
+double between(double step, double first, double first_value, double last, double last_value) {
+  return step <= first || last <= first
+             ? first_value
+             : first_value + (last_value - first_value) * ((step - first) / (last - first));
+}
+
 }  // namespace
 
 std::string_view name_of(CommandKind kind) { return names.at(static_cast<std::size_t>(kind)); }
@@ -114,6 +137,46 @@ std::vector<Command> given_commands(std::span<const Command> commands) {
     if (!goes_on && command.kind != CommandKind::release) given.push_back(command);
   }
   return given;
+}
+
+std::vector<ObservableRow> rows_up_to(std::span<const ObservableRow> rows, std::int64_t step, double time,
+                                      double tilt) {
+  std::vector<ObservableRow> all(rows.begin(), rows.end());
+  if (all.empty() || at(all.back(), Observable::step) >= static_cast<double>(step)) return all;
+  ObservableRow& last = all.emplace_back();
+  at(last, Observable::step) = static_cast<double>(step);
+  at(last, Observable::time) = time;
+  at(last, Observable::tilt) = tilt;
+  return all;
+}
+
+double tilt_before(const Command& command, std::span<const Command> commands,
+                   std::span<const ObservableRow> rows) {
+  const auto around = rows_around(command.step, rows);
+  if (!around) return std::nan("");
+  const auto step = static_cast<double>(command.step);
+  const double first = at(*around->before, Observable::step);
+  double last = at(*around->after, Observable::step), last_tilt = at(*around->after, Observable::tilt);
+  const double h =
+      (at(*around->after, Observable::time) - at(*around->before, Observable::time)) / (last - first);
+  // Back from the row after: each command that set the rate says what the tilt did until there.
+  for (auto of = commands.rbegin(); of != commands.rend(); ++of) {
+    const auto set = static_cast<double>(of->step);
+    if (of->kind != CommandKind::tilt_rate || set <= first || set >= last) continue;
+    const double tilt = last_tilt - radians(of->x) * h * (last - set);
+    if (set <= step) return between(step, set, tilt, last, last_tilt);
+    last = set;
+    last_tilt = tilt;
+  }
+  return between(step, first, at(*around->before, Observable::tilt), last, last_tilt);
+}
+
+double time_before(const Command& command, std::span<const ObservableRow> rows) {
+  const auto around = rows_around(command.step, rows);
+  if (!around) return std::nan("");
+  return between(static_cast<double>(command.step), at(*around->before, Observable::step),
+                 at(*around->before, Observable::time), at(*around->after, Observable::step),
+                 at(*around->after, Observable::time));
 }
 
 }  // namespace talus

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/command.h"
+#include "core/observables.h"
 #include "core/world.h"
 #include "scenario/scenario.h"
 
@@ -29,6 +30,19 @@ void check_command(const Command& command, const Scenario& scenario, const World
 
 /// The commands that somebody gave: of each drag only its beginning, without what moved and ended it.
 std::vector<Command> given_commands(std::span<const Command> commands);
+
+/// The rows of a run with the state after its last step, so that what came after the last row can be placed;
+/// of such a row only step, time (s) and tilt (rad) are known.
+std::vector<ObservableRow> rows_up_to(std::span<const ObservableRow> rows, std::int64_t step, double time,
+                                      double tilt);
+
+/// The tilt (rad) of the bed when a command was given, to rounding: from one of the `rows` (rows_up_to) to
+/// the next the tilt is linear in the steps, but for those of `commands`, all of the run, that set its rate.
+/// NaN before the first row, while the bed was being deposited.
+double tilt_before(const Command& command, std::span<const Command> commands,
+                   std::span<const ObservableRow> rows);
+/// The time (s) at which a command was given. NaN as tilt_before.
+double time_before(const Command& command, std::span<const ObservableRow> rows);
 
 /// The free grains at the free surface, ascending: those with nothing above their centres.
 std::vector<Index> surface_grains(const World& world, double mean_diameter);

@@ -20,19 +20,6 @@ std::vector<double> column_of(std::span<const ObservableRow> rows, Observable fi
   return values;
 }
 
-/// A field (tilt, rad, or time, s) after so many steps, between two rows; that of the first row before it.
-double value_after(std::span<const ObservableRow> rows, std::int64_t step, Observable field) {
-  const auto wanted = static_cast<double>(step);
-  const auto after = std::ranges::partition_point(
-      rows, [wanted](const ObservableRow& row) { return at(row, Observable::step) < wanted; });
-  if (after == rows.begin()) return rows.empty() ? 0.0 : at(rows.front(), field);
-  if (after == rows.end()) return at(rows.back(), field);
-  const ObservableRow& before = *(after - 1);
-  const double share =
-      (wanted - at(before, Observable::step)) / (at(*after, Observable::step) - at(before, Observable::step));
-  return std::lerp(at(before, field), at(*after, field), share);
-}
-
 /// Adds what has a tilt.
 struct EventList {
   const TimelineSource& source;
@@ -85,9 +72,12 @@ struct EventList {
 
   void add_command(std::size_t k) {
     const Command& command = source.commands[k];
-    add_then(fmt::format("command {}", k), command_text(command),
-             value_after(source.rows, command.step, Observable::tilt),
-             value_after(source.rows, command.step, Observable::time), TimelineEvent::Kind::command);
+    const double tilt = tilt_before(command, source.commands, source.command_rows);
+    const double time = time_before(command, source.command_rows);
+    const bool in_deposition = std::isnan(tilt);  // its place is the beginning of the line
+    add_then(fmt::format("command {}", k), command_text(command), in_deposition ? source.tilts.front() : tilt,
+             in_deposition && !source.times.empty() ? source.times.front() : time,
+             TimelineEvent::Kind::command);
   }
 };
 

@@ -33,6 +33,7 @@ struct TimelineSource {
   std::span<const ObservableRow> rows;          ///< of the tilt
   std::span<const FrameRecord> values;          ///< of the first frames of the tilt, with one threshold
   std::span<const Command> commands;            ///< in their order
+  std::span<const ObservableRow> command_rows;  ///< rows_up_to of the whole run, by which they have a tilt
   std::span<const EventRecord> rearrangements;  ///< of a stored analysis, in their order
   std::span<const Bookmark> bookmarks;          ///< in their order
   std::vector<double> all_times;                ///< s, of all frames, also of those after failure

@@ -8,6 +8,7 @@
 #include "core/errors.h"
 #include "core/trigonometry.h"
 #include "pictures/frame_choice.h"
+#include "session/command.h"
 #include "session/event_catalogue.h"
 
 namespace talus {
@@ -26,6 +27,8 @@ void ViewModel::Data::open_replay() {
   plot_rows();
   plot_steps(file.steps(), plots);
   commands = file.commands();
+  if (const World& end = file.checkpoint().world; !commands.empty())
+    file_rows = rows_up_to(file.all_observables(), end.step, end.time, end.tilt);
   open_bookmarks();
   // The bed is highest at its beginning or at its end.
   bed = bed_extent(statics());
@@ -207,6 +210,10 @@ void ViewModel::Data::find_events() {
   source.values = series->values();
   const std::vector<Command> given = given_commands(commands);
   source.commands = given;
+  const std::vector<ObservableRow> live_rows =
+      live && !given.empty() ? rows_up_to(rows, newest->step, newest->time, newest->tilt)
+                             : std::vector<ObservableRow>();
+  source.command_rows = live ? live_rows : file_rows;
   if (analysis) source.rearrangements = analysis->events;
   source.bookmarks = bookmarks;
   source.all_times = all_frame_times();

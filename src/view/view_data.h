@@ -94,6 +94,7 @@ struct ViewModel::Data {
 
   std::optional<std::size_t> dilation;  ///< the frame at which it begins
   std::vector<Command> commands;
+  std::vector<ObservableRow> file_rows;  ///< of a replay with commands: rows_up_to its end
   std::vector<TimelineEvent> events;
   std::vector<Bookmark> bookmarks;
   std::string bookmarks_unread;  ///< why those beside the run could not be read, and must not be replaced

@@ -25,7 +25,8 @@ class Replay : public testing::Test {
     return json_value(talus({"info", run, "--json"}).out, key);
   }
 
-  /// A run of the small bed that is left half-way: pushed while it falls, and meddled with at 1 deg.
+  /// A run of the small bed that is left half-way: pushed while it falls, and meddled with at
+  /// 1.06 deg, between two rows of observables.
   void write_left_run() {
     write_file(folder_, "bed.toml", small_bed);
     Session session(parse_scenario(small_bed, "bed.toml"));
@@ -33,7 +34,7 @@ class Replay : public testing::Test {
         RunStore::create(folder_.path("bed.h5"), run_header(session, {small_bed, "bed.toml", {}, 1}), false);
     for (int k = 0; k < 10; ++k) session.advance();
     session.apply({0, CommandKind::push, 7, 0.25, 0.5});
-    while (session.world().tilt < radians(0.999)) session.advance();
+    while (session.world().tilt < radians(1.05)) session.advance();
     session.apply({0, CommandKind::drop, 4, 0.05, 0.02});
     session.apply({0, CommandKind::friction, -1, 0.3, 0.0});
     session.apply({0, CommandKind::tilt_rate, -1, 10.0, 0.0});
@@ -81,8 +82,8 @@ TEST_F(Replay, commands_are_listed) {
   write_left_run();
   const std::string text = talus({"info", "bed.h5"}).out;
   for (const char* line : {"commands            4\n", "deposition   push grain 7 by (0.25, 0.5) m/s\n",
-                           "1.000 deg    drop 4 grains at x = 0.05 m from 0.02 m above the surface\n",
-                           "1.000 deg    friction 0.3\n", "1.000 deg    tilt rate 10 deg/s\n"})
+                           "1.060 deg    drop 4 grains at x = 0.05 m from 0.02 m above the surface\n",
+                           "1.060 deg    friction 0.3\n", "1.060 deg    tilt rate 10 deg/s\n"})
     EXPECT_NE(text.find(line), std::string::npos) << line << text;
   EXPECT_EQ(info("bed.h5", "commands"), "4");
 }

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cctype>
+#include <filesystem>
 #include <sstream>
 
 #include "support/process.h"
@@ -60,7 +62,28 @@ TEST_F(TypedWords, a_number_out_of_its_range_is_told_with_the_range) {
                  "--columns: expected a whole number from 1 to 2, found 3;");
   expect_refused({"forces", "x.h5", "--seed", "abc"}, "--seed: expected a number, found abc;");
   expect_refused({"render", "x.h5", "--map", "gamma", "--range", "a,b"},
-                 "--range: expected a number, found a,b;");
+                 "--range: expected LOW,HIGH, found a,b (LOW,HIGH: ends of the bar");
+}
+
+TEST_F(TypedWords, options_without_what_they_need_are_told_in_plain_words) {
+  const std::pair<Words, std::string> cases[] = {
+      {{"render", "x.h5", "--map", "gamma", "--range", "0..1"},
+       "--range: expected LOW,HIGH, found 0..1 (LOW,HIGH: ends of the bar, in the unit of its title);"},
+      {{"render", "x.h5", "--map", "gamma", "--range", "1,2,3"}, "--range: expected LOW,HIGH, found 1,2,3 ("},
+      {{"render", "x.h5", "--map", "gamma", "--crop", "1,2"}, "--crop: expected X0,Y0,X1,Y1, found 1,2 ("},
+      {{"animate", "x.h5", "--speed"}, "--speed: expected DEG/S, found nothing ("},
+      {{"render", "x.h5", "--at", "1", "--every", "2"},
+       "--at and --every exclude each other: leave one out;"},
+      {{"render"}, "RUN is missing; talus render --help"},
+      {{"export", "x.h5", "-o", "y"}, "--to is missing: expected --to {paraview,"},
+      {{"panel", "x.h5", "-o", "y"}, "--at is missing: expected --at DEG,...; talus panel --help"},
+      {{"dump", "x.h5", "-o", "y"}, "expected one of --frame,--at;"},
+      {{"dump", "x.h5", "-o", "y", "--at", "1", "--frame", "2"}, "expected only one of --frame,--at;"},
+      {{"run", "x.toml", "--colours", "gray"}, "--colours needs --frames;"},
+      {{"run", "x.toml", "-o", "a", "-o", "b"}, "--output was given 2 times; expected one FILE;"},
+      {{"info", "x.h5", "--json=abc"}, "--json takes no value;"},
+  };
+  for (const auto& [words, part] : cases) expect_refused(words, part);
 }
 
 TEST_F(TypedWords, an_option_is_suggested_by_every_command) {
@@ -142,6 +165,17 @@ TEST_F(TypedWords, help_has_groups_and_a_first_example) {
   EXPECT_NE(example, std::string::npos);
 }
 
+/// How the parser stores a value says nothing to a user.
+void expect_no_word_of_the_parser(const std::string& text) {
+  std::string letters = text;
+  for (char& c : letters)
+    if (std::isalpha(static_cast<unsigned char>(c)) == 0) c = ' ';
+  std::istringstream words(letters);
+  for (std::string word; words >> word;)
+    for (const char* raw : {"TEXT", "FLOAT", "INT", "UINT", "BOOLEAN", "ENUM", "CHAR"})
+      EXPECT_NE(word, raw) << text;
+}
+
 /// The words of "\n  talus WORDS" in the help of a command, its example.
 Words example_in(const std::string& help) {
   const std::size_t at = help.find("Example:\n  talus ");
@@ -174,12 +208,32 @@ TEST_F(TypedWords, each_command_has_an_example_of_its_options_in_lines_that_fit)
                                                                                        << help;
       }
     }
+    expect_no_word_of_the_parser(help);
     std::istringstream lines(help.substr(0, help.find("Example:")));
     for (std::string line; std::getline(lines, line);)
       if (line.starts_with("   ")) {
         EXPECT_LE(line.size(), 80u) << line;
       }
   }
+}
+
+TEST_F(TypedWords, pages_and_completions_say_what_values_mean) {
+  ASSERT_EQ(talus({"program-help", "share"}).exit_code, 0);
+  std::size_t files = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder_.path("share")))
+    if (entry.is_regular_file()) {
+      ++files;
+      expect_no_word_of_the_parser(text_of(entry.path()));
+    }
+  EXPECT_GE(files, 30u);
+  EXPECT_NE(text_of(folder_.path("share/man/man1/talus-render.1")).find("\\-\\-theta\\-c\\fR DEG\n"),
+            std::string::npos);
+}
+
+TEST_F(TypedWords, frames_are_a_folder_of_a_run_and_numbers_of_an_export) {
+  EXPECT_NE(talus({"run", "--help"}).out.find("--frames FOLDER       Folder into which maps"),
+            std::string::npos);
+  EXPECT_NE(talus({"export", "--help"}).out.find("--frames K,K-K,... "), std::string::npos);
 }
 
 TEST_F(TypedWords, maps_are_listed_in_a_table) {

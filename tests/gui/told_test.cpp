@@ -15,10 +15,13 @@ namespace {
 using test::Live;
 using test::Replay;
 
-TEST_F(Replay, frames_are_counted_from_one_to_their_number) {
-  EXPECT_EQ(frame_counter(model_), "frame 1 of 5");
+TEST_F(Replay, frames_are_counted_from_0_as_by_the_commands) {
+  const auto slider = [this] { return frame_counter(model_.frame_index(), model_.frame_count()); };
+  EXPECT_EQ(slider(), "frame 0 (0 to 4)");
   gui_.key(key_end);
-  EXPECT_EQ(frame_counter(model_), "frame 5 of 5");
+  EXPECT_EQ(slider(), "frame 4 (0 to 4)");
+  model_.go_to_angle("frame3");
+  EXPECT_EQ(slider(), "frame 3 (0 to 4)") << "as talus render --at frame3";
 }
 
 /// Of each free grain on each map: no number that is none, and gamma only where the map shows it. Returns how

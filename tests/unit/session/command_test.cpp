@@ -302,5 +302,52 @@ TEST(TiltRate, of_a_deposition_is_that_with_which_the_tilt_begins) {
   EXPECT_NEAR(degrees(session.world().tilt), 0.005, 1e-12);
 }
 
+/// Rows lie 20 steps apart; commands come between them, some of which set the rate.
+TEST(TiltBefore, is_that_of_the_bed_when_the_command_was_given_to_the_last_digit) {
+  Scenario scenario = test::small_tilted_bed(2.0);
+  scenario.output.observable_every = 0.4;
+  Session session(scenario);
+  std::vector<double> tilts, times;
+  const auto give = [&](const Command& command) {
+    tilts.push_back(session.phase() == Phase::deposition ? std::nan("") : session.world().tilt);
+    times.push_back(session.world().time);
+    session.apply(command);
+  };
+  const auto advance = [&](int steps) {
+    for (int k = 0; k < steps; ++k) session.advance();
+  };
+  const Command push{0, CommandKind::push, 3, 0.01, 0.0};
+  const auto rate = [](double of) { return Command{0, CommandKind::tilt_rate, -1, of, 0.0}; };
+  session.advance();
+  give(push);
+  while (session.phase() == Phase::deposition) session.advance();
+  give(push);
+  for (const int steps : {7, 1, 13, 20}) {
+    advance(steps);
+    give(push);
+  }
+  for (const double next : {3.0, 0.0, 40.0, 11.0}) {
+    advance(4);
+    give(rate(next));
+    give(push);
+    advance(3);
+    give(push);
+  }
+  advance(3);
+  give(push);
+  const std::vector<Command>& commands = session.segment().commands;
+  const World& world = session.world();
+  const std::vector<ObservableRow> rows =
+      rows_up_to(session.segment().observables, world.step, world.time, world.tilt);
+  ASSERT_GT(rows.size(), 3u);
+  EXPECT_GT(degrees(tilts.back()), 1.0);
+  EXPECT_TRUE(std::isnan(tilt_before(commands[0], commands, rows)));
+  EXPECT_TRUE(std::isnan(time_before(commands[0], rows)));
+  for (std::size_t k = 1; k < commands.size(); ++k) {
+    EXPECT_NEAR(degrees(tilt_before(commands[k], commands, rows)), degrees(tilts[k]), 1e-12) << k;
+    EXPECT_NEAR(time_before(commands[k], rows), times[k], 1e-12) << k;
+  }
+}
+
 }  // namespace
 }  // namespace talus

@@ -38,6 +38,7 @@ struct ExampleRun {
     source.rows = rows;
     source.values = values;
     source.commands = commands;
+    source.command_rows = rows;
     source.theta_c = radians(20.0);
     source.mean_diameter = 2.0;
     source.cut = 100.0;
@@ -134,6 +135,7 @@ TEST(Timeline, of_a_tilt_that_went_up_and_down_is_of_its_last_rise) {
                                       : 3.0 + 1.25 * static_cast<double>(k - 30));
   const std::vector<Command> commands = {{195, CommandKind::push, 3, 0.1, 0.0}};  // while the tilt falls
   run.source.commands = commands;
+  run.source.command_rows = rows;
   const auto events = timeline_events(run.source);
   ASSERT_EQ(names_of(events), (std::vector<std::string>{"command 0", "dilation", "spans", "percolation",
                                                         "first slide", "length jump", "theta_c"}));

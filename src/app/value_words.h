@@ -1,0 +1,16 @@
+#pragma once
+/// What follows an option is called by what it means, or by its unit, and not by how the parser stores it.
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+namespace talus {
+
+/// Gives the options of all commands below `app` their words, which help, man pages, completions and messages
+/// show: "DEG" for an angle in degrees, "FOLDER", "LOW,HIGH".
+void name_values(CLI::App& app);
+
+/// Whether the word is one of the parser's own, as "FLOAT", which says nothing to a user.
+bool is_word_of_parser(const std::string& word);
+
+}  // namespace talus

@@ -1,0 +1,112 @@
+#include "io/mistaken_path.h"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <fmt/core.h>
+#include <fstream>
+#include <vector>
+
+#include "core/errors.h"
+#include "core/trigonometry.h"
+#include "io/packed_file.h"
+#include "io/run_file.h"
+#include "io/run_signature.h"
+
+namespace talus {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_ensemble_folder(const std::string& path) {
+  std::error_code unknown;
+  return fs::exists(fs::path(path) / ensemble_manifest_name, unknown);
+}
+
+/// "beds/seed-1.h5", the first run in a folder; empty if it holds none.
+std::string first_run_in(const std::string& folder) {
+  std::vector<std::string> runs;
+  std::error_code unknown;
+  for (fs::directory_iterator entry(folder, unknown), end; !unknown && entry != end; entry.increment(unknown))
+    if (entry->path().extension() == ".h5" && begins_as_run(entry->path().string()))
+      runs.push_back(entry->path().string());
+  return runs.empty() ? std::string() : *std::ranges::min_element(runs);
+}
+
+[[noreturn]] void refuse_folder(const std::string& path) {
+  const std::string run = first_run_in(path);
+  const std::string example = run.empty() ? "" : ", such as " + run;
+  if (is_ensemble_folder(path))
+    throw Error(
+        ExitCode::missing_input,
+        fmt::format("{0} is the folder of an ensemble; expected one of its runs{1}; talus figures {0} "
+                    "-o FOLDER draws all of them, and talus ensemble average {0} averages them",
+                    path, example));
+  throw Error(ExitCode::missing_input,
+              fmt::format("{} is a folder, and no such run; expected a run file{}, or a folder RUN.h5.run",
+                          path, example));
+}
+
+bool is_hdf5(const std::string& path) {
+  constexpr std::string_view signature = "\x89HDF\r\n";
+  std::array<char, signature.size()> begin{};
+  std::ifstream(path, std::ios::binary).read(begin.data(), begin.size());
+  return std::string_view(begin.data(), begin.size()) == signature;
+}
+
+[[noreturn]] void refuse_file(const std::string& path) {
+  const std::string what =
+      fmt::format("{}: is not a Talus run file (it does not begin with '{}')", path, "talus run file 1");
+  if (path.ends_with(".toml"))
+    throw Error(ExitCode::bad_data,
+                fmt::format("{} but, by its name, a scenario; talus run {} computes its run", what, path));
+  if (is_hdf5(path))
+    throw Error(ExitCode::bad_data,
+                fmt::format("{} but an HDF5 file of another kind; talus solve takes contact problems", what));
+  throw Error(ExitCode::bad_data, what + "; expected one that talus run, view or replay has written");
+}
+
+}  // namespace
+
+void refuse_no_run(const std::string& path) {
+  std::error_code unknown;
+  std::string folder = path;
+  while (folder.size() > 1 && folder.ends_with('/')) folder.pop_back();
+  if (!folder.ends_with(run_folder(""))) folder = run_folder(folder);
+  if (fs::is_directory(folder, unknown))
+    throw Error(ExitCode::missing_input, folder +
+                                             ": nothing is committed there yet; wait for the first "
+                                             "checkpoint, or start its command again; if it was damaged, "
+                                             "save what is undamaged with: talus repair");
+  if (fs::is_directory(path, unknown)) refuse_folder(path);
+  if (fs::is_regular_file(path, unknown)) refuse_file(path);
+  throw Error(ExitCode::missing_input,
+              fmt::format("{}: no such run; expected a run file, or a folder {}", path, folder));
+}
+
+void refuse_no_scenario(const std::string& path) {
+  std::string run = path;
+  while (run.size() > 1 && run.ends_with('/')) run.pop_back();
+  if (run.ends_with(run_folder(""))) run.resize(run.size() - run_folder("").size());
+  std::error_code unknown;
+  const bool is_scenario = fs::is_regular_file(path, unknown) && !begins_as_run(path);
+  if (is_scenario) return;
+  const RunPresence presence = run_presence(run);
+  if (presence == RunPresence::folder)
+    throw Error(ExitCode::bad_data,
+                fmt::format("{} is no scenario but a run that is not complete, stopped at {:.3f} deg; go on "
+                            "with it: talus run --resume {}",
+                            path, degrees(RunFile::open(run).checkpoint().world.tilt), run));
+  if (presence == RunPresence::packed && begins_as_run(run))
+    throw Error(ExitCode::bad_data,
+                fmt::format("{} is no scenario but a complete run; talus info {} shows what it holds, and "
+                            "talus replay {} computes it again",
+                            path, run, run));
+  if (is_ensemble_folder(path))
+    throw Error(ExitCode::bad_data,
+                fmt::format("{0} is no scenario but the folder of an ensemble; talus ensemble work {0} goes "
+                            "on with it",
+                            path));
+}
+
+}  // namespace talus
