@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/core.h>
+#include <limits>
 #include <optional>
 
 #include "core/errors.h"
@@ -17,6 +18,8 @@ constexpr double margin = 0.8;
 constexpr double gap_between_rows = 0.3;
 
 constexpr double smallest_em = 6.0;  // px: below, nothing can be read
+/// Letters are made smaller by no more before lines are broken.
+constexpr double least_unbroken = 0.8;
 
 /// Puts groups from left to right, `last` at the right end, into as many rows as they need. Returns the lower
 /// edge, px.
@@ -58,11 +61,14 @@ double largest_extent(double a, double b, double turn_max) {
   return a * std::cos(turn) + b * std::sin(turn);
 }
 
-/// The bed in a box of that width with its upper left corner at (x, y).
-Window place_bed(const FrameView& view, double x, double y, double width) {
+/// The bed in a box of that width with its upper left corner at (x, y), as high as its own turn needs, or
+/// all.
+Window place_bed(const FrameView& view, double x, double y, double width, bool own_turn = false) {
   const double length = view.x_max - view.x_min, depth = view.y_max - view.y_min;
   const double seen_length = largest_extent(length, depth, view.turn_max);
-  const double seen_depth = view.turn_max > 0.0 ? largest_extent(depth, length, view.turn_max) : depth;
+  const double seen_depth = view.turn_max == 0.0 ? depth
+                            : own_turn           ? depth * std::cos(view.turn) + length * std::sin(view.turn)
+                                                 : largest_extent(depth, length, view.turn_max);
   Window window;
   window.x_min = view.x_min;
   window.x_max = view.x_max;
@@ -93,31 +99,59 @@ Layout lay_out_bed(const FrameView& view, int width) {
   return layout;
 }
 
-std::vector<Group> legend_groups(const std::vector<Legend>& legends, double em, const Font& font) {
+std::vector<Group> legend_groups(const std::vector<Legend>& legends, double room, double em,
+                                 const Font& font) {
   std::vector<Group> groups;
   for (const Legend& legend : legends) {
-    for (const Bar& bar : legend.bars) groups.push_back(bar_group(bar, em, font));
-    for (const Swatch& swatch : legend.swatches) groups.push_back(swatch_group(swatch, em, font));
+    for (const Bar& bar : legend.bars) groups.push_back(bar_group(bar, room, em, font));
+    for (const Swatch& swatch : legend.swatches) groups.push_back(swatch_group(swatch, room, em, font));
   }
   return groups;
 }
 
-/// The layout in one font size, if everything fits its width.
-std::optional<Layout> lay_out_with(const FrameView& view, int width, double em, const Font& font) {
+/// Moves what stands above the bed down to one that begins lower.
+void move_down(Layout& layout, double by) {
+  for (PlacedText& text : layout.texts) text.box.y += by;
+  if (layout.arrow.width > 0.0) layout.arrow.y += by;
+}
+
+/// px: by how much a turned bed can move up beside the texts above it, which its slope leaves room for.
+double room_above(const Layout& layout, const FrameView& view, const Window& bed) {
+  const Point foot = bed.camera.project(view.x_min, view.y_min),
+              top = bed.camera.project(view.x_min, view.y_max),
+              end = bed.camera.project(view.x_max, view.y_max);
+  double room = bed.box.y - std::ceil(0.5 * layout.em);
+  const auto keep_off = [&](const Box& box) {
+    double edge = top.y;  // of the bed, where it is highest below the box
+    if (box.x > top.x)
+      edge = std::lerp(top.y, end.y, (box.x - top.x) / (end.x - top.x));
+    else if (box.right() < top.x)
+      edge = std::lerp(foot.y, top.y, std::max(0.0, (box.right() - foot.x) / (top.x - foot.x)));
+    room = std::min(room, edge - box.bottom() - 0.4 * layout.em);
+  };
+  for (const PlacedText& text : layout.texts) keep_off(text.box);
+  if (layout.arrow.width > 0.0) keep_off(layout.arrow);
+  return std::max(0.0, std::floor(room));
+}
+
+/// The layout in one font size, if everything fits its width, with broken lines or without.
+std::optional<Layout> lay_out_with(const FrameView& view, int width, double em, bool broken, const Font& font,
+                                   const LayoutLimits& limits) {
   Layout layout;
   layout.width = width;
   layout.em = em;
   const double side = std::ceil(margin * em);
   const double available = width - 2.0 * side;
   const double scale = place_bed(view, 0.0, 0.0, available).camera.scale;
+  const double room = broken ? available : std::numeric_limits<double>::infinity();
 
-  const Group title = text_group(view.title, em, font);
+  const Group title = text_group(view.title, room, em, font);
   // Where nothing below shows gravity, the caption does.
   const bool arrow_above = view.scale_label.empty() && !view.caption.empty();
-  const Group caption =
-      arrow_above ? text_with_arrow_group(view.caption, em, font) : text_group(view.caption, em, font);
+  const Group caption = arrow_above ? text_with_arrow_group(view.caption, room, em, font)
+                                    : text_group(view.caption, room, em, font, true);
   const Group scale_and_arrow = scale_group(view, scale, em, font);
-  const std::vector<Group> legends = legend_groups(view.legends, em, font);
+  const std::vector<Group> legends = legend_groups(view.legends, room, em, font);
   for (const Group* group : {&title, &caption, &scale_and_arrow})
     if (group->width > available) return std::nullopt;
   for (const Group& group : legends)
@@ -126,12 +160,17 @@ std::optional<Layout> lay_out_with(const FrameView& view, int width, double em, 
   double y = std::ceil(0.5 * em);
   if (title.height + caption.height > 0.0)
     y = std::ceil(add_rows(layout, {title}, caption, y, side) + 0.4 * em);
-  layout.bed = place_bed(view, side, y, available);
+  if (limits.own_turn && view.turn > 0.0)
+    y -= room_above(layout, view, place_bed(view, side, y, available, true));
+  move_down(layout, std::max(y, limits.bed_top) - y);
+  layout.bed = place_bed(view, side, std::max(y, limits.bed_top), available, limits.own_turn);
   y = layout.bed.box.bottom();
   if (!legends.empty() || scale_and_arrow.height > 0.0)
     y = add_rows(layout, legends, scale_and_arrow, std::ceil(y + 0.6 * em), side);
   if (!view.traces.empty()) {
-    y = add_traces(layout, view.traces, side, width - side, std::ceil(y + 0.6 * em), font);
+    y = std::max(std::ceil(y + 0.6 * em), limits.traces_top);
+    layout.traces_top = y;
+    y = add_traces(layout, view.traces, {side, width - side, y, broken}, font);
     if (y < 0.0) return std::nullopt;
   }
   layout.height = checked_height(width, std::ceil(y + 0.5 * em));
@@ -140,17 +179,26 @@ std::optional<Layout> lay_out_with(const FrameView& view, int width, double em, 
 
 }  // namespace
 
-Layout lay_out(const FrameView& view, int width, const Font& font, double largest_em) {
+Layout lay_out(const FrameView& view, int width, const Font& font, const LayoutLimits& limits) {
   if (width < smallest_width || width > largest_side)
     throw Error(ExitCode::usage,
                 fmt::format("width = {}: expected {} ... {} px", width, smallest_width, largest_side));
   if (!view.furniture) return lay_out_bed(view, width);
-  const double wanted_em = std::max(10.0, std::round(width / view.letters));
-  for (double em = std::min(wanted_em, largest_em); em >= smallest_em; em -= 0.5)
-    if (std::optional<Layout> layout = lay_out_with(view, width, em, font)) return *layout;
+  const double wanted_em = std::min(std::max(10.0, std::round(width / view.letters)), limits.largest_em);
+  for (const bool broken : {false, true})
+    for (double em = wanted_em; em >= (broken ? smallest_em : least_unbroken * wanted_em); em -= 0.5)
+      if (std::optional<Layout> layout = lay_out_with(view, width, em, broken, font, limits)) return *layout;
   throw Error(
       ExitCode::usage,
       fmt::format("width = {}: caption and legend of this map do not fit; ask for a larger width", width));
+}
+
+LayoutLimits level(std::span<const FrameView> views, int width, const Font& font, LayoutLimits limits) {
+  for (const FrameView& view : views)
+    limits.bed_top = std::max(limits.bed_top, lay_out(view, width, font, limits).bed.box.y);
+  for (const FrameView& view : views)
+    limits.traces_top = std::max(limits.traces_top, lay_out(view, width, font, limits).traces_top);
+  return limits;
 }
 
 }  // namespace talus

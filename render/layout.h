@@ -2,6 +2,7 @@
 /// The layout of a picture: from a view and a width to rectangles in pixels, without drawing.
 
 #include <limits>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -78,16 +79,28 @@ struct Layout {
   Box scale_bar;
   Box arrow;  ///< square; gravity turns about its centre
   std::vector<PlacedTrace> traces;
+  double traces_top = 0.0;  ///< px: of the title of the first
 };
 
 /// Smallest and largest side of a picture, px.
 inline constexpr int smallest_width = 200;
 inline constexpr int largest_side = 16384;
 
+/// What pictures beside each other, or one after the other, have in common.
+struct LayoutLimits {
+  double largest_em = std::numeric_limits<double>::infinity();
+  double bed_top = 0.0;     ///< px: the bed, or what stands below it, begins here or below
+  double traces_top = 0.0;  ///< px
+  bool own_turn = false;    ///< a turned bed gets the height that its turn needs, not that of turn_max
+};
+
 /// Lays out a picture `width` px wide: caption, bed, legends, traces. The height follows from the aspect of
-/// the bed. The font grows with the width, as the view asks for, up to `largest_em`, and shrinks if a text
-/// would not fit. Throws Error(usage) if nothing legible fits, or if the picture is larger than largest_side.
-Layout lay_out(const FrameView& view, int width, const Font& font,
-               double largest_em = std::numeric_limits<double>::infinity());
+/// the bed. The font grows with the width, as the view asks for, up to `largest_em`. If a text does not fit,
+/// the font shrinks a little, then lines are broken, then it shrinks as far as can be read.
+/// Throws Error(usage) if nothing legible fits, or if the picture is larger than largest_side.
+Layout lay_out(const FrameView& view, int width, const Font& font, const LayoutLimits& limits = {});
+
+/// Limits with which the beds of pictures are level, and so are their traces, beside or after each other.
+LayoutLimits level(std::span<const FrameView> views, int width, const Font& font, LayoutLimits limits);
 
 }  // namespace talus

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace talus {
 namespace {
@@ -18,12 +19,71 @@ constexpr double line_swatch_width = 1.8;
 Box moved(const Box& box, double x, double y) { return {box.x + x, box.y + y, box.width, box.height}; }
 
 /// So long that the labels of neighbouring ticks do not touch, px.
-double bar_length(const Bar& bar, const std::vector<double>& label_widths, double em) {
-  double length = shortest_bar * em;
-  for (std::size_t k = 1; k < label_widths.size(); ++k)
-    length = std::max(length, (0.5 * (label_widths[k - 1] + label_widths[k]) + gap_in_group * em) /
+double least_length(const Bar& bar, const std::vector<double>& widths, double em) {
+  double length = 0.0;
+  for (std::size_t k = 1; k < widths.size(); ++k)
+    length = std::max(length, (0.5 * (widths[k - 1] + widths[k]) + gap_in_group * em) /
                                   (bar.ticks[k].share - bar.ticks[k - 1].share));
   return std::ceil(length);
+}
+
+std::vector<double> label_widths(const Bar& bar, double em, const Font& font) {
+  std::vector<double> widths;
+  for (const BarTick& tick : bar.ticks) widths.push_back(set_text(font, tick.label, em).width);
+  return widths;
+}
+
+/// With every second tick, until the labels have room; with the first and the last one at least.
+Bar thinned(Bar bar, double room, double em, const Font& font) {
+  const auto needed = [&] {
+    const std::vector<double> widths = label_widths(bar, em, font);
+    return least_length(bar, widths, em) + 0.5 * (widths.front() + widths.back());
+  };
+  while (bar.ticks.size() > 2 && needed() > room) {
+    std::vector<BarTick> kept;
+    for (std::size_t k = 0; k < bar.ticks.size(); k += 2) kept.push_back(bar.ticks[k]);
+    bar.ticks = std::move(kept);
+  }
+  return bar;
+}
+
+/// Where a bar lies along its line, px.
+struct BarEnds {
+  double left = 0.0, length = 0.0;
+  double right = 0.0;  ///< of its last label, if that goes beyond the bar
+};
+
+/// Of a bar that begins at `first` or, if its labels need that, further right.
+BarEnds ends_of(const Bar& bar, const std::vector<double>& widths, double first, double length) {
+  BarEnds ends{first, length, 0.0};
+  for (std::size_t k = 0; k < widths.size(); ++k)
+    ends.left = std::max(ends.left, 0.5 * widths[k] - bar.ticks[k].share * length);
+  ends.left = std::ceil(ends.left);
+  ends.right = ends.left + length;
+  for (std::size_t k = 0; k < widths.size(); ++k)
+    ends.right = std::max(ends.right, ends.left + bar.ticks[k].share * length + 0.5 * widths[k]);
+  return ends;
+}
+
+/// A bar in the line at `top`, with its ticks and labels, added to its title.
+Group bar_at(const Bar& bar, const std::vector<double>& widths, Group title, const BarEnds& ends, double top,
+             double em, const Font& font) {
+  Group group = std::move(title);
+  PlacedBar placed;
+  placed.box = {ends.left, top + std::round(0.5 * (line_height - bar_height) * em), ends.length,
+                std::round(bar_height * em)};
+  placed.colours = bar.colours;
+  const double labels_top =
+      std::ceil(std::max(placed.box.bottom() + tick_length * em, top + line_height * em));
+  for (std::size_t k = 0; k < widths.size(); ++k) {
+    const double x = ends.left + bar.ticks[k].share * ends.length;
+    placed.ticks.push_back(x);
+    group.texts.push_back(place_text(bar.ticks[k].label, x - 0.5 * widths[k], labels_top, em, font));
+  }
+  group.bars.push_back(std::move(placed));
+  group.width = std::max(group.width, ends.right);
+  group.height = labels_top + line_height * em;
+  return group;
 }
 
 }  // namespace
@@ -32,58 +92,66 @@ PlacedText place_text(const std::string& text, double x, double y, double em, co
   return {{x, y, set_text(font, text, em).width, line_height * em}, text};
 }
 
-Group text_group(const std::string& text, double em, const Font& font) {
+std::vector<std::string> broken_text(const std::string& text, double width, double em, const Font& font) {
+  std::vector<std::string> lines;
+  for (std::size_t start = 0; start < text.size();) {
+    const std::size_t end = std::min(text.find(' ', start), text.size());
+    const std::string word = text.substr(start, end - start);
+    if (!lines.empty() && set_text(font, lines.back() + " " + word, em).width <= width)
+      lines.back() += " " + word;
+    else
+      lines.push_back(word);
+    start = end + 1;
+  }
+  return lines;
+}
+
+Group text_group(const std::string& text, double room, double em, const Font& font, bool right_aligned) {
   Group group;
-  if (text.empty()) return group;
-  group.texts.push_back(place_text(text, 0.0, 0.0, em, font));
-  group.width = group.texts[0].box.width;
-  group.height = line_height * em;
+  for (const std::string& line : broken_text(text, room, em, font)) {
+    group.texts.push_back(place_text(line, 0.0, group.height, em, font));
+    group.width = std::max(group.width, group.texts.back().box.width);
+    group.height += line_height * em;
+  }
+  if (right_aligned)
+    for (PlacedText& line : group.texts) line.box.x = group.width - line.box.width;
   return group;
 }
 
-Group text_with_arrow_group(const std::string& text, double em, const Font& font) {
-  Group group = text_group(text, em, font);
-  const double side = std::floor(line_height * em);
-  group.arrow = {group.width + gap_in_group * em, 0.0, side, side};
+Group text_with_arrow_group(const std::string& text, double room, double em, const Font& font) {
+  const double side = std::floor(line_height * em), gap = gap_in_group * em;
+  Group group = text_group(text, room - side - gap, em, font, true);
+  group.arrow = {group.width + gap, 0.0, side, side};
   group.width = group.arrow.right();
   return group;
 }
 
-Group bar_group(const Bar& bar, double em, const Font& font) {
-  Group group;
-  std::vector<double> widths;
-  for (const BarTick& tick : bar.ticks) widths.push_back(set_text(font, tick.label, em).width);
-  const double length = bar_length(bar, widths, em);
-  const PlacedText title = place_text(bar.title, 0.0, 0.0, em, font);
-  double left = title.box.width + (bar.title.empty() ? 0.0 : gap_in_group * em);
-  for (std::size_t k = 0; k < widths.size(); ++k)
-    left = std::max(left, 0.5 * widths[k] - bar.ticks[k].share * length);
-  left = std::ceil(left);
-  if (!bar.title.empty()) group.texts.push_back(title);
-  PlacedBar placed;
-  placed.box = {left, std::round(0.5 * (line_height - bar_height) * em), length, std::round(bar_height * em)};
-  placed.colours = bar.colours;
-  group.width = placed.box.right();
-  const double labels_top = std::ceil(std::max(placed.box.bottom() + tick_length * em, line_height * em));
-  for (std::size_t k = 0; k < widths.size(); ++k) {
-    const double x = left + bar.ticks[k].share * length;
-    placed.ticks.push_back(x);
-    group.texts.push_back(place_text(bar.ticks[k].label, x - 0.5 * widths[k], labels_top, em, font));
-    group.width = std::max(group.width, group.texts.back().box.right());
-  }
-  group.bars.push_back(std::move(placed));
-  group.height = labels_top + line_height * em;
-  return group;
+Group bar_group(const Bar& whole, double room, double em, const Font& font) {
+  const Bar bar = thinned(whole, room, em, font);
+  const std::vector<double> widths = label_widths(bar, em, font);
+  const double least = least_length(bar, widths, em);
+  const double wanted = std::max(std::ceil(shortest_bar * em), least);
+  const double title = set_text(font, bar.title, em).width;
+  const double beside = bar.title.empty() ? 0.0 : title + gap_in_group * em;
+  const BarEnds plain = ends_of(bar, widths, beside, wanted);
+  if (plain.right <= room)
+    return bar_at(bar, widths, text_group(bar.title, title, em, font), plain, 0.0, em, font);
+  Group above = text_group(bar.title, room, em, font);
+  BarEnds below = ends_of(bar, widths, 0.0, wanted);
+  if (below.right > room)
+    below = ends_of(bar, widths, 0.0, std::max(least, std::floor(wanted - (below.right - room))));
+  const double top = std::ceil(above.height + 0.2 * em);
+  return bar_at(bar, widths, std::move(above), below, top, em, font);
 }
 
-Group swatch_group(const Swatch& swatch, double em, const Font& font) {
-  Group group;
-  group.height = line_height * em;
+Group swatch_group(const Swatch& swatch, double room, double em, const Font& font) {
   const double side = swatch_side * em;
   const double width = swatch.kind == Swatch::Kind::line ? line_swatch_width * em : side;
-  group.swatches.push_back({{0.0, 0.5 * (group.height - side), width, side}, swatch});
-  group.texts.push_back(place_text(swatch.label, width + 0.5 * gap_in_group * em, 0.0, em, font));
-  group.width = group.texts.back().box.right();
+  const double left = width + 0.5 * gap_in_group * em;
+  Group group = text_group(swatch.label, room - left, em, font);
+  for (PlacedText& line : group.texts) line.box.x += left;
+  group.swatches.push_back({{0.0, 0.5 * (line_height * em - side), width, side}, swatch});
+  group.width += left;
   return group;
 }
 

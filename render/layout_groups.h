@@ -21,12 +21,19 @@ struct Group {
   Box arrow;
 };
 
-Group text_group(const std::string& text, double em, const Font& font);
-/// A text with a small gravity arrow behind it.
-Group text_with_arrow_group(const std::string& text, double em, const Font& font);
-/// A bar with its title on the left and its ticks below.
-Group bar_group(const Bar& bar, double em, const Font& font);
-Group swatch_group(const Swatch& swatch, double em, const Font& font);
+/// Breaks a text at its spaces into lines of at most that width, px; only a single word may be wider.
+std::vector<std::string> broken_text(const std::string& text, double width, double em, const Font& font);
+
+// `room`, px: what groups are to fit, if their lines can be broken.
+
+/// A text; lines that are broken end at its right if it is `right_aligned`.
+Group text_group(const std::string& text, double room, double em, const Font& font,
+                 bool right_aligned = false);
+/// A right-aligned text with a small gravity arrow behind it.
+Group text_with_arrow_group(const std::string& text, double room, double em, const Font& font);
+/// A bar with its title on the left, or above if there is no room for both, and its ticks below.
+Group bar_group(const Bar& bar, double room, double em, const Font& font);
+Group swatch_group(const Swatch& swatch, double room, double em, const Font& font);
 /// The scale bar with its label below, and the gravity arrow with its label.
 Group scale_group(const FrameView& view, double scale, double em, const Font& font);
 

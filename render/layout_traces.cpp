@@ -11,6 +11,7 @@ namespace {
 // In units of the font size.
 constexpr double frame_height = 5.0;
 constexpr double label_gap = 0.4;
+constexpr double gap_below_frame = 0.65;  // the lowest label beside it reaches half a line below it
 constexpr double narrowest_frame = 8.0;
 constexpr double gap_between_labels = 0.8;
 
@@ -66,7 +67,7 @@ void add_y_labels(Layout& layout, const Trace& trace, const PlacedTrace& placed,
 double add_x_labels(Layout& layout, const Trace& trace, const PlacedTrace& placed, double right,
                     const Font& font) {
   const double em = layout.em;
-  const double y = std::ceil(placed.box.bottom() + label_gap * em);
+  const double y = std::ceil(placed.box.bottom() + gap_below_frame * em);
   double first_free = 0.0;
   for (std::size_t k = 0; k < trace.x_ticks.size(); ++k) {
     PlacedText text = place_text(trace.x_ticks[k].label, 0.0, y, em, font);
@@ -106,20 +107,24 @@ PlacedTrace place_trace(const Trace& trace, const Box& box) {
 
 }  // namespace
 
-double add_traces(Layout& layout, const std::vector<Trace>& traces, double left, double right, double y,
-                  const Font& font) {
-  const double em = layout.em;
-  const double frame_left = std::ceil(left + widest_label(traces, em, font) + label_gap * em);
+double add_traces(Layout& layout, const std::vector<Trace>& traces, const TraceRoom& room, const Font& font) {
+  const double em = layout.em, right = room.right;
+  const double frame_left = std::ceil(room.left + widest_label(traces, em, font) + label_gap * em);
   if (!traces.empty() && right - frame_left < narrowest_frame * em) return -1.0;
+  double y = room.top;
   for (std::size_t k = 0; k < traces.size(); ++k) {
     const Trace& trace = traces[k];
-    const PlacedText title = place_text(trace.title, frame_left, y, em, font);
-    if (title.box.right() > right) return -1.0;
-    if (!trace.title.empty()) layout.texts.push_back(title);
-    const Box box{frame_left, std::ceil(title.box.bottom() + 0.3 * em), std::floor(right - frame_left),
+    const double width = room.broken ? right - frame_left : std::numeric_limits<double>::infinity();
+    const Group title = text_group(trace.title, width, em, font);
+    if (title.width > right - frame_left) return -1.0;
+    add_group(layout, title, frame_left, y);
+    const double title_bottom = y + std::max(title.height, line_height * em);
+    const Box last_line =
+        title.texts.empty() ? Box{frame_left, y, 0.0, line_height * em} : layout.texts.back().box;
+    const Box box{frame_left, std::ceil(title_bottom + 0.3 * em), std::floor(right - frame_left),
                   std::round(frame_height * em)};
     layout.traces.push_back(place_trace(trace, box));
-    add_event_label(layout, trace, layout.traces.back(), title.box, right, font);
+    add_event_label(layout, trace, layout.traces.back(), last_line, right, font);
     add_y_labels(layout, trace, layout.traces.back(), font);
     y = box.bottom();
     if (k + 1 == traces.size()) y = add_x_labels(layout, trace, layout.traces.back(), right, font);

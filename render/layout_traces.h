@@ -7,9 +7,14 @@
 
 namespace talus {
 
-/// Lays out traces one below the other, from y down, between `left` and `right`; the last has the labels of
-/// all. Labels that would touch are left out. Returns the lower edge, px; negative if nothing legible fits.
-double add_traces(Layout& layout, const std::vector<Trace>& traces, double left, double right, double y,
-                  const Font& font);
+/// The part of a picture that traces have, px, and whether their titles may be broken into lines.
+struct TraceRoom {
+  double left = 0.0, right = 0.0, top = 0.0;
+  bool broken = false;
+};
+
+/// Lays out traces one below the other; the last has the labels of all. Labels that would touch are left out.
+/// Returns the lower edge, px; negative if nothing legible fits.
+double add_traces(Layout& layout, const std::vector<Trace>& traces, const TraceRoom& room, const Font& font);
 
 }  // namespace talus

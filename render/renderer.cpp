@@ -43,13 +43,13 @@ Renderer::Renderer(std::unique_ptr<Context> context) : Renderer(make_gl_target(s
 
 Renderer::Renderer(std::unique_ptr<Target> target) : target_(std::move(target)), font_(embedded_font()) {}
 
-Image Renderer::draw(const FrameView& view, int width, double largest_em) {
-  paint(view, width, largest_em);
+Image Renderer::draw(const FrameView& view, int width, const LayoutLimits& limits) {
+  paint(view, width, limits);
   return target_->end();
 }
 
-Layout Renderer::paint(const FrameView& view, int width, double largest_em) {
-  Layout layout = lay_out(view, width, font_, largest_em);
+Layout Renderer::paint(const FrameView& view, int width, const LayoutLimits& limits) {
+  Layout layout = lay_out(view, width, font_, limits);
   target_->begin(layout.width, layout.height, pixel_format(view));
   target_->draw_discs(view.discs, layout.bed);
   target_->draw_lines(view.lines, layout.bed);

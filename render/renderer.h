@@ -1,7 +1,6 @@
 #pragma once
 /// Draws views into images.
 
-#include <limits>
 #include <memory>
 
 #include "render/context.h"
@@ -24,10 +23,10 @@ class Renderer {
 
   /// The picture of a view, `width` px wide, laid out by lay_out. The same view gives the same bits.
   /// Throws Error as lay_out and the target do.
-  Image draw(const FrameView& view, int width, double largest_em = std::numeric_limits<double>::infinity());
+  Image draw(const FrameView& view, int width, const LayoutLimits& limits = {});
 
   /// Draws without reading the picture back: it stays in the target, with the size of the returned layout.
-  Layout paint(const FrameView& view, int width, double largest_em = std::numeric_limits<double>::infinity());
+  Layout paint(const FrameView& view, int width, const LayoutLimits& limits = {});
 
   const Font& font() const { return font_; }
 

@@ -1,8 +1,11 @@
 #include "pictures/bed_view.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/core.h>
 #include <string>
+
+#include "pictures/texts.h"
 
 namespace talus {
 namespace {
@@ -11,12 +14,16 @@ bool is_seen(const FrameView& view, double left, double right, double bottom, do
   return right > view.x_min && left < view.x_max && top > view.y_min && bottom < view.y_max;
 }
 
-/// 10 D, or less where 10 D would fill the picture.
-int scale_diameters(double width, double diameter) {
-  int diameters = 10;
-  for (const int shorter : {5, 2, 1})
-    if (diameters * diameter > 0.3 * width) diameters = shorter;
-  return diameters;
+/// 10 D; or a round number of D that neither fills the picture nor is lost in it.
+double scale_diameters(double width, double diameter) {
+  constexpr double longest = 0.3, shortest = 0.02;  // of the width
+  const double share = 10.0 * diameter / width;
+  if (share <= longest && share >= shortest) return 10.0;
+  const double wanted = (share > longest ? longest : 2.0 * shortest) * width / diameter;
+  const double decade = std::pow(10.0, std::floor(std::log10(wanted)));
+  for (const double factor : {5.0, 2.0})
+    if (factor * decade <= wanted) return factor * decade;
+  return decade;
 }
 
 }  // namespace
@@ -81,9 +88,9 @@ void add_surroundings(FrameView& view, const BedFrame& bed) {
   view.left_wall = !statics.periodic && view.x_min <= 0.0;
   view.right_wall = !statics.periodic && view.x_max >= statics.length;
   view.floor_line = statics.free_count == bed.frame.grain_count() && view.y_min <= 0.0;
-  const int diameters = scale_diameters(view.x_max - view.x_min, statics.mean_diameter);
+  const double diameters = scale_diameters(view.x_max - view.x_min, statics.mean_diameter);
   view.scale_length = diameters * statics.mean_diameter;
-  view.scale_label = fmt::format("{} D", diameters);
+  view.scale_label = number_label(diameters) + " D";
 }
 
 }  // namespace talus

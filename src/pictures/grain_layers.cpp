@@ -32,15 +32,6 @@ bool in_second_column(double x, double length, double diameter) {
 
 }  // namespace
 
-MapLayer speed_layer(const MapFrame& of, const ScaleChoice& choice) {
-  const double unit = std::sqrt(of.statics.gravity * of.statics.mean_diameter);
-  const Scale scale = chosen({ColourMap::viridis, 1e-5, 1.0, true}, choice);
-  std::vector<double> speeds;
-  for (Index i = 0; i < of.statics.free_count; ++i)
-    speeds.push_back(std::hypot(of.frame.vx[i], of.frame.vy[i]) / unit);
-  return scaled_layer("Speed of grains", scale, std::move(speeds), bar_of(scale, "in √(gD)"));
-}
-
 MapLayer size_layer(const MapFrame& of, const ScaleChoice& choice) {
   constexpr double alike = 0.05;  // of D: the range of grains of one size
   const RunStatics& statics = of.statics;

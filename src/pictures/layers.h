@@ -56,8 +56,12 @@ MapLayer clusters_layer(const MapFrame& of, const MapSettings& settings, bool ov
 MapLayer motion_layer(MapKind kind, const MapFrame& of, const MotionRanges& motion,
                       const ScaleChoice& choice);
 
+/// The range that fits the frames drawn, or the fixed one, of a map of motion (fits_frames).
+ScaleRange motion_range(MapKind kind, const MotionRanges& motion, bool per_degree);
+/// ", 5 to 99 % of grains" if the range is one that fits; empty if it is fixed or chosen.
+std::string fitted_text(MapKind kind, const MotionRanges& motion, bool per_degree, const ScaleChoice& choice);
+
 // grain_layers.cpp
-MapLayer speed_layer(const MapFrame& of, const ScaleChoice& choice);
 MapLayer size_layer(const MapFrame& of, const ScaleChoice& choice);
 MapLayer dyed_layer(const MapFrame& of, const ScaleChoice& choice);
 
@@ -74,7 +78,11 @@ void add_borders(std::vector<Line>& lines, double border);
 MapLayer displacement_arrows(const MapFrame& of, const MotionRanges& motion, const OverColour& over,
                              double spacing);
 
-// field_layers.cpp; the bed as a continuum, at the centre of each grain
+// field_layers.cpp; velocities, and the bed as a continuum, at the centre of each grain
+MapLayer speed_layer(const MapFrame& of, const MapSettings& settings, const ScaleChoice& choice);
+/// What the maps speed, shear_rate and temperature show of each free grain. Throws Error(internal) for
+/// others.
+std::vector<double> velocity_values(MapKind kind, const MapFrame& of, const MapSettings& settings);
 MapLayer cells_layer(const MapFrame& of, const ScaleChoice& choice);
 MapLayer field_layer(MapKind kind, const MapFrame& of, const MapSettings& settings,
                      const ScaleChoice& choice);

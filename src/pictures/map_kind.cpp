@@ -141,6 +141,11 @@ bool needs_reference(MapKind kind) {
   }
 }
 
+bool fits_frames(MapKind kind) {
+  return needs_reference(kind) || kind == MapKind::speed || kind == MapKind::shear_rate ||
+         kind == MapKind::temperature;
+}
+
 bool is_coarse(MapKind kind) {
   return kind == MapKind::coarse || kind == MapKind::density || kind == MapKind::stress ||
          kind == MapKind::shear_rate || kind == MapKind::temperature;

@@ -58,6 +58,9 @@ bool shows_gamma(MapKind kind);
 bool is_coarse(MapKind kind);
 /// Whether it is measured from an earlier frame.
 bool needs_reference(MapKind kind);
+/// Whether its range fits the frames that are drawn: of what is measured from an earlier frame, and of
+/// velocities.
+bool fits_frames(MapKind kind);
 
 /// One map, or two overlaid: the lower first.
 using MapLayers = std::vector<MapKind>;

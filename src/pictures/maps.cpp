@@ -133,7 +133,7 @@ MapLayer bare_layer(const MapFrame& of, const MapSettings& settings, double spac
     case MapKind::critical:
       return critical_layer(of, over);
     case MapKind::speed:
-      return speed_layer(of, choice);
+      return speed_layer(of, settings, choice);
     case MapKind::coordination:
       return coordination_layer(of, choice);
     case MapKind::mobilised:

@@ -24,8 +24,9 @@ struct ScaleRange {
   bool operator==(const ScaleRange&) const = default;
 };
 
-/// Ranges that fit what maps of motion (needs_reference) show in the frames that are drawn (MotionSample in
-/// motion.h). Two of each, as the units differ: in all, and per degree of tilt. None where nothing moved.
+/// Ranges that fit what maps of motion (fits_frames) show in the frames that are drawn (MotionSample in
+/// motion.h). Two of each, as the units differ: in all, and per degree of tilt; velocities have the first.
+/// None where nothing moved.
 struct MotionRanges {
   std::map<MapKind, std::array<std::optional<ScaleRange>, 2>> fitting;
 
@@ -41,8 +42,8 @@ struct MotionRanges {
 inline constexpr struct { double low, high; } size_shares = {0.05, 0.99};
 inline constexpr double signed_share = 0.95;
 
-/// The range of a map of motion where no other fits or is chosen: from the creep of a bed at rest to an
-/// avalanche.
+/// The range of a map of motion (fits_frames) if no other fits or is chosen: from the creep of a bed at rest
+/// to an avalanche.
 ScaleRange fixed_motion_range(MapKind kind, bool per_degree);
 
 /// deg: by which maps are scaled while the slope has not failed and nothing else is asked for.

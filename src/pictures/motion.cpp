@@ -7,6 +7,7 @@
 #include "analysis/local_deformation.h"
 #include "core/errors.h"
 #include "core/trigonometry.h"
+#include "pictures/layers.h"
 #include "pictures/texts.h"
 
 namespace talus {
@@ -33,6 +34,8 @@ std::optional<ScaleRange> signed_range(const LogHistogram& turned) {
   if (!(largest > 0.0)) return std::nullopt;
   return ScaleRange{-rounded(largest), rounded(largest)};
 }
+
+bool is_signed(MapKind kind) { return needs_reference(kind) && motion_map(kind).is_signed; }
 
 std::vector<double> distances(const MapFrame& of, const MotionSpan& span) {
   std::vector<double> values;
@@ -135,7 +138,7 @@ const MotionMap& motion_map(MapKind kind) {
 
 void LogHistogram::add(double value) {
   const double at =
-      value >= smallest ? 1.0 + std::floor(classes_per_decade * std::log10(value / smallest)) : 0.0;
+      value >= smallest_ ? 1.0 + std::floor(classes_per_decade * std::log10(value / smallest_)) : 0.0;
   ++counts_[static_cast<std::size_t>(std::min(at, static_cast<double>(counts_.size() - 1)))];
   ++total_;
 }
@@ -146,19 +149,27 @@ double LogHistogram::quantile(double share) const {
   std::size_t k = 0;
   while (k + 1 < counts_.size() && static_cast<double>(below) < wanted) below += counts_[++k];
   if (k == 0) return 0.0;
-  return smallest * std::pow(10.0, static_cast<double>(k) / classes_per_decade);
+  return smallest_ * std::pow(10.0, static_cast<double>(k) / classes_per_decade);
 }
 
-MotionSample::MotionSample(const MapLayers& maps) {
-  for (const MapKind kind : maps) sizes_[kind] = {};
+MotionSample::MotionSample(const MapLayers& maps, const MapSettings& settings) : settings_(settings) {
+  constexpr double smallest_temperature = 1e-18;  // as the square of the smallest speed
+  for (const MapKind kind : maps) {
+    const LogHistogram none =
+        kind == MapKind::temperature ? LogHistogram(smallest_temperature) : LogHistogram();
+    sizes_.try_emplace(kind, std::array{none, none});
+  }
 }
 
 void MotionSample::add(const MapFrame& of) {
-  if (of.reference == nullptr) return;
   const MotionSpan span = motion_span(of);
-  for (auto& [kind, sizes] : sizes_)
-    for (const double value : motion_map(kind).values(of, span))
-      if (!std::isnan(value)) sizes[span.per_degree].add(std::abs(value));
+  for (auto& [kind, sizes] : sizes_) {
+    const bool moving = needs_reference(kind);
+    if (moving && of.reference == nullptr) continue;
+    for (const double value :
+         moving ? motion_map(kind).values(of, span) : velocity_values(kind, of, settings_))
+      if (!std::isnan(value)) sizes[moving && span.per_degree].add(std::abs(value));
+  }
 }
 
 MotionRanges MotionSample::ranges() const {
@@ -166,7 +177,7 @@ MotionRanges MotionSample::ranges() const {
   for (const auto& [kind, sizes] : sizes_)
     for (std::size_t per_degree = 0; per_degree < sizes.size(); ++per_degree)
       ranges.fitting[kind][per_degree] =
-          motion_map(kind).is_signed ? signed_range(sizes[per_degree]) : size_range(sizes[per_degree]);
+          is_signed(kind) ? signed_range(sizes[per_degree]) : size_range(sizes[per_degree]);
   return ranges;
 }
 

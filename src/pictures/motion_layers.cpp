@@ -11,22 +11,6 @@
 namespace talus {
 namespace {
 
-Scale scale_of(const MotionMap& map, const MotionRanges& motion, const MotionSpan& span,
-               const ScaleChoice& choice) {
-  const ScaleRange range =
-      motion.of(map.kind, span.per_degree).value_or(fixed_motion_range(map.kind, span.per_degree));
-  const ColourMap colours = map.is_signed ? ColourMap::diverging : ColourMap::viridis;
-  return chosen({colours, range.low, range.high, !map.is_signed}, choice);
-}
-
-/// ", 5 to 99 % of grains" where the range is one that fits them.
-std::string share_text(const MotionMap& map, const MotionRanges& motion, const MotionSpan& span,
-                       const ScaleChoice& choice) {
-  if (choice.low || !motion.of(map.kind, span.per_degree)) return "";
-  if (map.is_signed) return fmt::format(", {:.6g} % of grains", 100.0 * signed_share);
-  return fmt::format(", {:.6g} to {:.6g} % of grains", 100.0 * size_shares.low, 100.0 * size_shares.high);
-}
-
 /// All free grains; or, where `spacing` is more than D, that with the smallest id in each square of that
 /// side.
 std::vector<Index> evenly_spread(const MapFrame& of, double spacing) {
@@ -77,17 +61,34 @@ double largest_displacement(const MapFrame& of, const MotionRanges& motion, cons
 }  // namespace
 
 ScaleRange fixed_motion_range(MapKind kind, bool per_degree) {
+  if (kind == MapKind::speed) return {1e-5, 1.0};
+  if (kind == MapKind::shear_rate) return {1e-6, 0.1};
+  if (kind == MapKind::temperature) return {1e-10, 1e-2};
   const MotionMap& map = motion_map(kind);
   return {map.is_signed ? -map.high[per_degree] : map.low[per_degree], map.high[per_degree]};
+}
+
+ScaleRange motion_range(MapKind kind, const MotionRanges& motion, bool per_degree) {
+  return motion.of(kind, per_degree).value_or(fixed_motion_range(kind, per_degree));
+}
+
+std::string fitted_text(MapKind kind, const MotionRanges& motion, bool per_degree,
+                        const ScaleChoice& choice) {
+  if (choice.low || !motion.of(kind, per_degree)) return "";
+  if (needs_reference(kind) && motion_map(kind).is_signed)
+    return fmt::format(", {:.6g} % of grains", 100.0 * signed_share);
+  return fmt::format(", {:.6g} to {:.6g} % of grains", 100.0 * size_shares.low, 100.0 * size_shares.high);
 }
 
 MapLayer motion_layer(MapKind kind, const MapFrame& of, const MotionRanges& motion,
                       const ScaleChoice& choice) {
   const MotionMap& map = motion_map(kind);
   const MotionSpan span = motion_span(of);
-  const Scale scale = scale_of(map, motion, span, choice);
-  const std::string title =
-      fmt::format("{}{}{}{}", map.bar, span.unit, map.sign, share_text(map, motion, span, choice));
+  const ScaleRange range = motion_range(kind, motion, span.per_degree);
+  const ColourMap colours = map.is_signed ? ColourMap::diverging : ColourMap::viridis;
+  const Scale scale = chosen({colours, range.low, range.high, !map.is_signed}, choice);
+  const std::string title = fmt::format("{}{}{}{}", map.bar, span.unit, map.sign,
+                                        fitted_text(kind, motion, span.per_degree, choice));
   return scaled_layer(std::string(map.title) + span.title, scale, map.values(of, span), bar_of(scale, title));
 }
 

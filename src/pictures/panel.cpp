@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <fmt/core.h>
-#include <limits>
 
 #include "core/text.h"
 #include "pictures/frame_choice.h"
@@ -33,22 +32,19 @@ std::vector<std::vector<FrameView>> panel_views(DrawnRun& run, const FrameChoice
   return rows;
 }
 
-/// All in one font size and one pixel format.
+/// All in one pixel format.
 Image draw_rows(std::vector<std::vector<FrameView>>& rows, const MapPlan& plan) {
   Renderer renderer(make_context(plan.context));
-  double em = std::numeric_limits<double>::infinity();
   bool coloured = false;
   for (const std::vector<FrameView>& row : rows)
-    for (const FrameView& view : row) {
-      em = std::min(em, lay_out(view, plan.width, renderer.font()).em);
-      coloured = coloured || pixel_format(view) == PixelFormat::colour;
-    }
+    for (const FrameView& view : row) coloured = coloured || pixel_format(view) == PixelFormat::colour;
+  const std::vector<LayoutLimits> limits = level_rows(rows, plan.width, renderer.font());
   std::vector<Image> images;
-  for (std::vector<FrameView>& row : rows) {
+  for (std::size_t row = 0; row < rows.size(); ++row) {
     std::vector<Image> columns;
-    for (FrameView& view : row) {
+    for (FrameView& view : rows[row]) {
       view.coloured = coloured;
-      columns.push_back(renderer.draw(view, plan.width, em));
+      columns.push_back(renderer.draw(view, plan.width, limits[row]));
     }
     images.push_back(beside(columns));
   }
@@ -73,10 +69,23 @@ PictureMarks panel_marks(const DrawnRun& run, const FrameChoice& choice, const s
 
 }  // namespace
 
+std::vector<LayoutLimits> level_rows(std::vector<std::vector<FrameView>>& rows, int width, const Font& font) {
+  LayoutLimits common;
+  common.own_turn = true;
+  for (std::vector<FrameView>& row : rows)
+    for (FrameView& view : row) {
+      view.letters /= static_cast<double>(row.size());
+      common.largest_em = std::min(common.largest_em, lay_out(view, width, font).em);
+    }
+  std::vector<LayoutLimits> limits;
+  for (const std::vector<FrameView>& row : rows) limits.push_back(level(row, width, font, common));
+  return limits;
+}
+
 PanelDrawn draw_panel(DrawnRun& run, const std::vector<std::string>& at, const std::string& output,
                       bool overwrite) {
   const FrameChoice choice = frames_at(run.file.frame_tilts(), at, run.theta_c());
-  fit_motion(run, choice);
+  fit_to_frames(run, choice);
   const PictureMarks marks = panel_marks(run, choice, at, output);
   if (is_drawn(output, marks, overwrite)) return {choice.size(), true};
   std::vector<std::vector<FrameView>> rows = panel_views(run, choice);

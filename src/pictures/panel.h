@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "pictures/picture_marks.h"
+#include "render/layout.h"
 
 namespace talus {
 
@@ -17,5 +18,9 @@ struct PanelDrawn {
 };
 PanelDrawn draw_panel(DrawnRun& run, const std::vector<std::string>& at, const std::string& output,
                       bool overwrite);
+
+/// The layout of a panel of pictures of that width: the letters of all have one size, which goes by the width
+/// of the panel, and the beds and traces of a row are level. Returns the limits of each row.
+std::vector<LayoutLimits> level_rows(std::vector<std::vector<FrameView>>& rows, int width, const Font& font);
 
 }  // namespace talus

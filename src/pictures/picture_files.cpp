@@ -59,7 +59,7 @@ PictureFile picture_file(const PictureSeries& series, const std::string& command
 
 std::vector<PictureFile> files_to_draw(DrawnRun& run, const FrameChoice& choice, const std::string& folder,
                                        bool overwrite) {
-  fit_motion(run, choice);
+  fit_to_frames(run, choice);
   const PictureSeries& series = run.series;
   const int decimals = series.has_program ? 2 : angle_decimals(run.file.frame_tilts(), choice);
   std::vector<PictureFile> files;

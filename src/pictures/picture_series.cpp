@@ -179,18 +179,22 @@ DrawnRun open_drawn_run(const std::string& path, const MapPlan& plan, const Coun
   return run;
 }
 
-void fit_motion(DrawnRun& run, std::span<const std::size_t> frames) {
-  if (!any_layer(run.series.plan, needs_reference)) return;
+void fit_to_frames(DrawnRun& run, std::span<const std::size_t> frames) {
+  PictureSeries& series = run.series;
+  double steepest = 0.0;
+  for (const std::size_t k : frames) steepest = std::max(steepest, series.met.instants[k].tilt);
+  for (MapSettings& map : series.plan.maps)
+    if (map.turned) map.tilt_max = steepest;
+  if (!any_layer(series.plan, fits_frames)) return;
   MapLayers moving;
-  for (const MapSettings& map : run.series.plan.maps)
-    std::ranges::copy_if(map.layers, std::back_inserter(moving), needs_reference);
-  MotionSample sample(moving);
+  for (const MapSettings& map : series.plan.maps)
+    std::ranges::copy_if(map.layers, std::back_inserter(moving), fits_frames);
+  MotionSample sample(moving, series.plan.maps[0]);
   for (const std::size_t k : frames) {
     read_frame(run, k);
-    const BedFrame bed{run.frame, run.series.run.statics};
-    sample.add({bed, reference_of(run), !run.series.since});
+    sample.add({{run.frame, series.run.statics}, reference_of(run), !series.since});
   }
-  for (MapSettings& map : run.series.plan.maps) map.motion = sample.ranges();
+  for (MapSettings& map : series.plan.maps) map.motion = sample.ranges();
 }
 
 FrameView picture(DrawnRun& run, std::size_t k, std::size_t map) {

@@ -85,9 +85,10 @@ struct DrawnRun {
 /// --since lies beyond them, Error(usage) where --crop leaves the bed.
 DrawnRun open_drawn_run(const std::string& path, const MapPlan& plan, const CountDone& progress);
 
-/// Of maps of motion: the ranges that fit what is drawn, of all these frames. Before the first picture or
-/// key; without, the ranges are fixed.
-void fit_motion(DrawnRun& run, std::span<const std::size_t> frames);
+/// Makes pictures fit all these frames: the ranges of maps of motion (fits_frames), and the room for the turn
+/// of a bed. Call it before the first picture or key; without, the ranges are fixed, and there is room for
+/// the turns of all frames.
+void fit_to_frames(DrawnRun& run, std::span<const std::size_t> frames);
 
 /// Map `map` of the plan at frame k. Frames are fastest in ascending order, all maps of one after another.
 FrameView picture(DrawnRun& run, std::size_t k, std::size_t map);

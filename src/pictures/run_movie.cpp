@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "core/errors.h"
@@ -46,27 +45,29 @@ std::vector<double> clock_tilts(const PictureSeries& series) {
 
 /// What all frames of a movie have in common.
 struct MovieFormat {
-  double em = std::numeric_limits<double>::infinity();  ///< font size, px
-  int height = 0;                                       ///< px
+  LayoutLimits limits;  ///< font size, and where the bed stands
+  int height = 0;       ///< px
   bool coloured = false;
 };
 
-/// The smallest font size, the largest height, and colour where one of the frames has it: captions and
-/// legends of some are longer than those of others.
+/// The smallest font size, the lowest bed, the largest height, and colour where one of the frames has it:
+/// captions and legends of some are longer than those of others.
 MovieFormat common_format(DrawnRun& run, const std::vector<MovieFrame>& frames, const Font& font) {
   MovieFormat format;
   std::vector<FrameView> views;
   for (const MovieFrame& frame : frames) {
     FrameView& view = views.emplace_back(picture(run, frame.frame, 0));
-    format.em = std::min(format.em, lay_out(view, run.series.plan.width, font).em);
+    format.limits.largest_em =
+        std::min(format.limits.largest_em, lay_out(view, run.series.plan.width, font).em);
     format.coloured = format.coloured || pixel_format(view) == PixelFormat::colour;
     // The layout needs no more of it.
     view.discs = {};
     view.lines = {};
     for (Trace& trace : view.traces) trace.x = trace.y = {};
   }
+  format.limits = level(views, run.series.plan.width, font, format.limits);
   for (const FrameView& view : views)
-    format.height = std::max(format.height, lay_out(view, run.series.plan.width, font, format.em).height);
+    format.height = std::max(format.height, lay_out(view, run.series.plan.width, font, format.limits).height);
   return format;
 }
 
@@ -79,7 +80,7 @@ void make_movie(DrawnRun& run, const std::vector<MovieFrame>& frames, double fps
   for (std::size_t k = 0; k < frames.size() && !watch.stopped(); ++k) {
     FrameView view = picture(run, frames[k].frame, 0);
     view.coloured = format.coloured;
-    const Image image = padded(renderer.draw(view, width, format.em), format.height);
+    const Image image = padded(renderer.draw(view, width, format.limits), format.height);
     for (int shown = 0; shown < frames[k].times && !watch.stopped(); ++shown) movie.add(image);
     if (watch.progress) watch.progress(k + 1, frames.size());
   }
@@ -116,7 +117,7 @@ std::size_t draw_movie(DrawnRun& run, const MovieTiming& timing, const std::stri
     shown.push_back(frame.frame);
     count += static_cast<std::size_t>(frame.times);
   }
-  fit_motion(run, shown);
+  fit_to_frames(run, shown);
   try {
     make_movie(run, frames, timing.fps, output, watch);
   } catch (const Error&) {

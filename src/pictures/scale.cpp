@@ -16,18 +16,25 @@ constexpr int most_steps = 5;          // between ticks of a bar
 
 std::uint8_t darkened(std::uint8_t channel) { return static_cast<std::uint8_t>(rim_darkness * channel); }
 
-/// These multiples of the powers of ten between the ends.
+/// These multiples of the powers of ten between the ends; of many decades, every second, third, ... power.
+/// All are written as powers if one of them has to be.
 std::vector<BarTick> decades(const Scale& scale, std::initializer_list<double> factors) {
+  constexpr int most_decades = 10;
   constexpr double hair = 1e-9;  // so that rounding loses no tick at an end
-  std::vector<BarTick> ticks;
+  std::vector<double> values;
   const auto first = static_cast<int>(std::floor(std::log10(scale.low)));
   const auto last = static_cast<int>(std::ceil(std::log10(scale.high)));
-  for (int k = first; k <= last; ++k)
+  const int step = std::max(1, (last - first + most_decades - 1) / most_decades);
+  for (int k = first; k <= last; k += step)
     for (const double factor : factors) {
       const double value = factor * std::pow(10.0, k), share = share_of(scale, value);
-      if (share >= -hair && share <= 1.0 + hair)
-        ticks.push_back({std::clamp(share, 0.0, 1.0), fmt::format("{:.6g}", value)});
+      if (share >= -hair && share <= 1.0 + hair) values.push_back(value);
     }
+  const bool powers = std::ranges::any_of(values, needs_power);
+  std::vector<BarTick> ticks;
+  for (const double value : values)
+    ticks.push_back(
+        {std::clamp(share_of(scale, value), 0.0, 1.0), powers ? power_label(value) : number_label(value)});
   return ticks;
 }
 

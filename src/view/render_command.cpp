@@ -29,7 +29,7 @@ std::optional<ScaleRange> range_of(const RenderRequest& shown) {
   if (!has_bar(settings.layers)) return std::nullopt;
   if (settings.range_low && settings.range_high) return ScaleRange{*settings.range_low, *settings.range_high};
   const auto bar = std::ranges::find_if(settings.layers, [](MapKind kind) { return has_bar({kind}); });
-  if (!needs_reference(*bar)) return std::nullopt;
+  if (!fits_frames(*bar)) return std::nullopt;
   return fixed_motion_range(*bar, !shown.since && !shown.in_flow);
 }
 

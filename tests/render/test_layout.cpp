@@ -134,7 +134,7 @@ TEST(Layout, LettersAreAsLargeAsTheViewAsks) {
   FrameView view = sample_view();
   view.letters = 40.0;
   EXPECT_EQ(lay_out(view, 1600, font).em, 40.0);
-  EXPECT_EQ(lay_out(view, 1600, font, 20.0).em, 20.0);
+  EXPECT_EQ(lay_out(view, 1600, font, {20.0}).em, 20.0);
   view.title = std::string(60, 'm');
   EXPECT_LT(lay_out(view, 1600, font).em, 30.0) << "or the title would not fit";
 }
@@ -142,8 +142,8 @@ TEST(Layout, LettersAreAsLargeAsTheViewAsks) {
 TEST(Layout, KeepsToTheFontSizeAllowed) {
   const Font font = embedded_font();
   EXPECT_EQ(lay_out(sample_view(), 1600, font).em, 18.0);
-  EXPECT_EQ(lay_out(sample_view(), 1600, font, 11.5).em, 11.5);
-  EXPECT_EQ(lay_out(sample_view(), 1600, font, 40.0).em, 18.0);
+  EXPECT_EQ(lay_out(sample_view(), 1600, font, {11.5}).em, 11.5);
+  EXPECT_EQ(lay_out(sample_view(), 1600, font, {40.0}).em, 18.0);
 }
 
 TEST(Layout, RefusesPicturesThatAreTooSmallOrTooLarge) {

@@ -81,6 +81,44 @@ TEST(MotionSample, HasNoRangeWhereNothingMovedAndANarrowOneWhereAllMovedAlike) {
   EXPECT_NEAR(alike.ranges().of(MapKind::displacement, false)->low, 0.2, 0.01);
 }
 
+TEST(MotionSample, RangesOfVelocitiesNeedNoEarlierFrame) {
+  Moved moved;
+  for (Index i = 0; i < 100; ++i) moved.now.frame.vx[i] = std::pow(10.0, -6.0 + 0.04 * i) * std::sqrt(10.0);
+  MotionSample sample({MapKind::speed, MapKind::displacement});
+  sample.add({{moved.now.frame, moved.now.statics}, nullptr, true});
+  const MotionRanges ranges = sample.ranges();
+  ASSERT_TRUE(ranges.of(MapKind::speed, false).has_value());
+  EXPECT_NEAR(std::log10(ranges.of(MapKind::speed, false)->low), -5.8, 0.05) << "in sqrt(g D)";
+  EXPECT_NEAR(std::log10(ranges.of(MapKind::speed, false)->high), -2.08, 0.05);
+  EXPECT_FALSE(ranges.of(MapKind::displacement, false) || ranges.of(MapKind::displacement, true));
+  MapSettings settings = test::settings_of("speed");
+  EXPECT_EQ(test::map_of(moved.now, settings).legends[0].bars[0].title, "in √(gD)");
+  settings.motion = ranges;
+  const Bar bar = test::map_of(moved.now, settings).legends[0].bars[0];
+  EXPECT_EQ(bar.title, "in √(gD), 5 to 99 % of grains");
+  EXPECT_EQ(bar.high, ranges.of(MapKind::speed, false)->high);
+}
+
+TEST(MotionSample, RangesOfCoarseFieldsAreOfTheirLength) {
+  Packing bed = test::triangular_lattice(20, 8, true);
+  test::complete(bed);
+  for (std::size_t i = 0; i < bed.frame.x.size(); ++i)
+    bed.frame.vx[i] = 1e-6 * std::sin(37.0 * static_cast<double>(i));
+  MapSettings settings = test::settings_of("temperature");
+  settings.length = 6.0;
+  for (const MapKind kind : {MapKind::temperature, MapKind::shear_rate}) {
+    MotionSample sample({kind}, settings);
+    sample.add({{bed.frame, bed.statics}});
+    const std::optional<ScaleRange> range = sample.ranges().of(kind, false);
+    ASSERT_TRUE(range.has_value());
+    EXPECT_LT(range->high, fixed_motion_range(kind, false).low) << "slower than the fixed range";
+    settings.layers = {kind};
+    settings.motion = sample.ranges();
+    EXPECT_EQ(test::map_of(bed, settings).legends[0].bars[0].high, range->high);
+    EXPECT_TRUE(test::map_of(bed, settings).legends[0].bars[0].title.ends_with(", 5 to 99 % of grains"));
+  }
+}
+
 TEST(MotionSample, BarSaysHowManyGrainsARangeHolds) {
   const Moved moved;
   MotionSample sample({MapKind::displacement, MapKind::rotation});

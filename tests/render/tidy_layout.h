@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -13,16 +15,42 @@ namespace talus::test {
 struct NamedBox {
   Box box;
   std::string name;
+  int part = 0;  ///< boxes of one part may touch: a bar and its ticks
 };
 
+inline Box grown(const Box& box, double by) {
+  return {box.x - by, box.y - by, box.width + 2.0 * by, box.height + 2.0 * by};
+}
+
+/// px: the width of the lines of the furniture.
+inline double line_width(const Layout& layout) { return std::max(1.0, std::round(layout.em / 12.0)); }
+
+/// All that is drawn, with its lines, ticks and walls.
 inline std::vector<NamedBox> all_boxes(const Layout& layout) {
+  const double line = line_width(layout), tick = std::round(0.3 * layout.em);
   std::vector<NamedBox> boxes = {{layout.bed.box, "bed"}};
-  if (layout.scale_bar.width > 0.0) boxes.push_back({layout.scale_bar, "scale bar"});
-  if (layout.arrow.width > 0.0) boxes.push_back({layout.arrow, "arrow"});
-  for (const PlacedBar& bar : layout.bars) boxes.push_back({bar.box, "bar"});
-  for (const PlacedText& text : layout.texts) boxes.push_back({text.box, "text \"" + text.text + "\""});
-  for (const PlacedSwatch& swatch : layout.swatches) boxes.push_back({swatch.box, "swatch"});
-  for (const PlacedTrace& trace : layout.traces) boxes.push_back({trace.box, "trace"});
+  const auto add = [&](const Box& box, const std::string& name) {
+    boxes.push_back({box, name, static_cast<int>(boxes.size())});
+  };
+  if (layout.scale_bar.width > 0.0) add(layout.scale_bar, "scale bar");
+  if (layout.arrow.width > 0.0) add(layout.arrow, "arrow");
+  for (const PlacedBar& bar : layout.bars) {
+    add(grown(bar.box, line), "bar");
+    const int part = boxes.back().part;
+    for (const double x : bar.ticks)
+      boxes.push_back({{x - 0.5 * line, bar.box.bottom(), line, tick}, "tick of a bar", part});
+  }
+  for (const PlacedText& text : layout.texts) add(text.box, "text \"" + text.text + "\"");
+  for (const PlacedSwatch& swatch : layout.swatches) add(swatch.box, "swatch");
+  for (const PlacedTrace& trace : layout.traces) {
+    const double disc = 0.3 * layout.em;  // of the mark, which may stand at the edge of the frame
+    Box drawn = grown(trace.box, line);
+    if (!std::isnan(trace.mark.y)) {
+      drawn.x = std::min(drawn.x, trace.mark.x - disc);
+      drawn.width = std::max(trace.box.right() + line, trace.mark.x + disc) - drawn.x;
+    }
+    add(drawn, "trace");
+  }
   return boxes;
 }
 
@@ -30,19 +58,58 @@ inline bool overlap(const Box& a, const Box& b) {
   return a.x < b.right() && b.x < a.right() && a.y < b.bottom() && b.y < a.bottom();
 }
 
-/// Everything inside the picture, and nothing over anything else.
-inline void expect_tidy(const Layout& layout, const std::string& what) {
+inline std::string text_of(const Box& box) {
+  return "(" + std::to_string(box.x) + ", " + std::to_string(box.y) + ") to (" + std::to_string(box.right()) +
+         ", " + std::to_string(box.bottom()) + ")";
+}
+
+/// Whether a box has no part in the bed, which may be turned: it lies beyond one of the sides of the other.
+inline bool clear_of_bed(const Box& box, const Window& bed) {
+  const auto bed_x = [&](const Point& p) {
+    return (bed.camera.cosine * (p.x - bed.camera.origin_x) + bed.camera.sine * (p.y - bed.camera.origin_y)) /
+           bed.camera.scale;
+  };
+  const auto bed_y = [&](const Point& p) {
+    return (bed.camera.sine * (p.x - bed.camera.origin_x) - bed.camera.cosine * (p.y - bed.camera.origin_y)) /
+           bed.camera.scale;
+  };
+  const Point corners[] = {
+      {box.x, box.y}, {box.right(), box.y}, {box.x, box.bottom()}, {box.right(), box.bottom()}};
+  const auto all = [&](const auto& beyond) {
+    return std::all_of(std::begin(corners), std::end(corners), beyond);
+  };
+  return all([&](const Point& p) { return bed_x(p) < bed.x_min; }) ||
+         all([&](const Point& p) { return bed_x(p) > bed.x_max; }) ||
+         all([&](const Point& p) { return bed_y(p) < bed.y_min; }) ||
+         all([&](const Point& p) { return bed_y(p) > bed.y_max; });
+}
+
+/// What is wrong with a layout: what lies outside of the picture, over something else, or, of texts on one
+/// line, so near to the next that they read as one. Empty where nothing is.
+inline std::string untidy(const Layout& layout) {
+  constexpr double between_texts = 0.35;  // em
+  std::string wrong;
   const std::vector<NamedBox> boxes = all_boxes(layout);
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     const Box& box = boxes[i].box;
-    EXPECT_GT(box.width * box.height, 0.0) << what << ", " << boxes[i].name;
-    EXPECT_GE(box.x, 0.0) << what << ", " << boxes[i].name;
-    EXPECT_GE(box.y, 0.0) << what << ", " << boxes[i].name;
-    EXPECT_LE(box.right(), layout.width) << what << ", " << boxes[i].name;
-    EXPECT_LE(box.bottom(), layout.height) << what << ", " << boxes[i].name;
-    for (std::size_t j = 0; j < i; ++j)
-      EXPECT_FALSE(overlap(box, boxes[j].box)) << what << ", " << boxes[j].name << " and " << boxes[i].name;
+    if (!(box.width * box.height > 0.0)) wrong += boxes[i].name + " is empty\n";
+    if (box.x < 0.0 || box.y < 0.0 || box.right() > layout.width || box.bottom() > layout.height)
+      wrong += boxes[i].name + " leaves the picture: " + text_of(box) + "\n";
+    for (std::size_t j = 0; j < i; ++j) {
+      if (boxes[j].part == boxes[i].part) continue;
+      if (j == 0 && clear_of_bed(box, layout.bed)) continue;
+      const bool texts = boxes[i].name.starts_with("text") && boxes[j].name.starts_with("text");
+      const double gap = texts ? between_texts * layout.em : 0.0;
+      if (overlap({box.x - gap, box.y, box.width + 2.0 * gap, box.height}, boxes[j].box))
+        wrong += boxes[j].name + " " + text_of(boxes[j].box) + " meets " + boxes[i].name + " " +
+                 text_of(box) + "\n";
+    }
   }
+  return wrong;
+}
+
+inline void expect_tidy(const Layout& layout, const std::string& what) {
+  EXPECT_EQ(untidy(layout), "") << what;
 }
 
 }  // namespace talus::test

@@ -141,7 +141,7 @@ TEST(PictureSeries, ranges_of_motion_fit_the_frames_that_are_drawn) {
     MapOptions options;
     options.since = 0.0;
     DrawnRun run = open_drawn_run(path, plan_of("displacement", options), {});
-    fit_motion(run, frames);
+    fit_to_frames(run, frames);
     const ScaleRange range =
         run.series.plan.maps[0].motion.of(MapKind::displacement, false).value_or(ScaleRange{0.0, 0.0});
     return std::pair(std::lround(1000.0 * range.low), std::lround(1000.0 * range.high));
@@ -152,9 +152,19 @@ TEST(PictureSeries, ranges_of_motion_fit_the_frames_that_are_drawn) {
   EXPECT_EQ(ends({0}), std::pair(0L, 0L)) << "nothing has moved: the fixed range stays";
   DrawnRun fixed = open_drawn_run(path, plan_of("displacement"), {});
   DrawnRun fitted = open_drawn_run(path, plan_of("displacement"), {});
-  fit_motion(fitted, std::vector<std::size_t>{0, 1, 2});
+  fit_to_frames(fitted, std::vector<std::size_t>{0, 1, 2});
   EXPECT_NE(key_of(fixed), key_of(fitted));
   EXPECT_EQ(picture(fitted, 2, 0).legends[0].bars[0].title, "in D per degree, 5 to 99 % of grains");
+}
+
+TEST(PictureSeries, turned_beds_have_room_for_the_frames_that_are_drawn) {
+  const test::TemporaryFolder folder;
+  MapOptions options;
+  options.turned = true;
+  DrawnRun run = open_drawn_run(example_run(folder), plan_of("gamma", options), {});
+  fit_to_frames(run, std::vector<std::size_t>{0, 1});
+  EXPECT_DOUBLE_EQ(picture(run, 0, 0).turn_max, radians(1.0));
+  EXPECT_DOUBLE_EQ(picture(run, 1, 0).turn_max, radians(1.0));
 }
 
 TEST(PictureSeries, traces_are_those_of_the_tilt) {
