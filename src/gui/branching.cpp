@@ -9,6 +9,7 @@
 #include "core/errors.h"
 #include "core/trigonometry.h"
 #include "gui/run_actions.h"
+#include "gui/view_actions.h"
 
 namespace talus {
 namespace {
@@ -39,16 +40,31 @@ void hold_at(Gui& gui, Index grain, double x, double y) {
   }
 }
 
-/// The grain on which a lasso would begin, once the mouse moves: a click is for a contact.
-std::optional<Index> taken_grain(ViewModel& model, const MapPlaces& places) {
+/// The free grain on which a lasso would begin, once the mouse moves: a click is for a contact.
+std::optional<Index> first_grain(const ViewModel& model, const MapPlaces& places) {
   const SelectingState& selecting = model.state.selecting;
   if (selecting.outline.size() != 1 || selecting.outline_is_box || ImGui::GetIO().KeyShift) return {};
   if (!ImGui::IsMouseDragging(0, least_drag)) return {};
-  if (model.looks_back() || model.live()->status().done) return {};
   const Vec2 first = selecting.outline.front();
   const Point at = places.bed({static_cast<float>(first.x), static_cast<float>(first.y)});
   const std::optional<Index> grain = model.grain_at(at.x, at.y);
   return grain && *grain < model.statics().free_count ? grain : std::nullopt;
+}
+
+/// Whether a grain would be pulled, had the run not ended: then no lasso begins there, which would drop what
+/// is selected.
+bool refuse_after_end(Gui& gui, const MapPlaces& places) {
+  ViewModel& model = gui.model;
+  SelectingState& selecting = model.state.selecting;
+  const bool waits = ImGui::IsItemActive() && !ImGui::IsItemActivated() && ImGui::GetIO().KeyCtrl &&
+                     !ImGui::GetIO().KeyShift && selecting.outline.empty();
+  if (waits) return true;  // the mouse goes on after it was refused
+  if (model.looks_back() || !model.live()->status().done || !first_grain(model, places)) return false;
+  selecting.outline.clear();
+  model.state.message =
+      "The run has ended: no grain can be pulled. U goes back before a command; with shift ctrl draws a "
+      "lasso.";
+  return true;
 }
 
 /// Those that are selected stay where it is one of them.
@@ -88,6 +104,7 @@ void branch_here(Gui& gui) {
   try {
     model.play(false);
     model.branch();
+    model.state.run_to_tilt = std::max(model.state.run_to_tilt, next_round_tilt(degrees(model.frame().tilt)));
     model.state.message = fmt::format(
         "A branch begins at {:.2f}°: push, drop or drag grains (ctrl), change friction or tilt, and play.",
         degrees(model.frame().tilt));
@@ -98,7 +115,7 @@ void branch_here(Gui& gui) {
 
 void go_back(Gui& gui) {
   ViewModel& model = gui.model;
-  if (!model.is_live()) return;
+  if (!model.is_live()) return refuse_in_replay(gui, "There is no command to take back");
   try {
     model.state.drag.reset();
     model.back();
@@ -143,7 +160,8 @@ bool drag_grain(Gui& gui, double x, double y, const MapPlaces& places) {
     return false;
   }
   if (!drag) {
-    const std::optional<Index> grain = taken_grain(model, places);
+    if (refuse_after_end(gui, places)) return true;
+    const std::optional<Index> grain = model.looks_back() ? std::nullopt : first_grain(model, places);
     if (!grain) return false;
     model.state.selecting.outline.clear();
     model.state.selecting.follow = false;  // else the picture would run after the mouse, and the mouse ahead

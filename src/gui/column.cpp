@@ -1,6 +1,7 @@
 /// The column on the left: groups of widgets that are folded and unfolded.
 
 #include <algorithm>
+#include <fmt/core.h>
 #include <string>
 #include <utility>
 
@@ -60,7 +61,9 @@ void draw_group(Gui& gui, const Group& group, bool several) {
   if (!unfolded) return;
   group.draw(gui);
   ImGui::Dummy({0.0f, 0.3f * gui.em});
-  if (asked) bring_into_sight(top, ImGui::GetCursorPosY());
+  if (!asked) return;
+  bring_into_sight(top, ImGui::GetCursorPosY());
+  gui.model.state.message = fmt::format("Unfolded: {}.", group.name);
 }
 
 }  // namespace
@@ -74,6 +77,10 @@ const char* group_of_key(ImWchar key) {
 void draw_column(Gui& gui, bool with_inspector) {
   ImGui::BeginChild("column");
   const bool several = ImGui::GetWindowHeight() >= room_for_several * gui.em;
+  if (!with_inspector && gui.panel_asked == group_of_key('G')) {
+    gui.panel_asked.clear();
+    gui.model.state.message = "The selected grain has the column on the right.";
+  }
   for (const Group& group : groups)
     if (with_inspector || group.draw != draw_inspector) draw_group(gui, group, several);
   ImGui::EndChild();

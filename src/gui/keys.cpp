@@ -1,10 +1,10 @@
-#include <algorithm>
+#include <fmt/core.h>
 
-#include "core/trigonometry.h"
 #include "gui/beside_actions.h"
 #include "gui/branching.h"
 #include "gui/panels.h"
 #include "gui/run_actions.h"
+#include "gui/view_actions.h"
 
 namespace talus {
 namespace {
@@ -51,8 +51,6 @@ constexpr KeyLine key_lines[] = {
     {"q", "quit"},
 };
 
-constexpr double fastest_replay = 20.0;  // deg/s
-
 int factor_of_modifiers() {
   const ImGuiIO& io = ImGui::GetIO();
   return io.KeyCtrl ? 100 : io.KeyShift ? 10 : 1;
@@ -60,119 +58,9 @@ int factor_of_modifiers() {
 
 bool pressed(ImGuiKey key) { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key)); }
 
-void next_overlay(MapLayers& layers) {
-  const auto kinds = map_kinds();
-  const std::size_t count = kinds.size();
-  std::size_t next = layers.size() > 1
-                         ? static_cast<std::size_t>(std::ranges::find(kinds, layers[1]) - kinds.begin()) + 1
-                         : 0;
-  if (next < count && kinds[next] == layers[0]) ++next;
-  layers.resize(1);
-  if (next < count) layers.push_back(kinds[next]);
-}
-
-/// Its own, then each colour map.
-void next_colours(std::optional<ColourMap>& colours) {
-  const auto all = colour_maps();
-  const std::size_t next =
-      colours ? static_cast<std::size_t>(std::ranges::find(all, *colours) - all.begin()) + 1 : 0;
-  colours = next < all.size() ? std::optional(all[next]) : std::nullopt;
-}
-
-void choose_map(MapLayers& layers, std::size_t k) {
-  if (k >= map_kinds().size()) return;
-  layers[0] = map_kinds()[k];
-  if (layers.size() > 1 && layers[1] == layers[0]) layers.pop_back();
-}
-
 void ask_for_panel(Gui& gui, ImWchar key) {
   gui.model.state.show_controls = true;
   gui.panel_asked = group_of_key(key);
-}
-
-void change_view(Gui& gui, ImWchar key) {
-  ViewState& state = gui.model.state;
-  const double step = 3.0 * gui.model.mean_diameter();
-  switch (key) {
-    case '[':
-      state.map.threshold_factor = std::max(0.1, state.map.threshold_factor - 0.1);
-      break;
-    case ']':
-      state.map.threshold_factor = std::min(4.0, state.map.threshold_factor + 0.1);
-      break;
-    case ',':
-      state.map.length = std::max(1.0, state.map.length - 1.0);
-      break;
-    case '.':
-      state.map.length = std::min(40.0, state.map.length + 1.0);
-      break;
-    case ';':
-      state.neighbourhood = std::max(1.0, state.neighbourhood - 1.0);
-      break;
-    case '\'':
-      state.neighbourhood = std::min(40.0, state.neighbourhood + 1.0);
-      break;
-    case '+':
-    case '=':
-      zoom_about(gui, 1.25, state.camera.centre_x, state.camera.centre_y);
-      break;
-    case '-':
-      zoom_about(gui, 0.8, state.camera.centre_x, state.camera.centre_y);
-      break;
-    case 'w':
-      state.camera.centre_y += step;
-      break;
-    case 'z':
-      state.camera.centre_y -= step;
-      break;
-    case 'a':
-      state.camera.centre_x -= step;
-      break;
-    case 'x':
-      state.camera.centre_x += step;
-      break;
-    case 'f':
-      show_whole_bed(gui);
-      break;
-    case 't':
-      state.map.turned = !state.map.turned;
-      break;
-    case 'o':
-      next_overlay(state.map.layers);
-      break;
-    case '0':
-      state.map.layers.resize(1);
-      break;
-    case 'm':
-      next_colours(state.map.colours);
-      break;
-    case 'v':
-      state.since = state.since ? std::nullopt : std::optional(gui.model.frame().tilt);
-      break;
-    case 'i':
-      state.highlight_cluster = !state.highlight_cluster;
-      break;
-    case 'y':
-      state.show_neighbourhoods = !state.show_neighbourhoods;
-      break;
-    case 'C':
-      state.theme = next_theme(state.theme);
-      break;
-    case 'h':
-      state.show_controls = state.show_inspector = !state.show_controls;
-      break;
-    case 'l':
-      state.show_plots = !state.show_plots;
-      break;
-    case '?':
-      state.show_help = !state.show_help;
-      break;
-    case 'n':
-      gui.model.select(state.selected ? (*state.selected + 1) % gui.model.statics().free_count : 0);
-      break;
-    default:
-      if (key >= '1' && key <= '9') choose_map(state.map.layers, static_cast<std::size_t>(key - '1'));
-  }
 }
 
 void act(Gui& gui, ImWchar key) {
@@ -182,25 +70,25 @@ void act(Gui& gui, ImWchar key) {
       toggle_playing(gui);
       break;
     case 'd':
-      model.go_to(Landmark::theta_d);
+      go_to_landmark(gui, Landmark::theta_d);
       break;
     case 'p':
-      model.go_to(Landmark::percolation);
+      go_to_landmark(gui, Landmark::percolation);
       break;
     case 'c':
-      model.go_to(Landmark::theta_c);
+      go_to_landmark(gui, Landmark::theta_c);
       break;
     case 'j':
-      model.go_to(Landmark::length_jump);
+      go_to_landmark(gui, Landmark::length_jump);
       break;
     case '<':
-      model.set_speed(0.8 * model.speed());
+      change_speed(gui, 0.8);
       break;
     case '>':
-      model.set_speed(std::min(1.25 * model.speed(), fastest_replay));
+      change_speed(gui, 1.25);
       break;
     case 'b':
-      if (model.is_live()) model.live()->finish_deposition();
+      deposit(gui);
       break;
     case 'B':
       model.state.bookmark_asked = true;
@@ -226,7 +114,7 @@ void act(Gui& gui, ImWchar key) {
       ask_for_panel(gui, key);
       break;
     case 'T':
-      model.state.selecting.trails = !model.state.selecting.trails;
+      toggle_trails(gui);
       break;
     case 'L':
       toggle_following(gui);
@@ -244,7 +132,7 @@ void act(Gui& gui, ImWchar key) {
       gui.requests.quit = model.may_discard();
       break;
     case 'g':
-      if (model.is_live()) model.live()->run_to(radians(model.state.run_to_tilt));
+      run_to_tilt(gui);
       break;
     case 'r':
       reset(gui);
@@ -253,8 +141,23 @@ void act(Gui& gui, ImWchar key) {
       save_state(gui);
       break;
     default:
-      change_view(gui, key);
+      if (!change_view(gui, key) && key > ' ' && key < 127)
+        model.state.message =
+            fmt::format("{} is for nothing here: ? lists the keys.", static_cast<char>(key));
   }
+}
+
+/// Ends what is least missed: the list of keys, else what is selected.
+void escape(Gui& gui) {
+  ViewState& state = gui.model.state;
+  const bool selected =
+      state.selected || !state.selecting.selection.grains.empty() || state.selecting.selection.contact;
+  if (state.show_help)
+    state.show_help = false;
+  else if (selected)
+    gui.model.select(std::optional<Index>());
+  else
+    state.message = "Nothing is selected.";
 }
 
 }  // namespace
@@ -265,15 +168,10 @@ void handle_keys(Gui& gui) {
   for (const ImWchar key : io.InputQueueCharacters) act(gui, key);
   if (pressed(ImGuiKey_RightArrow)) advance(gui, factor_of_modifiers());
   if (pressed(ImGuiKey_LeftArrow)) advance(gui, -factor_of_modifiers());
-  if (pressed(ImGuiKey_Home)) gui.model.go_to(Landmark::first);
-  if (pressed(ImGuiKey_End)) gui.model.go_to(Landmark::last);
+  if (pressed(ImGuiKey_Home)) go_to_landmark(gui, Landmark::first);
+  if (pressed(ImGuiKey_End)) go_to_landmark(gui, Landmark::last);
   const bool list_open = ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopup);  // it closes itself
-  if (pressed(ImGuiKey_Escape) && !list_open) {
-    if (gui.model.state.show_help)
-      gui.model.state.show_help = false;
-    else
-      gui.model.select(std::optional<Index>());
-  }
+  if (pressed(ImGuiKey_Escape) && !list_open) escape(gui);
 }
 
 void draw_help(Gui& gui) {

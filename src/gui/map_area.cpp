@@ -5,8 +5,8 @@
 #include "core/trigonometry.h"
 #include "gui/branching.h"
 #include "gui/panels.h"
-#include "gui/run_actions.h"
 #include "gui/select_tools.h"
+#include "gui/view_actions.h"
 #include "render/layout.h"
 
 namespace talus {
@@ -98,7 +98,12 @@ void use_mouse(Gui& gui, const MapPane& pane, const ShownMap& shown) {
     if (grain && !ImGui::IsMouseDown(0)) tell_grain(gui, pane, place, *grain);
     const bool dragged = io.MouseDragMaxDistanceSqr[0] > 16.0f;
     const bool own = !pane.beside || model.run_beside() == nullptr;  // the inspector tells of the first run
-    if (ImGui::IsMouseReleased(0) && !dragged && !outlining && own) select_clicked(gui, place.x, place.y);
+    if (ImGui::IsMouseReleased(0) && !dragged && !outlining) {
+      if (own)
+        select_clicked(gui, place.x, place.y);
+      else
+        state.message = "Grains are selected in the first run only: click there.";
+    }
   }
   if (outlining) return;
   const bool panning =
@@ -106,9 +111,7 @@ void use_mouse(Gui& gui, const MapPane& pane, const ShownMap& shown) {
   if (panning && (io.MouseDelta.x != 0.0f || io.MouseDelta.y != 0.0f)) {
     const Vec2 before =
         in_first(shown.bed_place({io.MousePos.x - io.MouseDelta.x, io.MousePos.y - io.MouseDelta.y}));
-    state.selecting.follow = false;
-    state.camera.centre_x -= linked.x - before.x;
-    state.camera.centre_y -= linked.y - before.y;
+    move_picture(gui, before.x - linked.x, before.y - linked.y);
   }
 }
 

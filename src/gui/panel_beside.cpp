@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <fmt/core.h>
 
 #include "core/errors.h"
 #include "core/trigonometry.h"
@@ -97,6 +98,8 @@ void show_change_since_here(Gui& gui) {
   BesideState& beside = gui.model.state.beside;
   beside.shown = true;
   beside.minus = gui.model.frame().tilt;
+  gui.model.state.message =
+      fmt::format("The second view shows what has changed since {:.2f}°.", degrees(*beside.minus));
 }
 
 void show_run_beside(Gui& gui) {

@@ -2,7 +2,7 @@
 
 #include "core/trigonometry.h"
 #include "gui/panels.h"
-#include "gui/run_actions.h"
+#include "gui/view_actions.h"
 
 namespace talus {
 namespace {

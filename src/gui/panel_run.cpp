@@ -8,6 +8,7 @@
 #include "gui/icons.h"
 #include "gui/panels.h"
 #include "gui/run_actions.h"
+#include "gui/view_actions.h"
 
 namespace talus {
 namespace {
@@ -41,14 +42,14 @@ void draw_live(Gui& gui, LiveRun& live) {
       advance(gui, count);
   }
   if (named_button(gui, "run to", "Run to", "compute until the tilt is reached, then pause: g"))
-    live.run_to(radians(state.run_to_tilt));
+    run_to_tilt(gui);
   ImGui::SameLine();
   ImGui::SetNextItemWidth(5.0f * gui.em);
   named_number(gui, "run to angle", "", state.run_to_tilt, "%.2f°", "the tilt to run to");
   if (status.depositing) {  // the last of its row: where it goes nothing moves
     ImGui::SameLine();
     if (named_button(gui, "deposit", "Deposit", "compute until the bed rests and the tilt begins: b"))
-      live.finish_deposition();
+      deposit(gui);
   }
   ImGui::Separator();
   draw_status(gui.colours, status, gui.model.theta_c_known(), gui.model.theta_c());
@@ -97,14 +98,14 @@ void draw_landmarks(Gui& gui) {
     if (!first) same_line_if_fits(rich_width(*ImGui::GetFont(), ImGui::GetFontSize(), place.label) + gui.em);
     first = false;
     ImGui::BeginDisabled(!model.has(place.landmark));
-    if (named_button(gui, place.name, place.label, place.tip)) model.go_to(place.landmark);
+    if (named_button(gui, place.name, place.label, place.tip)) go_to_landmark(gui, place.landmark);
     ImGui::EndDisabled();
   }
 }
 
 void draw_replay(Gui& gui) {
   ViewModel& model = gui.model;
-  if (icon_button(gui, "first", Icon::first, "the first frame: home")) model.go_to(Landmark::first);
+  if (icon_button(gui, "first", Icon::first, "the first frame: home")) go_to_landmark(gui, Landmark::first);
   ImGui::SameLine();
   if (icon_button(gui, "back", Icon::back, "one frame back: left arrow; with shift 10")) advance(gui, -1);
   ImGui::SameLine();
@@ -114,7 +115,7 @@ void draw_replay(Gui& gui) {
   if (icon_button(gui, "forward", Icon::forward, "one frame forward: right arrow; with shift 10"))
     advance(gui, 1);
   ImGui::SameLine();
-  if (icon_button(gui, "last", Icon::last, "the last frame: end")) model.go_to(Landmark::last);
+  if (icon_button(gui, "last", Icon::last, "the last frame: end")) go_to_landmark(gui, Landmark::last);
   int frame = static_cast<int>(model.frame_index());
   ImGui::SetNextItemWidth(-1.0f);
   if (ImGui::SliderInt("##frame", &frame, 0, static_cast<int>(model.frame_count()) - 1,

@@ -8,7 +8,7 @@
 
 #include "gui/panels.h"
 #include "gui/plot_widget.h"
-#include "gui/run_actions.h"
+#include "gui/view_actions.h"
 #include "view/selection_table.h"
 
 namespace talus {

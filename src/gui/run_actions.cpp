@@ -6,34 +6,116 @@
 
 #include "core/errors.h"
 #include "core/trigonometry.h"
+#include "gui/view_actions.h"
 
 namespace talus {
 
+namespace {
+
+/// Why a run that has ended does nothing more.
+std::string ended_text(const ViewModel& model, const LiveStatus& status) {
+  return fmt::format("The run has ended, at {:.2f}°: r begins {} anew{}.", degrees(status.tilt),
+                     model.branch_line() ? "the branch" : "it",
+                     status.commands_given > 0 ? ", U goes back before the last command" : "");
+}
+
+/// Goes that many frames on or back; says so if there are none.
+void advance_frames(Gui& gui, int count) {
+  ViewModel& model = gui.model;
+  const auto last = static_cast<long>(model.frame_count()) - 1;
+  const auto from = static_cast<long>(model.frame_index());
+  const long to = std::clamp(from + count, 0L, std::max(last, 0L));
+  if (to == from) model.state.message = count < 0 ? "This is the first frame." : "This is the last frame.";
+  model.go_to(static_cast<std::size_t>(to));
+}
+
+}  // namespace
+
+double next_round_tilt(double tilt) { return 5.0 * (std::floor(tilt / 5.0 + 1e-6) + 1.0); }
+
 void toggle_playing(Gui& gui) {
   ViewModel& model = gui.model;
-  if (LiveRun* live = model.live())
-    live->status().running ? live->pause() : live->play();
-  else
-    model.play(!model.playing());
+  if (LiveRun* live = model.live()) {
+    const LiveStatus status = live->status();
+    if (status.done)
+      model.state.message = ended_text(model, status);
+    else
+      status.running ? live->pause() : live->play();
+    return;
+  }
+  if (model.frame_count() == 1) model.state.message = "The run has one frame only.";
+  model.play(!model.playing());
 }
 
 void advance(Gui& gui, int count) {
   ViewModel& model = gui.model;
-  if (LiveRun* live = model.live()) {
-    if (count > 0 && !model.looks_back()) return live->step(count);
-    const auto to = static_cast<long>(model.frame_index()) + count;
-    if (to >= static_cast<long>(model.frame_count())) return model.follow();
-    return model.go_to(static_cast<std::size_t>(std::max(to, 0L)));
+  LiveRun* live = model.live();
+  if (!live) {
+    model.play(false);
+    return advance_frames(gui, count);
   }
-  model.play(false);
-  const auto last = static_cast<long>(model.frame_count()) - 1;
-  model.go_to(static_cast<std::size_t>(
-      std::clamp(static_cast<long>(model.frame_index()) + count, 0L, std::max(last, 0L))));
+  if (count > 0 && !model.looks_back()) {
+    if (live->status().done)
+      model.state.message = ended_text(model, live->status());
+    else
+      live->step(count);
+    return;
+  }
+  if (model.frame_count() == 0) {
+    model.state.message = "No frame is recorded yet: the time line begins with the tilt.";
+    return;
+  }
+  if (static_cast<long>(model.frame_index()) + count >= static_cast<long>(model.frame_count()))
+    return model.follow();
+  advance_frames(gui, count);
+}
+
+void deposit(Gui& gui) {
+  ViewModel& model = gui.model;
+  LiveRun* live = model.live();
+  if (!live) return refuse_in_replay(gui, "No bed is deposited");
+  const LiveStatus status = live->status();
+  if (status.depositing) {
+    live->finish_deposition();
+    model.state.message = "Computing until the bed rests and the tilt begins.";
+  } else {
+    model.state.message = status.done ? ended_text(model, status)
+                                      : fmt::format(
+                                            "The bed is deposited, and at {:.2f}°: space goes on, r "
+                                            "begins anew.",
+                                            degrees(status.tilt));
+  }
+}
+
+void run_to_tilt(Gui& gui) {
+  ViewModel& model = gui.model;
+  LiveRun* live = model.live();
+  if (!live) return refuse_in_replay(gui, "Nothing is computed");
+  const LiveStatus status = live->status();
+  const double tilt = degrees(status.tilt), wanted = model.state.run_to_tilt;
+  if (status.done) {
+    model.state.message = ended_text(model, status);
+  } else if (tilt >= wanted - 1e-6) {
+    model.state.run_to_tilt = next_round_tilt(tilt);
+    model.state.message = fmt::format("The tilt is {:.2f}°, and so not below {:.2f}°: {:.2f}° is the next.",
+                                      tilt, wanted, model.state.run_to_tilt);
+  } else {
+    live->run_to(radians(wanted));
+    model.state.message = fmt::format("Computing until the tilt is {:.2f}°.", wanted);
+  }
+}
+
+void offer_tilt_ahead(ViewModel& model) {
+  if (!model.is_live() || ImGui::IsAnyItemActive()) return;
+  const LiveStatus status = model.live()->status();
+  const double ahead = model.state.run_to_tilt - degrees(status.tilt);
+  const bool passed = status.running ? ahead < 1e-6 : std::abs(ahead) < 1e-6;
+  if (passed) model.state.run_to_tilt = next_round_tilt(degrees(status.tilt));
 }
 
 void send(Gui& gui, const Command& command) {
   LiveRun* live = gui.model.live();
-  if (!live) return;
+  if (!live) return refuse_in_replay(gui, "No command is taken");
   gui.model.follow();  // a command is to the run as it is now
   try {
     live->apply(command);
@@ -46,7 +128,8 @@ void send(Gui& gui, const Command& command) {
 
 void reset(Gui& gui) {
   ViewModel& model = gui.model;
-  if (!model.is_live() || !model.may_discard()) return;
+  if (!model.is_live()) return refuse_in_replay(gui, "There is nothing to reset");
+  if (!model.may_discard()) return;
   try {
     model.restart(static_cast<std::uint64_t>(std::max(model.state.seed, 0)));
     model.state.message =
@@ -76,6 +159,7 @@ void save_state(Gui& gui) {
 
 void push_selected(Gui& gui) {
   const ViewState& state = gui.model.state;
+  if (!gui.model.is_live()) return refuse_in_replay(gui, "No grain is pushed");
   if (!state.selected) {
     gui.model.state.message = "Click the grain to push first.";
     return;
@@ -92,34 +176,6 @@ void drop_here(Gui& gui) {
   const double x = state.selected ? frame.x[*state.selected] : state.camera.centre_x;
   send(gui, {0, CommandKind::drop, static_cast<Index>(state.drop_count), x,
              state.drop_height * gui.model.mean_diameter()});
-}
-
-void zoom_about(Gui& gui, double factor, double x, double y) {
-  ViewCamera& camera = gui.model.state.camera;
-  const double zoom = std::clamp(camera.zoom * factor, 1.0, 400.0);
-  const double ratio = camera.zoom / zoom;
-  camera.centre_x = x + (camera.centre_x - x) * ratio;
-  camera.centre_y = y + (camera.centre_y - y) * ratio;
-  camera.zoom = zoom;
-}
-
-void show_whole_bed(Gui& gui) {
-  gui.model.state.selecting.follow = false;
-  gui.model.state.camera.zoom = 1.0;
-}
-
-void toggle_following(Gui& gui) {
-  ViewState& state = gui.model.state;
-  state.selecting.follow = !state.selecting.follow;
-  if (!state.selecting.follow) return;
-  if (!state.selected) {
-    state.selecting.follow = false;
-    state.message = "Click the grain to follow first.";
-    return;
-  }
-  constexpr double surroundings = 40.0;  // D
-  state.camera.zoom =
-      std::max(state.camera.zoom, gui.model.statics().length / (surroundings * gui.model.mean_diameter()));
 }
 
 }  // namespace talus

@@ -1,5 +1,6 @@
 #pragma once
-/// Actions that both buttons and keys carry out.
+/// Actions on a run that both buttons and keys carry out. None is silent: what cannot be done is told with
+/// the reason.
 
 #include "gui/widgets.h"
 
@@ -9,6 +10,14 @@ void toggle_playing(Gui& gui);
 /// Advances a run that is computed by that many steps, a replay by that many frames, also backwards: through
 /// the frames recorded so far of a run that is computed, after the last of which it is followed again.
 void advance(Gui& gui, int count);
+/// Computes until the bed rests and the tilt begins.
+void deposit(Gui& gui);
+/// Computes until the tilt that is offered.
+void run_to_tilt(Gui& gui);
+/// The next multiple of 5 deg above a tilt (deg), as one to run to.
+double next_round_tilt(double tilt);
+/// Offers a tilt to run to that is still to come, once the run has passed the one that was offered.
+void offer_tilt_ahead(ViewModel& model);
 /// Sends a command to the run; the reason of a refusal becomes the message.
 void send(Gui& gui, const Command& command);
 /// Begins the run of a scenario anew, with the seed given.
@@ -18,11 +27,5 @@ void reset(Gui& gui);
 void save_state(Gui& gui);
 void push_selected(Gui& gui);
 void drop_here(Gui& gui);
-/// Zooms by a factor about a place (m), which keeps its position in the picture.
-void zoom_about(Gui& gui, double factor, double x, double y);
-void show_whole_bed(Gui& gui);
-/// Keeps the selected grain in the middle of the picture, which shows no more than its surroundings, or ends
-/// that.
-void toggle_following(Gui& gui);
 
 }  // namespace talus

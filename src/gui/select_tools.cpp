@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/core.h>
 
 namespace talus {
 namespace {
@@ -36,12 +37,18 @@ void draw_outline(const std::vector<Vec2>& corners, ImU32 colour) {
 
 void toggle_grain(Gui& gui, double x, double y) {
   const auto grain = gui.model.grain_at(x, y);
-  if (grain) gui.model.select(toggled(gui.model.selected_grains(), *grain));
+  if (grain)
+    gui.model.select(toggled(gui.model.selected_grains(), *grain));
+  else
+    gui.model.state.message = "No grain is there.";
 }
 
 void select_contact(Gui& gui, double x, double y) {
   const auto contact = gui.model.contact_at(x, y, contact_reach * gui.model.mean_diameter());
-  if (contact) gui.model.select(*contact);
+  if (contact)
+    gui.model.select(*contact);
+  else
+    gui.model.state.message = "No contact that carries a force is there.";
 }
 
 /// What the outline was drawn for, once the mouse is let go.
@@ -58,7 +65,10 @@ void finish(Gui& gui, const BedPlace& bed_place) {
     const Point at = bed_place({static_cast<float>(corner.x), static_cast<float>(corner.y)});
     corners.push_back({at.x, at.y});
   }
-  gui.model.select_found(gui.model.grains_within(corners));
+  const std::vector<Index> found = gui.model.grains_within(corners);
+  gui.model.select_found(found);
+  gui.model.state.message =
+      fmt::format("{} grains lie within; {} are selected.", found.size(), gui.model.selected_grains().size());
 }
 
 }  // namespace
@@ -89,10 +99,10 @@ void select_clicked(Gui& gui, double x, double y) {
   const bool contacts = shows_contacts(model.state.map.layers);
   const auto contact =
       contacts ? model.contact_at(x, y, small_contact_reach * model.mean_diameter()) : std::nullopt;
-  if (contact)
-    model.select(*contact);
-  else
-    model.select(model.grain_at(x, y));
+  if (contact) return model.select(*contact);
+  const std::optional<Index> grain = model.grain_at(x, y);
+  if (!grain) model.state.message = "No grain is there.";
+  model.select(grain);
 }
 
 }  // namespace talus

@@ -188,6 +188,23 @@ std::array<double, 4> ViewModel::shown_region(double aspect) const {
   return {part.x_min, part.x_max, part.y_min, part.y_max};
 }
 
+bool ViewModel::look(const ViewCamera& camera) {
+  const MapExtent before = data_->part(state, data_->aspect);
+  state.camera = clamped(camera, data_->bed, mean_diameter());
+  const MapExtent now = data_->part(state, data_->aspect);
+  state.camera = centred(state.camera, now);
+  const double least = 1e-6 * mean_diameter();
+  return std::abs(now.x_min - before.x_min) > least || std::abs(now.x_max - before.x_max) > least ||
+         std::abs(now.y_min - before.y_min) > least || std::abs(now.y_max - before.y_max) > least;
+}
+
+bool ViewModel::zoom(double factor, double x, double y) {
+  const ViewCamera before = state.camera;
+  const double zoom = clamped({x, y, before.zoom * factor}, data_->bed, mean_diameter()).zoom;
+  const double ratio = before.zoom / zoom;
+  return look({x + (before.centre_x - x) * ratio, y + (before.centre_y - y) * ratio, zoom});
+}
+
 std::optional<Index> ViewModel::grain_at(double x, double y) const {
   return find_grain({*data_->frame, data_->statics()}, x, y);
 }

@@ -130,6 +130,11 @@ class ViewModel {
   double bed_aspect() const;
   /// The part of the bed that map(aspect) shows, m: x_min, x_max, y_min, y_max.
   std::array<double, 4> shown_region(double aspect) const;
+  /// Moves the camera there, but not beyond the bed nor nearer than a few grains. False if the same part of
+  /// the bed is shown as before.
+  bool look(const ViewCamera& camera);
+  /// Zooms by a factor about a place (m), which keeps its position in the picture; false as look.
+  bool zoom(double factor, double x, double y);
   /// The grain whose disc holds the place (m, frame of the bed), or is nearest to it within a D.
   std::optional<Index> grain_at(double x, double y) const;
 
