@@ -37,10 +37,11 @@ std::size_t least_worn(const std::vector<Index>& worn) {
 }  // namespace
 
 std::vector<Colour> cluster_palette() {
-  // Of Okabe and Ito (2008) and of Tol's "muted" scheme, those that follow each other far apart; yellow is
-  // left out, as it is too light.
-  return {{213, 94, 0},   {0, 114, 178},   {68, 170, 153}, {170, 68, 153}, {230, 159, 0},   {51, 34, 136},
-          {153, 153, 51}, {136, 204, 238}, {136, 34, 85},  {17, 119, 51},  {204, 102, 119}, {221, 204, 119}};
+  // Of Okabe and Ito (2008) and of Tol's "muted" scheme, those that follow each other far apart. Yellow is
+  // left out, as it is too light; a violet and a brown stand for indigo and wine, on which the black rim of a
+  // cluster that spans could not be seen.
+  return {{213, 94, 0},   {0, 114, 178},   {68, 170, 153}, {170, 68, 153}, {230, 159, 0},   {115, 100, 215},
+          {153, 153, 51}, {136, 204, 238}, {150, 85, 70},  {17, 119, 51},  {204, 102, 119}, {221, 204, 119}};
 }
 
 std::vector<ClusterColour> ClusterColours::next(const Clusters& clusters) {

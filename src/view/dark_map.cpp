@@ -35,6 +35,15 @@ bool keeps_grains(const FrameView& map) {
       map.legends, [](const Legend& legend) { return std::ranges::any_of(legend.bars, passes_white); });
 }
 
+/// The rim of a grain whose fill is that on a dark ground. A black one marks a cluster that spans: it stays
+/// if its colour is so light that it would not be seen mirrored.
+Colour rim_on_dark(const Colour& fill, const Colour& rim) {
+  constexpr double light_luma = 110.0;
+  if (luma(fill) < dark_luma) return light_rim;
+  const bool marks = rim == black && !is_gray(fill);
+  return marks && luma(fill) > light_luma ? black : mirrored(rim);
+}
+
 void mirror(Disc& disc, bool keep) {
   if (disc.hatched > 0.5f) {
     disc.fill = floor_fill;
@@ -43,7 +52,7 @@ void mirror(Disc& disc, bool keep) {
   }
   if (keep) return;
   disc.fill = mirrored(disc.fill);
-  disc.rim = luma(disc.fill) < dark_luma ? light_rim : mirrored(disc.rim);
+  disc.rim = rim_on_dark(disc.fill, disc.rim);
 }
 
 }  // namespace
@@ -59,8 +68,8 @@ FrameView on_dark_ground(FrameView map) {
     for (Swatch& swatch : legend.swatches) {
       if (keep) continue;
       swatch.fill = mirrored(swatch.fill);
-      swatch.rim = swatch.kind == Swatch::Kind::disc && luma(swatch.fill) < dark_luma ? light_rim
-                                                                                      : mirrored(swatch.rim);
+      swatch.rim =
+          swatch.kind == Swatch::Kind::disc ? rim_on_dark(swatch.fill, swatch.rim) : mirrored(swatch.rim);
     }
   }
   map.transparent = true;

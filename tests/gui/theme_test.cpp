@@ -10,8 +10,11 @@
 #include <sstream>
 
 #include "gui/offscreen_fixture.h"
+#include "pictures/cluster_colours.h"
 #include "render/png.h"
+#include "render/renderer.h"
 #include "support/places.h"
+#include "view/dark_map.h"
 
 namespace talus {
 namespace {
@@ -28,6 +31,46 @@ TEST(Contrast, of_all_text_is_enough) {
   for (const Theme theme : themes())
     for (const TextPair& pair : text_pairs(palette_of(theme)))
       EXPECT_GE(contrast(pair.text, pair.ground), 4.5) << theme_name(theme) << ": " << pair.name;
+}
+
+/// The largest contrast of what is drawn between the middle of a disc and its edge to its fill.
+double rim_contrast(Renderer& renderer, const FrameView& view, const Colour& fill, const Colour& ground) {
+  const Image image = renderer.draw(view, 200);
+  const int middle = 200 * (image.height / 2) + 100;
+  double largest = 1.0;
+  for (int x = 0; 2 * x < 200; ++x) {
+    const auto* pixel = &image.pixels[static_cast<std::size_t>(image.channels * (middle - x))];
+    const double share = image.channels == 4 ? pixel[3] / 255.0 : 1.0;
+    const auto over = [&](std::uint8_t channel, std::uint8_t below) {
+      return static_cast<std::uint8_t>(share * channel + (1.0 - share) * below);
+    };
+    if (share < 0.5) break;
+    largest = std::max(largest, contrast({over(pixel[0], ground.red), over(pixel[1], ground.green),
+                                          over(pixel[2], ground.blue)},
+                                         fill));
+  }
+  return largest;
+}
+
+TEST(Contrast, of_the_rims_of_spanning_clusters_is_enough_on_every_colour) {
+  Renderer renderer(make_context(ContextKind::osmesa));
+  std::vector<Colour> fills = cluster_palette();
+  fills.push_back(gray(0.4));  // of clusters without a colour
+  for (const Theme theme : themes())
+    for (const Colour& fill : fills)
+      for (const double radius : {8.0, 30.0}) {
+        FrameView view;
+        view.furniture = false;
+        view.coloured = view.transparent = true;
+        view.x_max = 200.0;
+        view.y_max = 100.0;
+        view.discs.push_back({100.5f, 49.5f, static_cast<float>(radius), fill, black, 0.0f});
+        if (theme == Theme::dark) view = on_dark_ground(view);
+        const Colour shown = view.discs[0].fill;
+        EXPECT_GE(rim_contrast(renderer, view, shown, palette_of(theme).ground), 3.0)
+            << theme_name(theme) << ", " << int{fill.red} << " " << int{fill.green} << " " << int{fill.blue}
+            << ", radius " << radius << " px";
+      }
 }
 
 TEST(Print, fills_nothing_with_gray) {
