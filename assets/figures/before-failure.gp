@@ -1,18 +1,21 @@
 # A panel for each quantity, up to the failure of each run, which is at the right.
-set xlabel "{/:Italic θ_c} − {/:Italic θ} (deg)" offset 0, 0.3
-set xrange [1.04 * theta_max : 0]
 abscissa = 'column("angle_left")'
-panel_top = 0.6
-panel_bottom = 0.95
-panel_left = 1.15
-set tics font ",7"
-set multiplot
+symbols = 0
+eval grid(panels, 3, 2, width > 12 ? 4.2 : 3.7)
+eval key_of_curves
+eval open_page
+panel_top = 0.62
+title_room = 0
 do for [k = 1:panels] {
-  eval panel((k - 1) / 3 + 1, rows, (k - 1) % 3 + 1, 3)
+  eval place(k)
+  x_from = 1.04 * theta_max
+  x_to = 0
+  y_top = exists(sprintf("top_%d", k)) ? value(sprintf("top_%d", k)) : NaN
+  x_title = "{/:Italic θ_c} − {/:Italic θ} (deg)"
+  heading = letter(k) . " " . value(sprintf("title_%d", k))
+  eval axes
   ordinate = value(sprintf("quantity_%d", k))
-  heading = sprintf("(%s) ", "abcdefghijklmnopqrstuvwxyz"[k:k]) . value(sprintf("title_%d", k))
-  set label 1 heading at graph 0, graph 1.09 left font fitted(heading, 6, width / 3 - panel_left)
   plot @curves
-  unset key
+  eval seen
 }
-unset multiplot
+eval close_page

@@ -1,63 +1,65 @@
 # Above, the angle at rest over each of the angles it is compared with; below, one run over time, if there is a flow.
-upper = flow ? 1 : 0.55 / 0.3
-set multiplot
-titles = "'{/:Italic θ_c}  (deg)' '{/:Italic θ_d} ({/:Italic l_c} max)  (deg)' '{/:Italic θ_d} (percolation)  (deg)' '{/:Italic θ_d} (dilation)  (deg)'"
+grid_below = flow ? 4.6 : 0
+eval grid(4, 4, 2, 4.4)
+array filled[8] = [7, 5, 9, 13, 11, 15, 7, 5]
+do for [g = 1:groups] { entry = add_entry(sprintf("linetype %d dashtype solid linewidth 1", g), sprintf("linetype %d pointtype %d", g, filled[int((g - 1) % 8) + 1]), "", label(g)) }
+entry = add_line("linestyle 103", "{/:Italic θ_r} = abscissa")
+if (flow) {
+  entry = add_line("linecolor rgb \"#000000\" dashtype solid linewidth 2", "{/:Italic θ} (e)")
+  entry = add_line("linecolor rgb \"#1f4e79\" dashtype solid linewidth 1", "surface velocity (e)")
+}
+eval open_page
+array titles[4] = ["{/:Italic θ_c} (deg)", "{/:Italic θ_d} ({/:Italic l_c} max) (deg)", "{/:Italic θ_d} (percolation) (deg)", "{/:Italic θ_d} (dilation) (deg)"]
 last = word(factors, words(factors))
 first_of = sprintf("theta_c lc_jump_%s percolation_%s dilation_volume", word(factors, 1), word(factors, 1))
 second_of = sprintf("theta_c lc_jump_%s percolation_%s dilation_centre", last, last)
-array filled[8] = [7, 5, 9, 13, 11, 15, 7, 5]
 array open[8] = [6, 4, 8, 12, 10, 14, 6, 4]
-
-set xrange [0:theta_end]
-set yrange [lowest:highest]
-set xtics 5
-set mxtics 5
-set ytics 2
-set mytics 2
-set tmargin at screen 1 - 0.1 * upper
-set bmargin at screen 1 - 0.44 * upper
 do for [panel = 1:4] {
-  set lmargin at screen 0.065 + (panel - 1) * 0.235
-  set rmargin at screen 0.065 + (panel - 1) * 0.235 + 0.215
-  set xlabel word(titles, panel) offset 0, 0.4
-  if (panel == 1) {
-    set ylabel "{/:Italic θ_r}  (deg)" offset 1.2, 0
-    set key at screen 0.5, screen 0.99 center top horizontal Left reverse maxrows 2
-  } else {
-    unset ylabel
-    unset key
-    set format y ""
-  }
-  set label 1 sprintf("(%s)", "abcd"[panel:panel]) at graph 0.05, graph 0.93 left
+  eval place(panel)
+  x_from = 0
+  x_to = theta_end
+  y_from = lowest
+  y_to = highest
+  x_title = titles[panel]
+  if (first_in_row(panel)) { y_title = "{/:Italic θ_r} (deg)" } else { y_bare = 1 }
+  eval axes
+  set label 1 letter(panel) at graph 0.05, graph 0.93 left
   one = word(first_of, panel)
   two = word(second_of, panel)
   low(name) = panel == 1 ? column(name) : column(name . "_low")
   high(name) = panel == 1 ? column(name) : column(name . "_high")
-  plot sample [lowest:highest] x with lines linestyle 103 notitle, \
+  plot sample [lowest:highest] x with lines linestyle 103, \
     for [g = 1:groups] data(g) using (column(one)):"theta_r":(low(one)):(high(one)) \
-      with xerrorbars linetype g dashtype solid linewidth 1 pointtype filled[int((g - 1) % 8) + 1] pointsize 0.4 title label(g), \
+      with xerrorbars linetype g dashtype solid linewidth 1 pointtype filled[int((g - 1) % 8) + 1] pointsize 0.4, \
     for [g = 1:groups] data(g) using (column(two)):"theta_r":(low(two)):(high(two)) \
-      with xerrorbars linetype g dashtype solid linewidth 1 pointtype open[int((g - 1) % 8) + 1] pointsize 0.55 notitle
+      with xerrorbars linetype g dashtype solid linewidth 1 pointtype open[int((g - 1) % 8) + 1] pointsize 0.55
+  eval seen
 }
-
 if (flow) {
-  unset key
-  set format y "%g"
-  set lmargin at screen 0.065
-  set rmargin at screen 0.93
-  set tmargin at screen 0.44
-  set bmargin at screen 0.1
-  set xrange [*:*] noextend
-  set xtics autofreq
+  # Two quantities over one axis: the velocity is drawn on the scale of the angle, its numbers at the right.
+  trace = figure . "-trace.csv"
+  set xrange [*:*]
   set yrange [*:*]
-  set ytics nomirror autofreq textcolor rgb "#000000"
-  set y2range [0:*]
-  set y2tics textcolor rgb "#1f4e79"
-  set xlabel "time since failure (s)"
-  set ylabel "{/:Italic θ}  (deg)"
-  set y2label "surface velocity / ({/:Italic gD})^{1/2}" offset -1, 0 textcolor rgb "#1f4e79"
-  set label 1 "(e)" at graph 0.985, graph 0.93 right
-  plot figure . "-trace.csv" using "time":"velocity" axes x1y2 with lines linecolor rgb "#1f4e79" dashtype solid linewidth 1 notitle, \
-    figure . "-trace.csv" using "time":"theta" axes x1y1 with lines linecolor rgb "#000000" dashtype solid linewidth 2 notitle
+  stats trace using "velocity" name "v" nooutput
+  stats trace using "theta" name "angle" nooutput
+  v_step = nice(larger(v_max, 1e-12) / 4)
+  v_top = v_step * ceil(v_max / v_step + 1e-6)
+  v_top = v_top > 0 ? v_top : 1
+  v_power = common_power(0, v_top)
+  v_room = text_cm(number(v_top, v_step, v_power), tick_points) + 0.75
+  eval place_at(5, title_room + tick_room + number_gap, width - v_room, 1.0, grid_below - 0.3)
+  y_from = low_end(angle_min, angle_max)
+  y_to = high_end(angle_min, angle_max)
+  x_title = "time since failure (s)"
+  y_title = "{/:Italic θ} (deg)"
+  eval axes
+  set ytics nomirror
+  eval "set y2range [0:v_top]; set y2tics (" . tick_list(0, last_tick(v_top, v_step), v_step, v_power) . ") textcolor rgb '#1f4e79'"
+  v_title = with_power("surface velocity / ({/:Italic gD})^{1/2}", v_power)
+  set label 2 v_title at screen (width - 0.25) / width, graph 0.5 center rotate by 90 textcolor rgb "#1f4e79" font fitted(v_title, title_points, panel_height + 0.8)
+  set label 1 letter(5) at graph 0.985, graph 0.92 right
+  plot trace using "time":"velocity" axes x1y2 with lines linecolor rgb "#1f4e79" dashtype solid linewidth 1, \
+    trace using "time":"theta" axes x1y1 with lines linecolor rgb "#000000" dashtype solid linewidth 2
+  eval seen
 }
-unset multiplot
+eval close_page

@@ -1,45 +1,39 @@
-# Widths in ten classes of half the mean force: gray up to the mean, black above it. Lengths of the legend are in cm.
+# Widths in ten classes of half the mean force: gray up to the mean, black above it; the widest is no wider than half a grain,
+# so that chains stay apart. Lengths are in cm.
 class(force) = (c = ceil(2 * force), c < 1 ? 1 : c > 10 ? 10 : c)
-scale = 0.45 * 200 / (bed_length < 40 ? 40 : bed_length) * width / 17.8  # of short beds as far as the legend has room
+map_cm = smaller(map_height * width, 1.2 * width)
+cm = map_cm / map_height / (bed_length + 2 * margin)  # of 1 D
+widest_line = smaller(0.36 * cm, 0.2) / 0.0176
 do for [c = 1:10] {
-  eval sprintf('set style arrow %d nohead linecolor rgb "%s" linewidth %g', c, c <= 2 ? "#999999" : "#000000", scale * c)
+  eval sprintf('set style arrow %d nohead linecolor rgb "%s" linewidth %g', c, c <= 2 ? "#999999" : "#000000", 0.1 * c * widest_line)
 }
-set lmargin at screen 0
-set rmargin at screen 1
-set tmargin at screen 1
-set bmargin at screen 1 - map_height * width / height
+said_angle = "{/:Italic θ} = " . theta . "°"
+bed_cm = cm * bed_length
+left = 0.5 * (width - bed_cm)
+gravity_at = bar_end(left, bed_cm) + 0.7
+said_end = gravity_at + 0.6 + text_cm(said_angle, 8)
+force_from = width - 0.25 - 6 * 1.15
+two_lines = said_end + 1.4 > force_from
+legend_cm = two_lines ? 2.1 : 1.3
+height = map_cm + legend_cm
+eval open_page
 unset border
 unset tics
-unset key
-cm = width / (bed_length + 2 * margin)  # of 1 D
-
-# Edges of the bed.
-do for [side = 0:1] {
-  x = side * bed_length
-  if (periodic) { set arrow from x, bed_bottom to x, bed_top nohead linestyle 102 } else { set arrow from x, bed_bottom to x, bed_top nohead linewidth 2 }
-}
-set arrow from 0, bed_bottom to bed_length, bed_bottom nohead linewidth 1
-
-# Scale bar, shorter in a short bed, gravity (0.8 cm long), widths.
-bar_diameters = scale_bar(bed_length)
-bar = bar_diameters * cm
-x0 = margin * cm
-y0 = 0.65
-set arrow from screen x0 / width, screen y0 / height to screen (x0 + bar) / width, screen y0 / height heads size screen 0.005, 90 linewidth 1
-set label sprintf("%d {/:Italic D}", bar_diameters) at screen (x0 + bar + 0.15) / width, screen y0 / height left
-xg = x0 + bar + 2.2
-set label "{/:Bold g}" at screen (xg - 0.35) / width, screen y0 / height right
-set arrow from screen (xg - 0.4 * sin(tilt)) / width, screen (y0 + 0.4 * cos(tilt)) / height \
-  to screen (xg + 0.4 * sin(tilt)) / width, screen (y0 - 0.4 * cos(tilt)) / height head filled size screen 0.012, 18 linewidth 1
-set label "{/:Italic θ} = " . theta . "°" at screen (xg + 0.6) / width, screen y0 / height left
-set label "{/:Italic f} / ⟨{/:Italic f} ⟩" at screen (width - x0 - 7.2) / width, screen y0 / height right
+eval place_at(0, left - margin * cm, left + bed_cm + margin * cm, legend_cm, height)
+eval bed_edges
+y0 = two_lines ? legend_cm - 0.5 : 0.65
+eval gravity(gravity_at, y0, tilt)
+set arrow 2 from screen left / width, screen y0 / height to screen (left + bar_cm(bed_cm)) / width, screen y0 / height heads size screen 0.09 / width, 90 linewidth 1
+set label 1 sprintf(bar_text, scale_bar(bed_length)) at screen (left + bar_cm(bed_cm) + 0.15) / width, screen y0 / height left
+set label 2 said_angle at screen (gravity_at + 0.6) / width, screen y0 / height left
+set label 4 "{/:Italic f} / ⟨{/:Italic f} ⟩" at screen (force_from - 0.15) / width, screen 0.65 / height right
 do for [k = 1:6] {
   c = word("1 2 4 6 8 10", k) + 0
-  x = width - x0 - 7.0 + 1.2 * (k - 1)
-  set arrow from screen x / width, screen (y0 + 0.15) / height to screen (x + 0.8) / width, screen (y0 + 0.15) / height arrowstyle c
-  set label sprintf("%s%g", c == 10 ? ">" : "≤ ", c == 10 ? 4.5 : 0.5 * c) at screen (x + 0.4) / width, screen (y0 - 0.25) / height center
+  x = force_from + 1.15 * (k - 1)
+  set arrow 10 + k from screen (x + 0.1) / width, screen 0.8 / height to screen (x + 0.9) / width, screen 0.8 / height arrowstyle c
+  set label 10 + k sprintf("%s%g", c == 10 ? "> " : "≤ ", c == 10 ? 4.5 : 0.5 * c) at screen (x + 0.5) / width, screen 0.35 / height center font ",7"
 }
-
 plot [-margin:bed_length + margin] [bed_bottom - margin:bed_top] \
   figure . "-surface.csv" using "x":"y" with lines linecolor rgb "#000000" linewidth 0.75, \
   figure . "-contacts.csv" using "x1":"y1":(column("x2") - column("x1")):(column("y2") - column("y1")):(class(column("force"))) with vectors arrowstyle variable
+eval close_page

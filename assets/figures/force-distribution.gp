@@ -1,24 +1,23 @@
 data = figure . ".csv"
 states = "start repose"
 positive(name) = column(name) > 0 ? column(name) : NaN
-set xlabel "{/:Italic f} / ⟨{/:Italic f} ⟩"
-set ylabel "{/:Italic P}({/:Italic f} / ⟨{/:Italic f} ⟩)"
-set logscale y
-set format y "10^{%T}"
-set key inside bottom left vertical Left reverse
-set xrange [0:10]
-set multiplot
+eval grid(2, 2, 1, width > 12 ? 7 : 5.5)
+do for [s = 1:2] { entry = add_curve(sprintf("linetype %d", s), "{/:Italic θ} = " . value("theta_" . word(states, s)) . "°") }
+eval open_page
 do for [panel = 1:2] {
-  set lmargin at screen 0.5 * (panel - 1) + 1.6 / width
-  set rmargin at screen 0.5 * panel - 0.3 / width
-  set tmargin at screen 1 - 0.25 / height
-  set bmargin at screen 1.2 / height
-  set label 1 sprintf("(%s)", "ab"[panel:panel]) at graph 0.92, graph 0.93
-  plot [] [1e-4:10] \
-    for [s = 1:2] data using (sqrt(column("force_from") * column("force_to"))):(positive("density_" . word(states, s))):(column("density_" . word(states, s) . "_error")) with yerrorlines linetype s notitle, \
-    for [s = 1:2] data using (sqrt(column("force_from") * column("force_to"))):(positive("density_" . word(states, s))) with linespoints linetype s title "{/:Italic θ} = " . value("theta_" . word(states, s)) . "°"
-  set logscale x
-  set format x "10^{%T}"
-  set xrange [1e-3:20]
+  eval place(panel)
+  x_from = panel == 1 ? 0 : 1e-3
+  x_to = panel == 1 ? 10 : 20
+  x_log = panel == 2
+  y_from = 1e-4
+  y_to = 10
+  y_log = 1
+  x_title = "{/:Italic f} / ⟨{/:Italic f} ⟩"
+  y_title = "{/:Italic P}({/:Italic f} / ⟨{/:Italic f} ⟩)"
+  eval axes
+  set label 1 letter(panel) at graph 0.96, graph 0.93 right
+  plot for [s = 1:2] data using (sqrt(column("force_from") * column("force_to"))):(positive("density_" . word(states, s))):(column("density_" . word(states, s) . "_error")) with yerrorlines linetype s, \
+    for [s = 1:2] data using (sqrt(column("force_from") * column("force_to"))):(positive("density_" . word(states, s))) with linespoints linetype s
+  eval seen
 }
-unset multiplot
+eval close_page

@@ -1,18 +1,21 @@
 # A panel for each quantity, over tilt.
-set xlabel "{/:Italic θ} (deg)" offset 0, 0.3
-set xrange [0 : 1.04 * theta_max]
 abscissa = 'column("theta")'
-panel_top = 0.6
-panel_bottom = 0.95
-panel_left = 1.15
-set tics font ",7"
-set multiplot
+symbols = 0
+eval grid(panels, 3, 2, width > 12 ? 4.2 : 3.7)
+eval key_of_curves
+eval open_page
+panel_top = 0.62
+title_room = 0
 do for [k = 1:panels] {
-  eval panel((k - 1) / 3 + 1, rows, (k - 1) % 3 + 1, 3)
+  eval place(k)
+  x_from = 0
+  x_to = 1.04 * theta_max
+  y_top = exists(sprintf("top_%d", k)) ? value(sprintf("top_%d", k)) : NaN
+  x_title = "{/:Italic θ} (deg)"
+  heading = letter(k) . " " . value(sprintf("title_%d", k))
+  eval axes
   ordinate = value(sprintf("quantity_%d", k))
-  heading = sprintf("(%s) ", "abcdefghijklmnopqrstuvwxyz"[k:k]) . value(sprintf("title_%d", k))
-  set label 1 heading at graph 0, graph 1.09 left font fitted(heading, 6, width / 3 - panel_left)
   plot @curves
-  unset key
+  eval seen
 }
-unset multiplot
+eval close_page

@@ -15,6 +15,9 @@ namespace {
 
 using json::quoted;
 
+/// What the scripts of all figures share, in the order in which one builds on the other.
+constexpr std::string_view common_scripts[] = {"style", "text", "axes", "key", "maps"};
+
 std::string list_of(const std::vector<std::string>& values, int depth) {
   const std::string margin(2 * static_cast<std::size_t>(depth), ' ');
   std::string text = "[";
@@ -91,8 +94,8 @@ std::string gnuplot_text(const Figure& figure, double width) {
       "cm\nheight = {3}\n",
       figure.title, figure.name, short_text(width), short_text(width * figure.height_over_width));
   for (const auto& [name, value] : figure.variables) text += fmt::format("{} = {}\n", name, value);
-  return fmt::format("{}\n{}\n{}\nunset output\npass = pass + 1\nif (pass <= 3) reread\n", text,
-                     figure_script("style"),
+  for (const std::string_view part : common_scripts) text += fmt::format("\n{}", figure_script(part));
+  return fmt::format("{}\n{}\nunset output\npass = pass + 1\nif (pass <= 3) reread\n", text,
                      figure_script(figure.script.empty() ? figure.name : figure.script));
 }
 

@@ -94,8 +94,8 @@ Figure plot_figure(const Plot& plot, const PlotLook& look, const PlotMarks& mark
   set("plotted", fmt::format("{}", curves));
   set("behinds", fmt::format("{}", behinds));
   set("behind_title", gnuplot_quoted(behind));
-  set("x_title", gnuplot_string(plot.x_title));
-  set("y_title", gnuplot_string(plot.title));
+  set("x_title_of_plot", gnuplot_string(plot.x_title));
+  set("y_title_of_plot", gnuplot_string(plot.title));
   set("note", gnuplot_string(plot.note));
   set("logarithmic", look.log_y.value_or(plot.log_y) ? "1" : "0");
   set("falling", plot.falling_x ? "1" : "0");

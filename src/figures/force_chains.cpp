@@ -125,7 +125,6 @@ std::optional<Figure> critical_contacts_figure(std::span<const RunGroup> groups)
   figure.name = "critical-contacts";
   figure.title = "Contacts with fully mobilised friction";
   for (const RunGroup& group : groups) add_group_curves(figure, group, all_runs(group), critical_columns());
-  set_more_keys(figure, 0);
   figure.wide = true;
   const auto mapped = first_failed_group(groups);
   const std::string letters = mapped ? "bcd" : "abc";

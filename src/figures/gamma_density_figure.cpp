@@ -83,7 +83,6 @@ std::optional<Figure> gamma_density_figure(std::span<const RunGroup> groups) {
     if (is_shown(figure, short_text(angle))) shown.push_back(short_text(angle));
   set_variable(figure, "angles", gnuplot_string(joined(shown, " ")));
   figure.height_over_width = 0.7 * static_cast<double>(figure.groups);
-  set_key(figure, shown.size(), 8);
   return figure;
 }
 

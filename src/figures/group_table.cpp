@@ -13,7 +13,6 @@ namespace talus {
 namespace {
 
 constexpr std::size_t symbols_of_a_curve = 16;
-constexpr std::size_t keys_of_spread = 3;  ///< two bands, and the runs
 
 template <typename Condition>
 RunChoice choose(const RunGroup& group, const Condition& condition) {
@@ -30,14 +29,6 @@ double largest_tilt(const Figure& figure) {
     if (const Column& first = table.columns.front(); first.name == "theta" || first.name == "angle_left")
       for (const double tilt : first.values) largest = std::max(largest, tilt);
   return largest;
-}
-
-/// Letters of the longest label of a group, at least those of other entries of keys.
-std::size_t longest_label(const Figure& figure) {
-  std::size_t longest = 20;
-  for (const auto& [name, value] : figure.variables)
-    if (name.starts_with("label_")) longest = std::max(longest, value.size());
-  return longest;
 }
 
 }  // namespace
@@ -133,7 +124,6 @@ void add_group_table(Figure& figure, const RunGroup& group, const RunChoice& run
   set_variable(figure, "every_" + g,
                static_cast<double>(std::max<std::size_t>(1, rows / symbols_of_a_curve)));
   set_variable(figure, "theta_max", largest_tilt(figure));
-  set_key(figure, figure.groups + 1, longest_label(figure));
 }
 
 void add_group_curves(Figure& figure, const RunGroup& group, const RunChoice& runs,
@@ -148,19 +138,6 @@ void add_group_curves(Figure& figure, const RunGroup& group, const RunChoice& ru
     set_variable(figure, fmt::format("runs_{}", figure.groups),
                  gnuplot_string(file_of(figure, figure.tables.back())));
   }
-  set_more_keys(figure, 1);
-}
-
-void set_key(Figure& figure, std::size_t entries, std::size_t longest) {
-  set_variable(figure, "key_entries", static_cast<double>(entries));
-  set_variable(figure, "key_longest", static_cast<double>(longest));
-}
-
-void set_more_keys(Figure& figure, std::size_t more) {
-  const bool spread =
-      std::ranges::find(figure.variables, "spread", &std::pair<std::string, std::string>::first) !=
-      figure.variables.end();
-  set_key(figure, figure.groups + more + (spread ? keys_of_spread : 0), longest_label(figure));
 }
 
 }  // namespace talus

@@ -54,11 +54,6 @@ void add_group_table(Figure& figure, const RunGroup& group, const RunChoice& run
 void add_group_curves(Figure& figure, const RunGroup& group, const RunChoice& runs,
                       std::span<const FrameColumn> columns, Abscissa abscissa = Abscissa::tilt);
 
-/// The key above the panels (style.gp) has the labels of the groups, what `spread` adds, and `more` short
-/// entries; or, in place of these, `entries` of up to `longest` letters.
-void set_more_keys(Figure& figure, std::size_t more);
-void set_key(Figure& figure, std::size_t entries, std::size_t longest);
-
 /// Sets a variable of the script, or replaces it.
 void set_variable(Figure& figure, const std::string& name, const std::string& value);
 void set_variable(Figure& figure, const std::string& name, double value);

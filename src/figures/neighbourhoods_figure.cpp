@@ -13,6 +13,7 @@
 #include "core/trigonometry.h"
 #include "figures/failed_group.h"
 #include "figures/run_means.h"
+#include "pictures/maps.h"
 #include "session/analysis_input.h"
 #include "session/analysis_parameters.h"
 
@@ -80,13 +81,15 @@ std::string word_list(std::span<const double> numbers) {
 
 std::string caption_of(const FailedGroup& failed, const Frame& frame, Index grain) {
   return fmt::format(
-      "Left: grain {} of {} at theta = {} deg, outlined, and the grains about it in the gray of their gamma. "
-      "A "
-      "neighbourhood of diameter l has all grains whose centres lie within the circle: thin circles every 2 "
-      "D, thick ones at l_c. Right: stress ratio gamma_l of the neighbourhood over l; l_c is the smallest l, "
+      "(a) Grain {} of {} at theta = {} deg, outlined, and the grains about it in the gray of their gamma, "
+      "white "
+      "below {} and black from 2 Gamma_c on. A neighbourhood of diameter l has all grains whose centres lie "
+      "within the circle: thin circles every 2 "
+      "D, thick ones at l_c. (b) Stress ratio gamma_l of the neighbourhood over l; l_c is the smallest l, "
       "from that of gamma on, at which it is not above the threshold. Of the grains in the middle half of "
       "the bed that are overloaded at each threshold, it is the one whose l_c are nearest to their means. {}",
-      grain, first_run_text(failed), angle_text(frame.tilt), reading_caption(failed.first()));
+      grain, first_run_text(failed), angle_text(frame.tilt), rounded_text(white_below, 2),
+      reading_caption(failed.first()));
 }
 
 }  // namespace
@@ -153,6 +156,8 @@ std::optional<Figure> neighbourhoods_figure(std::span<const RunGroup> groups) {
   figure.tables = {curve_table(neighbourhood_curve(bed, grain, shown * diameter), diameter),
                    grains_around(bed, grain, (0.5 * shown + 0.5) * diameter),
                    length_table(run.analysis, lengths)};
+  set_variable(figure, "gamma_c", run.analysis.gamma_c);
+  set_variable(figure, "white_below", white_below);
   set_variable(figure, "shown", shown);
   set_variable(figure, "grain_radius", statics.radius[grain] / diameter);
   set_variable(figure, "factors", word_list(all_of(&RunThreshold::factor, run.analysis)));

@@ -99,14 +99,14 @@ std::optional<Figure> length_figure(std::span<const RunGroup> groups) {
   figure.wide = true;
   figure.height_over_width = 0.7;
   figure.caption =
-      "Mean (a) and largest (b) coarse-graining length l_c, a diameter, of the overloaded grains over the "
-      "tilt "
-      "theta; a column for each threshold. Dashed lines: the cut of each bed at which the search for l_c "
-      "ends.";
+      "Coarse-graining length l_c, a diameter, of the overloaded grains over the tilt theta, a panel for "
+      "each "
+      "threshold: first the mean, then the largest. Dashed lines: the cut of each bed at which the search "
+      "for "
+      "l_c ends.";
   figure.caption.append(paper_text).append(" ").append(means_caption);
   add_periodic_groups(figure, groups, {{"mean", &FrameThreshold::lc_mean}, {"max", &FrameThreshold::lc_max}});
   if (figure.tables.empty()) return std::nullopt;
-  set_more_keys(figure, 2);
   const std::array<PaperQuantity, 3> largest = {lc_max_at_0, lc_max_before_jump, lc_max_after_jump};
   double top = 0.0;  // of all that is shown of the largest lengths
   for (const PaperQuantity quantity : largest) top = std::max(top, paper_value(quantity).value);

@@ -95,7 +95,6 @@ std::optional<Figure> overload_scale_figure(std::span<const RunGroup> groups) {
   }
   if (figure.tables.empty()) return std::nullopt;
   figure.height_over_width = 0.7 * static_cast<double>(figure.groups);
-  set_key(figure, std::size(tilts_compared) + 1, 16);
   return figure;
 }
 

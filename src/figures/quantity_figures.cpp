@@ -34,6 +34,12 @@ std::string title_of(const std::string& name) {
   return shown_title(*std::ranges::find(quantities(), name, &Quantity::name));
 }
 
+/// Whether a quantity is a share: no axis goes beyond 1, or 100 %, though a band may.
+bool is_share(const std::string& name) {
+  const Quantity& quantity = *std::ranges::find(quantities(), name, &Quantity::name);
+  return quantity.unit == "1" && quantity.definition.find("share of") != std::string::npos;
+}
+
 const std::vector<double>* find_values(const std::vector<Column>& columns, const std::string& name) {
   const auto found = std::ranges::find(columns, name, &Column::name);
   return found == columns.end() ? nullptr : &found->values;
@@ -52,6 +58,7 @@ void set_panels(Figure& figure) {
     const std::string k = std::to_string(++panels);
     set_variable(figure, "quantity_" + k, gnuplot_string(column.name));
     set_variable(figure, "title_" + k, gnuplot_string(title_of(column.name)));
+    if (is_share(column.name)) set_variable(figure, "top_" + k, column.unit == "%" ? 100.0 : 1.0);
   }
   const std::size_t rows = (panels + panels_in_row - 1) / panels_in_row;
   set_variable(figure, "panels", static_cast<double>(panels));
@@ -76,7 +83,6 @@ bool add_panels(Figure& figure, std::span<const RunGroup> groups, const std::vec
     if (const RunChoice runs = runs_over(group, abscissa); !runs.empty())
       add_group_curves(figure, group, runs, columns, abscissa);
   if (figure.groups == 0) return false;
-  set_more_keys(figure, 0);
   set_panels(figure);
   return true;
 }
@@ -141,7 +147,6 @@ std::optional<Figure> differences_over(Figure figure, std::span<const RunGroup> 
   const std::string label = fmt::format("{} − {}", groups[1].label, groups[0].label);
   set_variable(figure, "label", gnuplot_quoted(label));
   set_variable(figure, "theta_max", figure.tables[0].columns[0].values.back());
-  set_key(figure, 3, label.size());
   set_panels(figure);
   figure.caption = fmt::format(
       "Difference of the means of two groups of runs over {}, {} less {}, at the angles that both have, "

@@ -66,7 +66,6 @@ void add_angle_tables(Figure& figure, const AngleGroups& all) {
       columns.push_back({angle.name, "deg", angle.meaning, angle.values[g]});
     add_group_table(figure, *all.groups[g], all.choices[g], std::move(columns));
   }
-  set_more_keys(figure, 0);
 }
 
 double round_step(double most) {

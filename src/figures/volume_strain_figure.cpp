@@ -54,7 +54,6 @@ std::vector<PeriodicRuns> add_strains(Figure& figure, std::span<const RunGroup> 
     chosen.push_back({table_name(group), all_runs(group)});
     add_group_curves(figure, group, chosen.back().runs, strains);
   }
-  set_more_keys(figure, 0);
   return chosen;
 }
 

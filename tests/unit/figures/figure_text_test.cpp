@@ -41,7 +41,7 @@ TEST(GnuplotText, HasVariablesThenStyleThenScript) {
   };
   EXPECT_LT(at("figure = \"fig04-shear-stress\"\nwidth = 8.6  # cm\nheight = 4.3\n"), at("gamma_c = 0.25\n"));
   EXPECT_LT(at("label_1 = 'PBC'\n"), at("set terminal pdfcairo"));
-  EXPECT_LT(at("set terminal pdfcairo"), at("set xlabel \"tan"));
+  EXPECT_LT(at("set terminal pdfcairo"), at("x_title = \"tan"));
   EXPECT_TRUE(text.ends_with("\nunset output\npass = pass + 1\nif (pass <= 3) reread\n"));
 }
 

@@ -1,0 +1,209 @@
+"""No text of a figure is cut or printed over another, whatever the bed, its numbers and its names. Figures are plain data: those of
+small runs are drawn again with other sizes, numbers and names, and the ink of their texts is measured."""
+
+import csv
+import json
+import os
+import re
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+pytest.importorskip("fitz", reason="PyMuPDF is not installed: python3-fitz")
+if shutil.which("gnuplot") is None:
+    pytest.skip("gnuplot is not installed: gnuplot-nox", allow_module_level=True)
+
+import figure_ink  # noqa: E402
+import fitz  # noqa: E402
+from conftest import ROOT, run_talus  # noqa: E402
+
+WIDTHS = {1: 8.6, 2: 17.8}  # cm
+LONG_NAME = (
+    "PBC, L = 2500 D, deposition.method = collapse, contact.friction = 0.35, deposition.arrival_speed = 12, "
+    "a-folder-with-a-very-long-name-in-which-there-is-no-blank-to-break-it-at-anywhere-at-all (100 runs)"
+)
+#: Variables of a script of which there is one for each group, by the beginnings of their names.
+OF_GROUPS = re.compile(
+    r"(data|label|every|runs|drawn|cut|several|gamma_c|theta_d|sizes|waits|size_law|wait_law|line"
+    r"|summary_\d+|mean_\d+|r_\d+_\d+)_1"
+)
+#: Columns that are no quantities: what is on the horizontal axis is not changed either, but for angles.
+COUNTS = "n|seed|cycle|estimator|factor|rank|series|row|agrees|group|critical|radius|x|y"
+ANGLES = {"theta", "angle_left"}
+#: How a bed of a test differs from the one that was computed.
+BEDS = {
+    "small numbers, deep and short": dict(columns=1, length=10, depth=60, times=1e-12),
+    "large numbers, shallow and short": dict(columns=2, length=10, depth=3, times=1e12, name=LONG_NAME),
+    "long names in one column": dict(columns=1, length=60, depth=30, name=LONG_NAME),
+    "tiny strains and tilts": dict(columns=2, length=60, depth=30, times=1.7e-5, angles=1e-4),
+    "very long bed in one column": dict(columns=1, length=2500, depth=3, times=3e12, name=LONG_NAME, angles=1e-3),
+    "very long and deep bed": dict(columns=2, length=2500, depth=60, times=1e-9),
+    "many groups, numbers nearly alike": dict(columns=2, length=100, depth=20, times=1e-4, plus=1000, groups=9),
+    "many groups in one column": dict(columns=1, length=100, depth=20, name=LONG_NAME, groups=9),
+}
+
+
+def changed_table(path, units, bed):
+    """The text of a table with other numbers, and some 20 rows."""
+    rows = list(csv.reader(path.read_text().splitlines()))
+    head, body = rows[0], rows[1:]
+    keep = max(1, len(body) // 20)
+
+    def changed(name, cell):
+        value = float(cell)
+        unit = units.get(name, "1")
+        if name in ANGLES:
+            value *= bed.get("angles", 1)
+        elif name in ("x1", "x2") or (name == "x" and "surface" in path.name):
+            value *= bed["length"] / bed["length_before"]
+        elif name in ("y1", "y2") or (name == "y" and "surface" in path.name):
+            value *= bed["depth"] / bed["depth_before"]
+        elif unit != "deg" and name != head[0] and not re.fullmatch(COUNTS, name):
+            value *= bed.get("times", 1)
+            if not name.endswith(("_error", "_deviation")):
+                value += bed.get("plus", 0)
+        return repr(value) if value == value else "NaN"
+
+    lines = [",".join(head)]
+    for k, row in enumerate(body):
+        if k % keep == 0:
+            lines.append(",".join(changed(name, cell) for name, cell in zip(head, row)) if row else "")
+    return "\n".join(lines) + "\n"
+
+
+def changed_script(text, bed):
+    """The script with another width, bed and names, that draws the PDF and the SVG."""
+    head, _, rest = text.partition("# What all figures share")
+    variables = dict(line.split(" = ", 1) for line in head.splitlines() if " = " in line and not line.startswith("#"))
+    number = {name: float(value) for name, value in variables.items() if re.fullmatch(r"-?[0-9.]+(e[-+]?\d+)?", value)}
+    width, before = WIDTHS[bed["columns"]], float(variables["width"].split()[0])
+    variables["height"] = f"{number['height'] / before * width:g}"
+    variables["width"] = f"{width}"
+    bed["length_before"], bed["depth_before"] = number.get("bed_length", 1), number.get("bed_top", 1)
+    if "bed_length" in variables:
+        variables["bed_length"] = f"{bed['length']}"
+    if "aspect" in variables:
+        variables["aspect"] = f"{bed['length'] / bed['depth']:g}"
+    if number.get("map_height"):
+        margin = 0.01 * bed["length"]
+        variables.update(margin=f"{margin:g}", bed_top=f"{bed['depth']}")
+        variables["map_height"] = f"{(bed['depth'] - number['bed_bottom'] + margin) / (bed['length'] + 2 * margin):g}"
+    for name in ("theta_max",):
+        if name in number:
+            variables[name] = f"{number[name] * bed.get('angles', 1):g}"
+    for name in ("energy_from", "energy_to", "largest_change"):
+        if name in number:
+            variables[name] = f"{abs(number[name] * bed.get('times', 1)):g}"
+    if "groups" in bed and "groups" in variables:
+        for name in [name for name in variables if OF_GROUPS.fullmatch(name)]:
+            for g in range(2, bed["groups"] + 1):
+                variables.setdefault(name[:-1] + str(g), variables[name])
+        if "line_1" in variables:
+            variables.update({f"line_{g}": f"{g}" for g in range(1, bed["groups"] + 1)}, lines=str(bed["groups"]))
+        variables["groups"] = str(bed["groups"])
+    if "name" in bed:
+        for name in variables:
+            if re.fullmatch(r"label_\d+|label|bed", name):
+                variables[name] = "'" + bed["name"].replace("_", r"\_") + "'"
+    last = re.sub(r"if \(pass <= 3\)", "if (pass <= 2)", rest)
+    return "".join(f"{name} = {value}\n" for name, value in variables.items()) + "# What all figures share" + last
+
+
+def faults_of(figures, folder, bed, only=""):
+    """Draws all figures of a folder again in another one, and lists what is wrong with their texts."""
+    found = []
+    one_pixel = fitz.Pixmap(fitz.csRGB, fitz.IRect(0, 0, 2, 2), False).tobytes("png")
+    for script in sorted(figures.glob("*.gp")):
+        if not re.match(only, script.stem):
+            continue
+        tables = json.loads((figures / (script.stem + ".json")).read_text())["tables"]
+        units = {table["file"]: {column["name"]: column["unit"] for column in table["columns"]} for table in tables}
+        (folder / script.name).write_text(changed_script(script.read_text(), bed))
+        for table in units:
+            (folder / table).write_text(changed_table(figures / table, units[table], bed))
+        for picture in figures.glob(script.stem + "-panel*.png"):
+            (folder / picture.name).write_bytes(one_pixel)  # whatever it shows
+        done = subprocess.run(["gnuplot", "-d", script.name], cwd=folder, capture_output=True, text=True)
+        if done.returncode != 0:
+            found.append(f"{script.stem}: gnuplot gave up: {done.stderr[-300:]}")
+            continue
+        texts = figure_ink.faults(folder / (script.stem + ".pdf"), folder / (script.stem + ".svg"))
+        found += [f"{script.stem}: {text}" for text in texts]
+    return found
+
+
+@pytest.fixture(scope="session")
+def figures_of_a_bed(analysed, tmp_path_factory):
+    """Some figures of each kind: panels, maps, lines between grains, curves."""
+    folder = tmp_path_factory.mktemp("figures")
+    run_talus("figures", analysed, "-o", folder, "-q", "--only", "over-tilt,fig10,fig12,force-chains,force-distribution")
+    return folder
+
+
+@pytest.mark.chosen
+@pytest.mark.parametrize("name", ["small numbers, deep and short", "many groups in one column"])
+def test_texts_of_some_figures_are_whole(figures_of_a_bed, tmp_path, name):
+    assert faults_of(figures_of_a_bed, tmp_path, dict(BEDS[name])) == []
+
+
+@pytest.mark.chosen
+def test_ink_is_found(tmp_path):
+    """Texts that are cut, leave the page, meet or are crossed are found, also upright ones."""
+    lines = [
+        'set encoding utf8; set terminal pdfcairo size 8cm,6cm font "DejaVu Sans,8" fontscale 0.75; set output "a.pdf"',
+        "set lmargin at screen 0.2; set rmargin at screen 0.9; set bmargin at screen 0.5; set tmargin at screen 0.9",
+        'set label "1.5" at screen 0.5, screen 0.2; set label "2.5" at screen 0.53, screen 0.2',
+        'set label "uphill" at screen 0.1, screen 0.1 rotate by 90; set label "across" at screen 0.07, screen 0.14',
+        'set label "cut off" at screen 0.95, screen 0.3; set label "stem" at screen 0.7, screen 0.95 rotate by 90',
+        'set label "framed" at screen 0.17, screen 0.7; set label "alone" at screen 0.3, screen 0.3; set xtics ("" 0)',
+        "set ytics (\"\" 0); unset key; plot [0:1] [0:1] x",
+    ]
+    (tmp_path / "a.gp").write_text("\n".join(lines))
+    subprocess.run(["gnuplot", "-d", "a.gp"], cwd=tmp_path, check=True)
+    faults = "\n".join(figure_ink.faults(tmp_path / "a.pdf"))
+    for part in ("'1.5' meets '2.5'", "meets 'uphill'", "crosses the edge", "'framed' is crossed"):
+        assert part in faults, faults
+    assert re.search("'ste?m?' crosses the edge", faults), faults
+    assert "alone" not in faults
+
+
+@pytest.fixture(scope="session")
+def all_figures(tmp_path_factory):
+    """Every figure, of small beds and of the averages that lie in docs/data."""
+    folder = tmp_path_factory.mktemp("all")
+    figures = folder / "figures"
+    bed = ROOT / "assets/scenarios/demo.toml"
+    common = "bed.length=12 bed.depth=5 tilt.rate=8 tilt.step=0.008 output.frame_every=0.5".split()
+
+    def settings(*more):
+        return [word for key in [*common, *more] for word in ("--set", key)]
+
+    def draw(*words):
+        run_talus("figures", *words, "-q", "--overwrite", "-o", figures)
+
+    averages = ROOT / "docs/data/paper-pbc/ensemble.h5"
+    draw(averages, "--only", "precursor-ranking,angle-distributions,angle-correlations")
+    for name, *more in [
+        ("flow", "tilt.after_failure=lower"),
+        ("cycles", "tilt.program=to 8, to 0, 3 times"),
+        ("walls", "bed.boundary=walls"),
+        ("grains", "bed.length=15", "bed.depth=6", "seed=3"),
+    ]:
+        keys = [key for key in [*common, *more]]
+        once = {key.split("=", 1)[0]: key for key in keys}.values()
+        run_talus("run", bed, *[word for key in once for word in ("--set", key)], "-o", folder / f"{name}.h5", "-q")
+    run_talus("ensemble", bed, "--seeds", "1-2", "--vary", "deposition.method=pour,collapse", *settings(), "-o", folder / "two", "-q")
+    draw(folder / "walls.h5", "--only", "6,7")
+    draw(folder / "cycles.h5", "--only", "cycles")
+    draw(folder / "flow.h5", "--only", "dynamic-angle")
+    run_talus("events", folder / "grains.h5", "-q")
+    draw(folder / "grains.h5", "--only", "8,10,11,13,overloaded-over-scale,contact-directions,force-chains,force-distribution,critical-contacts,correlations,weak-contacts,persistence,events")
+    draw(folder / "two", "--only", "4,5,9,12,14,over-tilt,before-failure,precursors,difference-over-tilt,difference-before-failure")
+    return figures
+
+
+@pytest.mark.parametrize("name", BEDS)
+def test_texts_of_all_figures_are_whole(all_figures, tmp_path, name):
+    assert faults_of(all_figures, tmp_path, dict(BEDS[name])) == []
