@@ -56,19 +56,19 @@ std::string name_of_key(int key) {
 }
 
 /// A run that is looked at in one of the states in which keys are pressed.
-struct Window {
+struct OpenWindow {
   ViewModel model;
   OffscreenGui gui;
-  explicit Window(ViewModel&& opened) : model(std::move(opened)), gui(model, 900, 600) {}
+  explicit OpenWindow(ViewModel&& opened) : model(std::move(opened)), gui(model, 900, 600) {}
   LiveStatus status() { return model.live()->status(); }
   bool runs() { return model.is_live() ? status().running : model.playing(); }
 };
 
-using MakeWindow = std::function<std::unique_ptr<Window>()>;
+using OpenAgain = std::function<std::unique_ptr<OpenWindow>()>;
 
 /// Presses each key in the same state, and expects that something is seen of it.
-void expect_no_silent_key(const MakeWindow& make, const std::vector<int>& keys = listed_keys()) {
-  std::unique_ptr<Window> window;
+void expect_no_silent_key(const OpenAgain& make, const std::vector<int>& keys = listed_keys()) {
+  std::unique_ptr<OpenWindow> window;
   ViewState begin;
   for (const int key : keys) {
     if (!window) {
@@ -99,9 +99,9 @@ void expect_no_silent_key(const MakeWindow& make, const std::vector<int>& keys =
 class SilentReplay : public testing::Test {
  protected:
   SilentReplay() { test::take_run(folder_, "bed.h5", test::small_bed); }
-  MakeWindow at_frame(std::size_t frame) {
+  OpenAgain at_frame(std::size_t frame) {
     return [this, frame] {
-      auto window = std::make_unique<Window>(ViewModel::open(folder_.path("bed.h5"), {}, "", false, ""));
+      auto window = std::make_unique<OpenWindow>(ViewModel::open(folder_.path("bed.h5"), {}, "", false, ""));
       window->model.go_to(frame);
       return window;
     };
@@ -159,19 +159,19 @@ TEST_F(SilentReplay, the_mouse_says_what_it_cannot_do) {
 class SilentLive : public testing::Test {
  protected:
   SilentLive() { test::write_file(folder_, "bed.toml", test::small_bed); }
-  std::unique_ptr<Window> begun() {
-    return std::make_unique<Window>(ViewModel::open(folder_.path("bed.toml"), {}, "", false, ""));
+  std::unique_ptr<OpenWindow> begun() {
+    return std::make_unique<OpenWindow>(ViewModel::open(folder_.path("bed.toml"), {}, "", false, ""));
   }
-  std::unique_ptr<Window> after(const std::function<void(LiveRun&)>& play) {
+  std::unique_ptr<OpenWindow> after(const std::function<void(LiveRun&)>& play) {
     auto window = begun();
     play(*window->model.live());
     EXPECT_TRUE(test::drawn_until(window->gui, [&] { return !window->runs(); }));
     return window;
   }
-  std::unique_ptr<Window> tilting() {
+  std::unique_ptr<OpenWindow> tilting() {
     return after([](LiveRun& run) { run.run_to(radians(0.5)); });
   }
-  std::unique_ptr<Window> ended() {
+  std::unique_ptr<OpenWindow> ended() {
     return after([](LiveRun& run) { run.play(); });
   }
   test::TemporaryFolder folder_;
