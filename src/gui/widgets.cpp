@@ -169,6 +169,22 @@ float rich_width(const ImFont& font, float size, std::string_view text) {
   return width;
 }
 
+std::vector<std::string> wrapped_text(std::string_view text, float width) {
+  const ImFont& font = *ImGui::GetFont();
+  const float size = ImGui::GetFontSize();
+  std::vector<std::string> lines;
+  for (std::size_t start = 0; start < text.size() || lines.empty();) {
+    const std::size_t end = std::min(text.find(' ', start), text.size());
+    const std::string word(text.substr(start, end - start));
+    if (!lines.empty() && rich_width(font, size, lines.back() + " " + word) <= width)
+      lines.back() += " " + word;
+    else
+      lines.push_back(word);
+    start = end + 1;
+  }
+  return lines;
+}
+
 void add_rich_text(ImDrawList& list, const ImVec2& place, ImU32 colour, std::string_view text) {
   const ImFont& font = *ImGui::GetFont();
   const float size = ImGui::GetFontSize();
@@ -185,6 +201,11 @@ void rich_text(std::string_view text) {
   const ImVec2 place = ImGui::GetCursorScreenPos();
   add_rich_text(*ImGui::GetWindowDrawList(), place, ImGui::GetColorU32(ImGuiCol_Text), text);
   ImGui::Dummy({rich_width(*ImGui::GetFont(), ImGui::GetFontSize(), text), ImGui::GetTextLineHeight()});
+}
+
+void same_line_if_fits(float width) {
+  ImGui::SameLine();
+  if (ImGui::GetContentRegionAvail().x < width) ImGui::NewLine();
 }
 
 void fact(std::string_view label, const std::string& value) {
