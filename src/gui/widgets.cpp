@@ -173,15 +173,12 @@ std::vector<std::string> wrapped_text(std::string_view text, float width) {
   const ImFont& font = *ImGui::GetFont();
   const float size = ImGui::GetFontSize();
   std::vector<std::string> lines;
-  for (std::size_t start = 0; start < text.size() || lines.empty();) {
-    const std::size_t end = std::min(text.find(' ', start), text.size());
-    const std::string word(text.substr(start, end - start));
-    if (!lines.empty() && rich_width(font, size, lines.back() + " " + word) <= width)
-      lines.back() += " " + word;
+  for (const std::string& piece : breakable_pieces(text))
+    if (!lines.empty() && rich_width(font, size, lines.back() + " " + piece) <= width)
+      lines.back() += " " + piece;
     else
-      lines.push_back(word);
-    start = end + 1;
-  }
+      lines.push_back(piece);
+  if (lines.empty()) lines.emplace_back();
   return lines;
 }
 

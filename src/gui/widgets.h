@@ -51,7 +51,7 @@ bool named_choice(Gui& gui, const char* name, const char* label, const std::vect
 /// A line of text in the syntax of pictures: "_c" sets c as a subscript.
 void rich_text(std::string_view text);
 float rich_width(const ImFont& font, float size, std::string_view text);
-/// By words, in lines of at most that width, px; only a single word may be wider.
+/// In lines of at most that width, px, at least one; only a single piece (breakable_pieces) may be wider.
 std::vector<std::string> wrapped_text(std::string_view text, float width);
 void add_rich_text(ImDrawList& list, const ImVec2& place, ImU32 colour, std::string_view text);
 
