@@ -111,6 +111,30 @@ TextLine set_text(const Font& font, std::string_view text, double em) {
   return line;
 }
 
+std::vector<std::string> breakable_pieces(std::string_view text) {
+  static constexpr std::array<std::string_view, 8> between = {"=", "≥", "≤", "<", ">", "×", "−", "/"};
+  static constexpr std::array<std::string_view, 5> after = {"D", "D,", "D;", "%", "deg"};
+  constexpr std::size_t longest = 14;  // bytes: a long equation is broken
+  const auto is_one_of = [](const auto& words, std::string_view word) {
+    return std::ranges::find(words, word) != words.end();
+  };
+  std::vector<std::string> pieces;
+  bool joined = false;  // to what follows
+  for (std::size_t start = 0; start < text.size();) {
+    const std::size_t end = std::min(text.find(' ', start), text.size());
+    const std::string_view word = text.substr(start, end - start);
+    const bool operation = is_one_of(between, word);
+    const bool is_short = !pieces.empty() && pieces.back().size() + word.size() < longest;
+    if (is_short && (joined || operation || is_one_of(after, word)))
+      pieces.back().append(" ").append(word);
+    else
+      pieces.emplace_back(word);
+    joined = operation;
+    start = end + 1;
+  }
+  return pieces;
+}
+
 GlyphAtlas bake_glyphs(double em) {
   GlyphAtlas atlas;
   atlas.em = em;

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -43,6 +44,9 @@ struct TextLine {
 /// Sets a UTF-8 text in a font size of `em` px. "_c" sets c as a subscript.
 /// Throws Error(internal) at a code point that is not listed in font_code_points(), and at malformed UTF-8.
 TextLine set_text(const Font& font, std::string_view text, double em);
+
+/// The pieces of a text between which a line may end: its words, but "l = 10 D" as one and "95 % of" as two.
+std::vector<std::string> breakable_pieces(std::string_view text);
 
 /// All listed glyphs, plain and as subscripts, drawn for one font size.
 struct GlyphAtlas {

@@ -94,15 +94,11 @@ PlacedText place_text(const std::string& text, double x, double y, double em, co
 
 std::vector<std::string> broken_text(const std::string& text, double width, double em, const Font& font) {
   std::vector<std::string> lines;
-  for (std::size_t start = 0; start < text.size();) {
-    const std::size_t end = std::min(text.find(' ', start), text.size());
-    const std::string word = text.substr(start, end - start);
-    if (!lines.empty() && set_text(font, lines.back() + " " + word, em).width <= width)
-      lines.back() += " " + word;
+  for (const std::string& piece : breakable_pieces(text))
+    if (!lines.empty() && set_text(font, lines.back() + " " + piece, em).width <= width)
+      lines.back() += " " + piece;
     else
-      lines.push_back(word);
-    start = end + 1;
-  }
+      lines.push_back(piece);
   return lines;
 }
 

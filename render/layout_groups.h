@@ -21,7 +21,7 @@ struct Group {
   Box arrow;
 };
 
-/// Breaks a text at its spaces into lines of at most that width, px; only a single word may be wider.
+/// Breaks a text into lines of at most that width, px; only a single piece (breakable_pieces) may be wider.
 std::vector<std::string> broken_text(const std::string& text, double width, double em, const Font& font);
 
 // `room`, px: what groups are to fit, if their lines can be broken.

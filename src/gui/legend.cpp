@@ -1,29 +1,91 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/core.h>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "gui/panels.h"
 
 namespace talus {
 namespace {
 
-/// Goes to the next line if what follows would not fit beside what is left free on the right.
-void make_room(float width, float margin) {
-  if (ImGui::GetCursorPosX() > ImGui::GetStyle().WindowPadding.x + 1.0f &&
-      ImGui::GetContentRegionAvail().x - margin < width)
-    ImGui::NewLine();
-}
-
 float text_width(const std::string& text) {
   return rich_width(*ImGui::GetFont(), ImGui::GetFontSize(), text);
 }
 
-constexpr float bar_length = 12.0f;  // em
+// In em.
+constexpr float bar_length = 12.0f, shortest_bar = 5.0f;
+constexpr float text_line = 1.2f;
+constexpr float below_bar = 2.4f;  ///< from its top to the lower edge of its labels, with some space
+constexpr float swatch_text = 1.9f, after_text = 1.0f;
 
-float width_of(const Bar& bar, float em) { return text_width(bar.title) + (0.6f + bar_length + 4.0f) * em; }
+/// A bar or a swatch and where it lies, px from the corner of the legend.
+struct LegendItem {
+  const Bar* bar = nullptr;
+  const Swatch* swatch = nullptr;
+  std::vector<std::string> lines;  ///< of its title, or its label
+  float x = 0.0f, y = 0.0f, width = 0.0f, height = 0.0f;
+  float bar_left = 0.0f, bar_top = 0.0f, bar_length = 0.0f;
+};
 
-float width_of(const Swatch& swatch, float em) { return 2.4f * em + text_width(swatch.label); }
+/// Half of the first label of a bar may lie left of it, and half of the last one right of it.
+float half_label(const Bar& bar, bool first, float em) {
+  if (bar.ticks.empty()) return 0.0f;
+  const BarTick& tick = first ? bar.ticks.front() : bar.ticks.back();
+  const float out = static_cast<float>(first ? tick.share : 1.0 - tick.share) * bar_length * em;
+  return std::max(0.0f, 0.5f * text_width(tick.label) - out);
+}
+
+/// A bar beside its title, or below it if there is no room for both.
+LegendItem bar_item(const Bar& bar, float room, float em) {
+  LegendItem item;
+  item.bar = &bar;
+  const float low = half_label(bar, true, em), high = half_label(bar, false, em);
+  const float title = text_width(bar.title) + 0.8f * em;
+  item.bar_length = bar_length * em;
+  item.bar_left = std::max(title, low);
+  item.lines = {bar.title};
+  if (item.bar_left + item.bar_length + high > room) {
+    item.lines = wrapped_text(bar.title, room);
+    item.bar_left = low;
+    item.bar_top = static_cast<float>(item.lines.size()) * text_line * em;
+    item.bar_length = std::max(shortest_bar * em, std::min(item.bar_length, room - low - high));
+  }
+  item.width = std::max(item.bar_left + item.bar_length + high, text_width(item.lines[0]));
+  item.height = item.bar_top + below_bar * em;
+  return item;
+}
+
+LegendItem swatch_item(const Swatch& swatch, float room, float em) {
+  LegendItem item;
+  item.swatch = &swatch;
+  item.lines = wrapped_text(swatch.label, room - swatch_text * em);
+  for (const std::string& line : item.lines)
+    item.width = std::max(item.width, swatch_text * em + text_width(line));
+  item.height = static_cast<float>(item.lines.size()) * text_line * em;
+  return item;
+}
+
+/// The items of a legend in rows. Returns its height, px.
+float lay_out_legend(const FrameView& view, float room, float em, std::vector<LegendItem>& items) {
+  for (const Legend& legend : view.legends) {
+    for (const Bar& bar : legend.bars) items.push_back(bar_item(bar, room, em));
+    for (const Swatch& swatch : legend.swatches) items.push_back(swatch_item(swatch, room, em));
+  }
+  float x = 0.0f, y = 0.0f, bottom = 0.0f;
+  for (LegendItem& item : items) {
+    if (x > 0.0f && x + item.width > room) {
+      x = 0.0f;
+      y = bottom;
+    }
+    item.x = x;
+    item.y = y;
+    x += item.width + after_text * em;
+    bottom = std::max(bottom, y + item.height);
+  }
+  return bottom;
+}
 
 /// The mouse on a bar: pulling its ends sets the range of the map, a double click gives back the map's own.
 void use_bar(Gui& gui, const Bar& bar, const ImVec2& low, const ImVec2& high) {
@@ -63,49 +125,41 @@ void use_bar(Gui& gui, const Bar& bar, const ImVec2& low, const ImVec2& high) {
   ImGui::EndTooltip();
 }
 
-/// Where a bar lies that has been drawn.
-struct DrawnBar {
-  ImVec2 low, high;
-};
-
-DrawnBar draw_bar(const Bar& bar, float em, ImU32 ink, float margin) {
-  const float title = text_width(bar.title), length = bar_length * em, height = 0.85f * em;
-  const float width = width_of(bar, em);
-  make_room(width, margin);
-  const ImVec2 corner = ImGui::GetCursorScreenPos();
+void draw_bar(Gui& gui, const LegendItem& item, const ImVec2& corner, bool of_first) {
+  const Bar& bar = *item.bar;
+  const float em = gui.em, length = item.bar_length, height = 0.85f * em;
+  const ImU32 ink = packed(gui.colours.ink);
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  add_rich_text(list, {corner.x, corner.y - 0.1f * em}, ink, bar.title);
-  const float left = corner.x + title + 0.8f * em;
+  for (std::size_t k = 0; k < item.lines.size(); ++k)
+    add_rich_text(list, {corner.x, corner.y - 0.1f * em + static_cast<float>(k) * text_line * em}, ink,
+                  item.lines[k]);
+  const float left = corner.x + item.bar_left, top = corner.y + item.bar_top;
   const std::size_t pieces = bar.colours.size() - 1;
   for (std::size_t k = 0; k < pieces; ++k) {
     const float x0 = left + length * static_cast<float>(k) / static_cast<float>(pieces);
     const float x1 = left + length * static_cast<float>(k + 1) / static_cast<float>(pieces);
-    list.AddRectFilled({x0, corner.y}, {x1, corner.y + height}, packed(bar.colours[k]));
+    list.AddRectFilled({x0, top}, {x1, top + height}, packed(bar.colours[k]));
   }
-  list.AddRect({left, corner.y}, {left + length, corner.y + height}, ink);
-  float free_from = 0.0f;
-  const TextOfSize small(TextSize::small);
-  for (const BarTick& tick : bar.ticks) {
-    const float x = left + static_cast<float>(tick.share) * length;
-    list.AddLine({x, corner.y + height}, {x, corner.y + height + 0.2f * em}, ink);
-    const float label = rich_width(*ImGui::GetFont(), ImGui::GetFontSize(), tick.label),
-                at = x - 0.5f * label;
-    if (at < free_from) continue;
-    free_from = at + label + 0.4f * em;
-    add_rich_text(list, {at, corner.y + height + 0.25f * em}, ink, tick.label);
+  list.AddRect({left, top}, {left + length, top + height}, ink);
+  {
+    float free_from = 0.0f;
+    const TextOfSize small(TextSize::small);
+    for (const BarTick& tick : bar.ticks) {
+      const float x = left + static_cast<float>(tick.share) * length;
+      list.AddLine({x, top + height}, {x, top + height + 0.2f * em}, ink);
+      const float label = text_width(tick.label), at = x - 0.5f * label;
+      if (at < free_from) continue;
+      free_from = at + label + 0.4f * em;
+      add_rich_text(list, {at, top + height + 0.25f * em}, ink, tick.label);
+    }
   }
-  ImGui::Dummy({width, 2.4f * em});
-  return {{left, corner.y}, {left + length, corner.y + height}};
+  if (of_first) use_bar(gui, bar, {left, top}, {left + length, top + height});
 }
 
-void draw_swatch(Gui& gui, const Swatch& swatch, float margin) {
-  const float em = gui.em;
-  const ImU32 ink = packed(gui.colours.ink);
-  const float width = width_of(swatch, em);
-  make_room(width, margin);
-  const ImVec2 corner = ImGui::GetCursorScreenPos();
+void draw_swatch(Gui& gui, const LegendItem& item, const ImVec2& corner) {
+  const Swatch& swatch = *item.swatch;
+  const float em = gui.em, middle = corner.y + 0.55f * em;
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  const float middle = corner.y + 0.55f * em;
   if (swatch.kind == Swatch::Kind::line) {
     list.AddLine({corner.x, middle}, {corner.x + 1.6f * em, middle}, packed(swatch.fill),
                  std::max(1.0f, static_cast<float>(swatch.width) * em));
@@ -113,49 +167,33 @@ void draw_swatch(Gui& gui, const Swatch& swatch, float margin) {
     list.AddCircleFilled({corner.x + 1.0f * em, middle}, 0.45f * em, packed(swatch.rim));
     list.AddCircleFilled({corner.x + 1.0f * em, middle}, 0.36f * em, packed(swatch.fill));
   }
-  add_rich_text(list, {corner.x + 1.9f * em, corner.y}, ink, swatch.label);
-  ImGui::Dummy({width, 1.1f * em});  // two lines of swatches are as high as one of bars
-  note_place(gui, "swatch " + swatch.label);
-  ImGui::SameLine();
+  for (std::size_t k = 0; k < item.lines.size(); ++k)
+    add_rich_text(list, {corner.x + swatch_text * em, corner.y + static_cast<float>(k) * text_line * em},
+                  packed(gui.colours.ink), item.lines[k]);
+  note_place(gui, "swatch " + swatch.label, corner, {corner.x + item.width, corner.y + item.height});
 }
 
 }  // namespace
 
-int legend_rows(const FrameView& view, float width) {
-  const float em = ImGui::GetFontSize(), between = ImGui::GetStyle().ItemSpacing.x;
-  int rows = 1;
-  float taken = 0.0f;
-  const auto place = [&](float next) {
-    if (taken > 0.0f && taken + next > width) {
-      ++rows;
-      taken = 0.0f;
-    }
-    taken += next + between;
-  };
-  for (const Legend& legend : view.legends) {
-    for (const Bar& bar : legend.bars) place(width_of(bar, em));
-    for (const Swatch& swatch : legend.swatches) place(width_of(swatch, em));
-  }
-  return rows;
+float legend_height(const FrameView& view, float width) {
+  std::vector<LegendItem> items;
+  return lay_out_legend(view, width, ImGui::GetFontSize(), items);
 }
 
-void draw_legends(Gui& gui, const FrameView& view, bool of_first, float margin) {
-  const float em = gui.em;
-  const ImU32 ink = packed(gui.colours.ink);
+void draw_legends(Gui& gui, const FrameView& view, float width, bool of_first) {
+  std::vector<LegendItem> items;
+  const float height = lay_out_legend(view, width, gui.em, items);
+  const ImVec2 corner = ImGui::GetCursorScreenPos();
   bool first = of_first;  // the bar whose range can be chosen
-  for (const Legend& legend : view.legends) {
-    for (const Bar& bar : legend.bars) {
-      const DrawnBar drawn = draw_bar(bar, em, ink, margin);
-      ImGui::SameLine();
-      const ImVec2 next = ImGui::GetCursorScreenPos();
-      if (std::exchange(first, false)) {
-        use_bar(gui, bar, drawn.low, drawn.high);
-        ImGui::SetCursorScreenPos(next);
-      }
-    }
-    for (const Swatch& swatch : legend.swatches) draw_swatch(gui, swatch, margin);
+  for (const LegendItem& item : items) {
+    const ImVec2 at{corner.x + item.x, corner.y + item.y};
+    if (item.bar != nullptr)
+      draw_bar(gui, item, at, std::exchange(first, false));
+    else
+      draw_swatch(gui, item, at);
   }
-  ImGui::NewLine();
+  ImGui::SetCursorScreenPos(corner);
+  ImGui::Dummy({width, height});
 }
 
 }  // namespace talus

@@ -12,7 +12,7 @@
 namespace talus {
 namespace {
 
-constexpr float legend_lines = 2.8f;  ///< height of the legend, em
+constexpr float least_picture = 4.0f;  ///< em
 
 /// The map as it lies in the window.
 struct ShownMap {
@@ -31,18 +31,40 @@ struct ShownMap {
   }
 };
 
+constexpr float caption_line = 1.2f;  ///< em
+
+/// The title, and the caption on the right of it, or below it if there is no room for both. Returns how high
+/// they are, px.
+float caption_height(const FrameView& view, float width, float em) {
+  const ImFont& font = *ImGui::GetFont();
+  const bool both = rich_width(font, em, view.caption) + rich_width(font, em, view.title) + em < width;
+  const std::size_t lines =
+      both ? 1 : wrapped_text(view.title, width).size() + wrapped_text(view.caption, width).size();
+  return (caption_line * static_cast<float>(lines) - 0.2f) * em;
+}
+
 void draw_caption(const FrameView& view, float width) {
   const ImFont& font = *ImGui::GetFont();
-  const float size = ImGui::GetFontSize();
-  const float caption = rich_width(font, size, view.caption), title = rich_width(font, size, view.title);
+  const float em = ImGui::GetFontSize(), height = caption_height(view, width, em);
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const ImU32 ink = ImGui::GetColorU32(ImGuiCol_Text);
-  const bool both = title + caption + size < width;
-  const float second = both ? corner.y : corner.y + 1.2f * size;
-  add_rich_text(list, corner, ink, view.title);
-  add_rich_text(list, {std::max(corner.x, corner.x + width - caption), second}, ink, view.caption);
-  ImGui::Dummy({width, second + size - corner.y});
+  float y = corner.y;
+  const auto line = [&](const std::string& text, bool right) {
+    const float x = right ? corner.x + width - rich_width(font, em, text) : corner.x;
+    add_rich_text(list, {x, y}, ink, text);
+  };
+  if (height < caption_line * em) {
+    line(view.title, false);
+    line(view.caption, true);
+  } else {
+    for (const bool right : {false, true})
+      for (const std::string& text : wrapped_text(right ? view.caption : view.title, width)) {
+        line(text, right);
+        y += caption_line * em;
+      }
+  }
+  ImGui::Dummy({width, height});
 }
 
 /// Gravity, beside the legend.
@@ -118,6 +140,13 @@ void use_mouse(Gui& gui, const MapPane& pane, const ShownMap& shown) {
 /// Whether there is room for the arrow of gravity, right of the legend.
 bool shows_gravity(float width, float em) { return width > 26.0f * em; }
 
+float legend_width(float width, float em) { return width - (shows_gravity(width, em) ? 3.5f * em : 0.0f); }
+
+/// At least so much that the arrow of gravity has its place.
+float below_map(const FrameView& annotated, float width, float em) {
+  return std::max(2.6f * em, legend_height(annotated, legend_width(width, em)));
+}
+
 }  // namespace
 
 std::string grain_text(const ViewModel& model, Index grain) {
@@ -144,9 +173,11 @@ std::string grain_text(const ViewModel& model, Index grain) {
                            : fmt::format("{}, γ = {:.3g}, {}", text, gamma, reading_text(model.state.map));
 }
 
-float map_area_height(float picture, float em) {
+float map_area_height(const FrameView& annotated, float width, float picture, float em) {
   const ImGuiStyle& style = ImGui::GetStyle();
-  return picture + (1.0f + legend_lines) * em + 2.0f * (style.WindowPadding.y + style.ItemSpacing.y);
+  const float inner = width - 2.0f * style.WindowPadding.x;
+  return picture + caption_height(annotated, inner, em) + below_map(annotated, inner, em) +
+         2.0f * (style.WindowPadding.y + style.ItemSpacing.y);
 }
 
 void draw_map_pane(Gui& gui, const MapPane& pane, const ImVec2& room) {
@@ -178,10 +209,11 @@ void draw_map_area(Gui& gui) {
   const float width = ImGui::GetContentRegionAvail().x;
   const FrameView& annotated = gui.model.annotated_map();
   draw_caption(annotated, width);
+  const float below = below_map(annotated, width, gui.em) + ImGui::GetStyle().ItemSpacing.y;
   const ImVec2 room{std::max(width, 1.0f),
-                    std::max(ImGui::GetContentRegionAvail().y - legend_lines * gui.em, 4.0f * gui.em)};
+                    std::max(ImGui::GetContentRegionAvail().y - below, least_picture * gui.em)};
   draw_map_pane(gui, {}, room);
-  draw_legends(gui, gui.model.annotated_map(), true, shows_gravity(width, gui.em) ? 3.0f * gui.em : 0.0f);
+  draw_legends(gui, annotated, legend_width(width, gui.em), true);
 }
 
 }  // namespace talus

@@ -12,51 +12,48 @@ namespace talus {
 namespace {
 
 constexpr float gap = 0.8f;           ///< between the two, em
-constexpr float legend_row = 2.4f;    ///< below each, em
 constexpr float least_width = 12.0f;  ///< of a picture, em
 constexpr float least_height = 3.0f;
-constexpr int most_lines = 3;  ///< of the title of a map
 
-/// What stands above a view.
-struct PaneHead {
-  std::string run;                 ///< "seed-1.h5"
-  std::string caption;             ///< its angle
-  std::vector<std::string> title;  ///< of its map, by lines
+/// A line above a view: the name of its run, its angle, or the title of its map.
+struct HeadLine {
+  std::string text;
+  bool is_name = false;
+  bool beside_name = false;  ///< on the right, in the line of the name
 };
+using PaneHead = std::vector<HeadLine>;
 
-/// By words, in lines of that width; what is too much ends in "...".
-std::vector<std::string> wrapped(const std::string& text, float width) {
+/// A name in a width, px: without the middle if it is longer.
+std::string shortened(const std::string& name, float width) {
   const ImFont& font = *ImGui::GetFont();
   const float size = ImGui::GetFontSize();
-  std::vector<std::string> lines{""};
-  for (std::size_t start = 0; start < text.size();) {
-    const std::size_t end = std::min(text.find(' ', start), text.size());
-    const std::string word = text.substr(start, end - start);
-    const std::string longer = lines.back().empty() ? word : lines.back() + " " + word;
-    if (lines.back().empty() || rich_width(font, size, longer) <= width)
-      lines.back() = longer;
-    else
-      lines.push_back(word);
-    start = end + 1;
+  std::string shorter = name;
+  for (std::size_t kept = name.size(); kept > 0 && rich_width(font, size, shorter) > width; --kept) {
+    // Not within a character of several bytes.
+    const auto begins = [&](std::size_t at) { return (static_cast<unsigned char>(name[at]) & 0xC0) != 0x80; };
+    std::size_t head = kept / 2, tail = name.size() - (kept - head);
+    while (head > 0 && !begins(head)) --head;
+    while (tail < name.size() && !begins(tail)) ++tail;
+    shorter = name.substr(0, head).append("…").append(name.substr(tail));
   }
-  if (lines.size() > most_lines) {
-    lines.resize(most_lines);
-    lines.back() += " …";
-  }
-  return lines;
+  return shorter;
 }
 
+/// Name and angle share a line if both have room.
 PaneHead head_of(const ViewModel& of, const FrameView& annotated, float width) {
-  return {std::filesystem::path(of.path()).filename().string(), annotated.caption,
-          wrapped(annotated.title, width)};
-}
-
-/// Name and angle share a line where both have room.
-int lines_of(const PaneHead& head, float width) {
   const ImFont& font = *ImGui::GetFont();
   const float size = ImGui::GetFontSize();
-  const bool both = rich_width(font, size, head.run) + rich_width(font, size, head.caption) + size < width;
-  return static_cast<int>(head.title.size()) + (both ? 1 : 2);
+  const std::string name = shortened(std::filesystem::path(of.path()).filename().string(), width);
+  const bool both =
+      ImGui::CalcTextSize(name.c_str()).x + rich_width(font, size, annotated.caption) + size < width;
+  PaneHead head = {{name, true, false}};
+  for (const std::string& line : wrapped_text(annotated.caption, width)) head.push_back({line, false, both});
+  for (const std::string& line : wrapped_text(annotated.title, width)) head.push_back({line, false, false});
+  return head;
+}
+
+int lines_of(const PaneHead& head) {
+  return static_cast<int>(std::ranges::count(head, false, &HeadLine::beside_name));
 }
 
 void draw_head(const PaneHead& head, float width, int lines) {
@@ -65,28 +62,26 @@ void draw_head(const PaneHead& head, float width, int lines) {
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const ImU32 ink = ImGui::GetColorU32(ImGuiCol_Text);
-  list.PushClipRect(corner, {corner.x + width, corner.y + static_cast<float>(lines) * line}, true);
-  const bool one_line = lines_of(head, width) == static_cast<int>(head.title.size()) + 1;
-  list.AddText(corner, ImGui::GetColorU32(ImGuiCol_CheckMark), head.run.c_str());
-  const float right = corner.x + width - rich_width(font, size, head.caption);
-  add_rich_text(list, {one_line ? right : corner.x, one_line ? corner.y : corner.y + line}, ink,
-                head.caption);
-  float y = corner.y + (one_line ? line : 2.0f * line);
-  for (const std::string& text : head.title) {
-    add_rich_text(list, {corner.x, y}, ink, text);
-    y += line;
+  float y = corner.y;
+  for (const HeadLine& of : head) {
+    if (of.is_name)
+      list.AddText({corner.x, y}, ImGui::GetColorU32(ImGuiCol_CheckMark), of.text.c_str());
+    else if (of.beside_name)
+      add_rich_text(list, {corner.x + width - rich_width(font, size, of.text), corner.y}, ink, of.text);
+    else
+      add_rich_text(list, {corner.x, y}, ink, of.text);
+    if (!of.beside_name) y += line;
   }
-  list.PopClipRect();
   ImGui::Dummy({width, static_cast<float>(lines) * line});
 }
 
 /// Where the two views are: as columns, or one above the other.
 struct PairLayout {
   bool columns = true;
-  ImVec2 pane;     ///< each, with what is above and below its picture
-  ImVec2 picture;  ///< room for it
-  int lines = 2;   ///< above it
-  int rows = 1;    ///< of the legend below it
+  ImVec2 pane;         ///< each, with what is above and below its picture
+  ImVec2 picture;      ///< room for it
+  int lines = 2;       ///< above it
+  float below = 0.0f;  ///< height of the legend below it
   std::array<PaneHead, 2> heads;
 };
 
@@ -99,12 +94,11 @@ PairLayout pair_layout(const Gui& gui, const ImVec2& room, bool columns) {
   of.heads[0] = head_of(model, model.annotated_map(), of.pane.x);
   of.heads[1] =
       head_of(model.run_beside() ? *model.run_beside() : model, model.annotated_map_beside(), of.pane.x);
-  of.lines = std::max(lines_of(of.heads[0], of.pane.x), lines_of(of.heads[1], of.pane.x));
-  of.rows = std::max(legend_rows(model.annotated_map(), of.pane.x),
-                     legend_rows(model.annotated_map_beside(), of.pane.x));
+  of.lines = std::max(lines_of(of.heads[0]), lines_of(of.heads[1]));
+  of.below = std::max(legend_height(model.annotated_map(), of.pane.x),
+                      legend_height(model.annotated_map_beside(), of.pane.x));
   const float between = ImGui::GetStyle().ItemSpacing.y;
-  const float below = static_cast<float>(of.rows) * (legend_row * em + between);
-  of.picture = {of.pane.x, of.pane.y - below - 1.2f * static_cast<float>(of.lines) * em - 2.0f * between};
+  of.picture = {of.pane.x, of.pane.y - of.below - 1.2f * static_cast<float>(of.lines) * em - 3.0f * between};
   return of;
 }
 
@@ -136,7 +130,8 @@ bool draw_pair(Gui& gui) {
                       ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
     draw_head(of.heads[k], of.pane.x, of.lines);
     draw_map_pane(gui, {.beside = k == 1, .gravity = false}, of.picture);
-    draw_legends(gui, k == 0 ? gui.model.annotated_map() : gui.model.annotated_map_beside(), k == 0);
+    draw_legends(gui, k == 0 ? gui.model.annotated_map() : gui.model.annotated_map_beside(), of.pane.x,
+                 k == 0);
     ImGui::EndChild();
   }
   return true;

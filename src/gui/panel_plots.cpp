@@ -154,9 +154,10 @@ void draw_choices(Gui& gui) {
   draw_axis(gui);
   ImGui::SameLine();
   draw_more(gui);
-  ImGui::SameLine();
+  const auto beside = [&](const char* label) { same_line_if_fits(ImGui::CalcTextSize(label).x + gui.em); };
+  beside("export ...");
   draw_export(gui);
-  ImGui::SameLine();
+  beside("behind ...");
   draw_behind_choice(gui);
 }
 

@@ -73,12 +73,6 @@ void draw_live(Gui& gui, LiveRun& live) {
     ImGui::TextWrapped("recorded in %s", output.c_str());
 }
 
-/// Continues the line if that much fits.
-void same_line_if_fits(float width) {
-  ImGui::SameLine();
-  if (ImGui::GetContentRegionAvail().x < width) ImGui::NewLine();
-}
-
 void draw_landmarks(Gui& gui) {
   ViewModel& model = gui.model;
   struct LandmarkButton {

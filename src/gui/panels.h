@@ -47,16 +47,16 @@ void choose_beside(Gui& gui);
 /// What the map tells of a grain under the mouse, as rich text: what its bar measures, with the unit, and
 /// gamma on maps of overloaded grains.
 std::string grain_text(const ViewModel& model, Index grain);
-/// The height of the map with its title and legend around a picture of `picture` px.
-float map_area_height(float picture, float em);
+/// The height of the map with its title and legend in a width, around a picture of `picture` px.
+float map_area_height(const FrameView& annotated, float width, float picture, float em);
 /// All keys.
 void draw_help(Gui& gui);
 
-/// The legends of a view in a row, in the available width but a margin on the right, px.
+/// The legends of a view in a width, px, in as many rows as they need.
 /// The range of the first bar is chosen with the mouse if the view is `of_first` map.
-void draw_legends(Gui& gui, const FrameView& view, bool of_first, float margin = 0.0f);
-/// How many rows they have in a width, px.
-int legend_rows(const FrameView& view, float width);
+void draw_legends(Gui& gui, const FrameView& view, float width, bool of_first);
+/// How high they are then, px.
+float legend_height(const FrameView& view, float width);
 
 /// Carries out what the pressed keys mean.
 void handle_keys(Gui& gui);

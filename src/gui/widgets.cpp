@@ -169,6 +169,19 @@ float rich_width(const ImFont& font, float size, std::string_view text) {
   return width;
 }
 
+std::vector<std::string> wrapped_text(std::string_view text, float width) {
+  const ImFont& font = *ImGui::GetFont();
+  const float size = ImGui::GetFontSize();
+  std::vector<std::string> lines;
+  for (const std::string& piece : breakable_pieces(text))
+    if (!lines.empty() && rich_width(font, size, lines.back() + " " + piece) <= width)
+      lines.back() += " " + piece;
+    else
+      lines.push_back(piece);
+  if (lines.empty()) lines.emplace_back();
+  return lines;
+}
+
 void add_rich_text(ImDrawList& list, const ImVec2& place, ImU32 colour, std::string_view text) {
   const ImFont& font = *ImGui::GetFont();
   const float size = ImGui::GetFontSize();
@@ -185,6 +198,11 @@ void rich_text(std::string_view text) {
   const ImVec2 place = ImGui::GetCursorScreenPos();
   add_rich_text(*ImGui::GetWindowDrawList(), place, ImGui::GetColorU32(ImGuiCol_Text), text);
   ImGui::Dummy({rich_width(*ImGui::GetFont(), ImGui::GetFontSize(), text), ImGui::GetTextLineHeight()});
+}
+
+void same_line_if_fits(float width) {
+  ImGui::SameLine();
+  if (ImGui::GetContentRegionAvail().x < width) ImGui::NewLine();
 }
 
 void fact(std::string_view label, const std::string& value) {

@@ -51,7 +51,12 @@ bool named_choice(Gui& gui, const char* name, const char* label, const std::vect
 /// A line of text in the syntax of pictures: "_c" sets c as a subscript.
 void rich_text(std::string_view text);
 float rich_width(const ImFont& font, float size, std::string_view text);
+/// In lines of at most that width, px, at least one; only a single piece (breakable_pieces) may be wider.
+std::vector<std::string> wrapped_text(std::string_view text, float width);
 void add_rich_text(ImDrawList& list, const ImVec2& place, ImU32 colour, std::string_view text);
+
+/// What follows stands beside the last widget if a width, px, is free there, else in the next line.
+void same_line_if_fits(float width);
 
 /// "label   value" in two columns.
 void fact(std::string_view label, const std::string& value);

@@ -77,6 +77,20 @@ WindowHandle make_window(int width, int height) {
   return window;
 }
 
+/// Makes a window that is too large for its display as large as that is. A window manager would, but there
+/// may be none.
+void fit_display(GLFWwindow* window) {
+  GLFWmonitor* const display = glfwGetPrimaryMonitor();
+  if (display == nullptr) return;
+  int left = 0, top = 0, most_width = 0, most_height = 0, width = 0, height = 0;
+  glfwGetMonitorWorkarea(display, &left, &top, &most_width, &most_height);
+  if (most_width <= 0 || most_height <= 0) return;
+  glfwGetWindowSize(window, &width, &height);
+  if (width <= most_width && height <= most_height) return;
+  glfwSetWindowSize(window, std::min(width, most_width), std::min(height, most_height));
+  glfwSetWindowPos(window, left, top);
+}
+
 /// The factor by which text and widgets are larger than on a usual display. Where the window has more pixels
 /// than its size says, they are finer rather than more.
 float display_scale(GLFWwindow* window) {
@@ -227,6 +241,7 @@ GuiRequests draw(WindowState& state, ViewModel& model, int width, int height) {
 GuiWindow::GuiWindow(int width, int height) : state_(std::make_unique<WindowState>(width, height)) {
   GLFWwindow* window = state_->window.get();
   glfwSetWindowUserPointer(window, state_.get());
+  fit_display(window);
   glfwSetWindowSizeLimits(window, smallest_side, smallest_side, GLFW_DONT_CARE, GLFW_DONT_CARE);
   catch_mouse(window);
   catch_keys(window);

@@ -195,6 +195,13 @@ TEST_F(Window, lists_its_keys_and_follows_its_size) {
   EXPECT_EQ(end(), 75);
 }
 
+TEST_F(Window, is_no_larger_than_its_display) {
+  process_ = start_talus({"view", "bed.toml", "--size", "1700x1300"}, folder_.path());
+  ASSERT_TRUE(desktop_->wait_for_window("– Talus")) << errors_in(folder_.path());
+  const std::string geometry = output_of("xdotool getwindowgeometry --shell " + desktop_->window());
+  EXPECT_NE(geometry.find("X=0\nY=0\nWIDTH=1500\nHEIGHT=1000"), std::string::npos) << geometry;
+}
+
 TEST_F(Window, computes_a_run_and_records_it) {
   start({"bed.toml", "-o", "bed.h5"});
   click("play");

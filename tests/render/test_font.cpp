@@ -49,5 +49,12 @@ TEST(Font, AtlasHoldsAllGlyphsAtAllSizes) {
   }
 }
 
+TEST(Font, NumbersKeepTheirUnitsWhenALineIsBroken) {
+  EXPECT_EQ(breakable_pieces("ratio of grains, l = 10 D; 95 % of all"),
+            (std::vector<std::string>{"ratio", "of", "grains,", "l = 10 D;", "95 %", "of", "all"}));
+  EXPECT_EQ(breakable_pieces("at most 6.7 D"), (std::vector<std::string>{"at", "most", "6.7 D"}));
+  EXPECT_TRUE(breakable_pieces("").empty());
+}
+
 }  // namespace
 }  // namespace talus
