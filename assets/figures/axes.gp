@@ -2,7 +2,8 @@
 # Panels and their axes. The script is read once without drawing (pass 0), so that the ranges of the data are known: margins,
 # steps and formats of the numbers follow from them. For each panel k, a script says
 #   eval place(k)        its margins, in the grid of `grid`, or place_at for any other place
-#   x_from, x_to, ...    ends of the axes, NaN where the data has them; x_log = 1 for a logarithmic axis
+#   x_from, x_to, ...    ends of the axes, NaN where the data has them; x_log = 1 for a logarithmic axis; y_plain = 1 for one
+#                        whose numbers the script sets itself
 #   eval axes            ranges and numbers
 #   plot ...             and
 #   eval seen            keeps the ranges.
@@ -87,7 +88,7 @@ grid_of(panels, columns, panel_cm) = sprintf("panel_columns = %d; panel_rows = %
   columns, int((panels + columns - 1) / columns), panel_cm * int((panels + columns - 1) / columns))
 place_at(k, left, right, bottom, top) = sprintf("panel_k = %d; panel_at = %.9g; panel_from = %.9g; panel_width = %.9g; panel_height = %.9g; ", k, left, bottom, right - left, top - bottom) . \
   sprintf("set lmargin at screen %.9g; set rmargin at screen %.9g; set bmargin at screen %.9g; set tmargin at screen %.9g; ", left / width, right / width, bottom / height, top / height) . \
-  "x_from = NaN; x_to = NaN; y_from = NaN; y_to = NaN; x_log = 0; y_log = 0; y_top = NaN; x_bare = 0; y_bare = 0; x_title = ''; y_title = ''; heading = ''"
+  "x_from = NaN; x_to = NaN; y_from = NaN; y_to = NaN; x_log = 0; y_log = 0; y_top = NaN; x_bare = 0; y_bare = 0; y_plain = 0; x_title = ''; y_title = ''; heading = ''"
 place(k) = place_in(k, (k - 1) / panel_columns, (k - 1) % panel_columns, (height - key_height - grid_above - grid_below) / panel_rows)
 place_in(k, row, column, row_cm) = place_at(k, \
   1.0 * column / panel_columns * width + title_room + tick_room + number_gap, (column + 1.0) / panel_columns * width - larger(panel_right, 0.05 + x_overhang), \
@@ -106,7 +107,7 @@ find_ends = 'x_a = known(x_from) ? x_from : x_log ? log_low_end(x_least[panel_k]
   if (known(y_top) && y_b > y_top) { y_b = y_top }; \
   if (!(abs(y_b - y_a) > 0)) { y_b = y_a + 1 }; if (!(abs(x_b - x_a) > 0)) { x_b = x_a + 1 }; \
   x_l = smaller(x_a, x_b); x_h = larger(x_a, x_b); y_l = smaller(y_a, y_b); y_h = larger(y_a, y_b); \
-  x_power = x_log ? 0 : common_power(x_l, x_h); y_power = y_log ? 0 : common_power(y_l, y_h); \
+  x_power = x_log ? 0 : common_power(x_l, x_h); y_power = y_log || y_plain ? 0 : common_power(y_l, y_h); \
   x_s = x_log ? 0 : x_step(x_l, x_h, panel_width, tick_points, 6.0); y_s = y_log ? 0 : y_step(y_l, y_h, panel_height, tick_points)'
 set_titles = 'unset label 91; unset label 92; unset label 93; \
   if (strlen(x_title) > 0) { x_title = with_power(x_title, x_power); \

@@ -1,5 +1,6 @@
 # Above, where the critical contacts are in one bed, if its run is there; below, how many they are and how they hang together.
-grid_above = map_height > 0 ? map_height * width + 0.6 : 0
+map_cm = smaller(map_height * width, width)  # a deep bed is drawn narrower
+grid_above = map_height > 0 ? map_cm + 0.6 : 0
 symbols = 0
 eval grid(3, 3, 1, width > 12 ? 5 : 4)
 eval key_of_curves
@@ -9,7 +10,8 @@ if (map_height > 0) {
 }
 eval open_page
 if (map_height > 0) {
-  eval place_at(0, 0, width, height - key_height - map_height * width, height - key_height)
+  map_width = map_cm / map_height
+  eval place_at(0, 0.5 * (width - map_width), 0.5 * (width + map_width), height - key_height - map_cm, height - key_height)
   set style arrow 1 nohead linecolor rgb "#bbbbbb" linewidth 0.5
   set style arrow 2 nohead linecolor rgb "#000000" linewidth 2
   unset border

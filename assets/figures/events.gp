@@ -25,6 +25,7 @@ do for [k = 1:4] {
     x_to = 1.03 * theta_max
     x_title = "{/:Italic θ} (deg)"
     y_log = k == 3
+    y_plain = k == 4
     y_from = k == 3 ? energy_from : -largest_change
     y_to = k == 3 ? energy_to : largest_change
     y_title = k == 3 ? "{/:Italic E} / ({/:Italic mgD})" : "{/:Italic Δy/y} (10^{−6})"

@@ -126,9 +126,8 @@ TEST_P(InterruptedEnsemble, goes_on_to_the_same_bits) {
   const TemporaryFolder folder;
   write_file(folder, "bed.toml", tiny_bed);
   ASSERT_EQ(run_talus(ensemble_of("whole"), folder.path()).exit_code, 0);
-  const std::vector<int> codes =
-      stop_until_done([&] { return start_talus(ensemble_of("parts"), folder.path()); }, GetParam(), 50,
-                      folder.path("parts"));
+  const std::vector<int> codes = stop_until_done(
+      [&] { return start_talus(ensemble_of("parts"), folder.path()); }, GetParam(), 50, folder.path("parts"));
   for (const int code : codes)
     EXPECT_TRUE(code == 0 || code == -1 || code == 75) << code << errors_in(folder.path());
   EXPECT_EQ(codes.back(), 0);

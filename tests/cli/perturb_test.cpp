@@ -83,8 +83,11 @@ TEST_P(InterruptedPerturb, goes_on_to_the_same_table) {
   const TemporaryFolder folder;
   write_file(folder, "bed.toml", tiny_bed);
   ASSERT_EQ(run_talus(perturb("whole", {"--seed", "1"}), folder.path()).exit_code, 0);
-  const std::vector<int> codes = stop_until_done([&] { return start_talus(perturb("parts", {"--seed", "1"}), folder.path()); },
-                                                 GetParam(), 200, folder.path("parts"));
+  const std::vector<int> codes = stop_until_done(
+      [&] {
+        return start_talus(perturb("parts", {"--seed", "1"}), folder.path());
+      },
+      GetParam(), 200, folder.path("parts"));
   // A signal may come before the program waits for it.
   for (const int code : codes)
     EXPECT_TRUE(code == 0 || code == -1 || (code == 75 && GetParam() != SIGKILL))

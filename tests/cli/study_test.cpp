@@ -82,8 +82,8 @@ class InterruptedStudy : public testing::TestWithParam<int> {};
 TEST_P(InterruptedStudy, goes_on_to_the_same_bits) {
   const TemporaryFolder folder;
   write_file(folder, "bed.toml", tiny_bed);
-  const std::vector<int> codes = stop_until_done([&] { return start_talus(study_of("parts"), folder.path()); },
-                                                 GetParam(), 50, folder.path("parts"));
+  const std::vector<int> codes = stop_until_done(
+      [&] { return start_talus(study_of("parts"), folder.path()); }, GetParam(), 50, folder.path("parts"));
   // A signal may come before the program waits for it.
   for (const int code : codes)
     EXPECT_TRUE(code == 0 || code == -1 || (code == 75 && GetParam() != SIGKILL))

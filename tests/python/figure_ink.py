@@ -62,10 +62,6 @@ def glyphs_of(page):
     return glyphs
 
 
-def text_of(glyphs, label):
-    return "".join(glyph.letter for glyph in glyphs if glyph.label == label)
-
-
 def letters_of_svg(path):
     """The letters of an SVG, blanks left out: gnuplot writes all of them, also those outside of the page."""
     letters = {}
@@ -136,8 +132,12 @@ def faults(pdf, svg=None):
         width, height = page.rect.width, page.rect.height
     found = []
 
+    labels = {}
+    for glyph in glyphs:
+        labels[glyph.label] = labels.get(glyph.label, "") + glyph.letter
+
     def name(glyph):
-        return f"'{text_of(glyphs, glyph.label)}'"
+        return f"'{labels[glyph.label]}'"
 
     for glyph in glyphs:
         left, top, right, bottom = glyph.box

@@ -173,37 +173,35 @@ def test_ink_is_found(tmp_path):
 def all_figures(tmp_path_factory):
     """Every figure, of small beds and of the averages that lie in docs/data."""
     folder = tmp_path_factory.mktemp("all")
-    figures = folder / "figures"
-    bed = ROOT / "assets/scenarios/demo.toml"
-    common = "bed.length=12 bed.depth=5 tilt.rate=8 tilt.step=0.008 output.frame_every=0.5".split()
+    (folder / "bed.toml").write_text(
+        "[bed]\nlength = 15\ndepth = 6\n[tilt]\nrate = 10\nstep = 0.01\n[output]\nframe_every = 1\n"
+    )
 
-    def settings(*more):
-        return [word for key in [*common, *more] for word in ("--set", key)]
+    def run(name, *settings):
+        run_talus("run", "bed.toml", "-q", "-o", name, *[word for key in settings for word in ("--set", key)], folder=folder)
 
-    def draw(*words):
-        run_talus("figures", *words, "-q", "--overwrite", "-o", figures)
+    def draw(runs, only):
+        run_talus("figures", *runs, "--only", only, "-q", "--overwrite", "-o", "figures", folder=folder)
 
-    averages = ROOT / "docs/data/paper-pbc/ensemble.h5"
-    draw(averages, "--only", "precursor-ranking,angle-distributions,angle-correlations")
-    for name, *more in [
-        ("flow", "tilt.after_failure=lower"),
-        ("cycles", "tilt.program=to 8, to 0, 3 times"),
-        ("walls", "bed.boundary=walls"),
-        ("grains", "bed.length=15", "bed.depth=6", "seed=3"),
-    ]:
-        keys = [key for key in [*common, *more]]
-        once = {key.split("=", 1)[0]: key for key in keys}.values()
-        run_talus("run", bed, *[word for key in once for word in ("--set", key)], "-o", folder / f"{name}.h5", "-q")
-    run_talus("ensemble", bed, "--seeds", "1-2", "--vary", "deposition.method=pour,collapse", *settings(), "-o", folder / "two", "-q")
-    draw(folder / "walls.h5", "--only", "6,7")
-    draw(folder / "cycles.h5", "--only", "cycles")
-    draw(folder / "flow.h5", "--only", "dynamic-angle")
-    run_talus("events", folder / "grains.h5", "-q")
-    draw(folder / "grains.h5", "--only", "8,10,11,13,overloaded-over-scale,contact-directions,force-chains,force-distribution,critical-contacts,correlations,weak-contacts,persistence,events")
-    draw(folder / "two", "--only", "4,5,9,12,14,over-tilt,before-failure,precursors,difference-over-tilt,difference-before-failure")
-    return figures
+    run("grains.h5", "seed=3")
+    run("walls.h5", "bed.boundary=walls")
+    run("cycles.h5", "tilt.program=to 6, to 0, 3 times")
+    run("flow.h5", "tilt.after_failure=lower")
+    two = ["--seeds", "1-2", "--vary", "deposition.method=pour,collapse", "-o", "two"]
+    run_talus("ensemble", "bed.toml", *two, folder=folder)
+    run_talus("events", "grains.h5", "-q", folder=folder)
+    draw([ROOT / "docs/data/paper-pbc/ensemble.h5"], "precursor-ranking,angle-distributions,angle-correlations")
+    draw(["walls.h5"], "6,7")
+    draw(["cycles.h5"], "cycles")
+    draw(["flow.h5"], "dynamic-angle")
+    draw(["two"], "4,5,9,12,14,over-tilt,before-failure,precursors,difference-over-tilt,difference-before-failure")
+    of_a_run = "8,10,11,13,overloaded-over-scale,contact-directions,force-chains,force-distribution,critical-contacts"
+    draw(["grains.h5"], of_a_run + ",correlations,weak-contacts,persistence,events")
+    return folder / "figures"
 
 
 @pytest.mark.parametrize("name", BEDS)
 def test_texts_of_all_figures_are_whole(all_figures, tmp_path, name):
+    catalogue = re.findall(r"^\| `([\w-]+)` \|", (ROOT / "docs/figures.md").read_text(), re.M)
+    assert {script.stem for script in all_figures.glob("*.gp")} == set(catalogue)
     assert faults_of(all_figures, tmp_path, dict(BEDS[name])) == []

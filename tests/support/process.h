@@ -35,9 +35,9 @@ bool wait_until_it_catches(pid_t process, int signal);
 /// Sleeps for that long before attempt 0 to stop something, and a quarter longer before each one more: it
 /// comes to its end in few attempts, however slow the machine.
 void pause_before(int attempt, double milliseconds);
-/// Starts a program again and again, and sends it a signal a little later each time, until it comes to its end.
-/// Returns the exit code of each time: the last is 0, unless 40 times are not enough. On a machine so busy that
-/// the program is done before the first signal, its result is removed, and all begins anew.
+/// Starts a program again and again, and sends it a signal a little later each time, until it comes to its
+/// end. Returns the exit code of each time: the last is 0, unless 40 times are not enough. On a machine so
+/// busy that the program is done before the first signal, its result is removed, and all begins anew.
 std::vector<int> stop_until_done(const std::function<pid_t()>& start, int signal, double milliseconds,
                                  const std::filesystem::path& result);
 
