@@ -38,10 +38,12 @@ powers(n, last, every) = n > last ? "" : sprintf(", '%s' %.15g", power_text(n), 
 between(n, last, every) = n > last ? "" : (every > 1 ? (every > 12 ? "" : sprintf(", '' %.15g 1", 10.0 ** n)) : \
   sprintf(", '' %g 1, '' %g 1, '' %g 1, '' %g 1", 2 * 10.0 ** n, 4 * 10.0 ** n, 6 * 10.0 ** n, 8 * 10.0 ** n)) . between(n + 1, last, every)
 tick_at(m, n, low, high) = m * 10.0 ** n >= low * 0.999999 && m * 10.0 ** n <= high * 1.000001 ? sprintf(", '%s' %.15g", mantissa(m, n), m * 10.0 ** n) : ""
-few(n, last, low, high) = n > last ? "" : tick_at(1, n, low, high) . tick_at(2, n, low, high) . tick_at(5, n, low, high) . few(n + 1, last, low, high)
+# At 1, 2 and 5 times each power, or 1 and 3 times, as there is room for `step` (decades) between them.
+few(n, last, low, high, step) = n > last ? "" : tick_at(1, n, low, high) . \
+  (step < 0.3 ? tick_at(2, n, low, high) . tick_at(5, n, low, high) : step < 0.47 ? tick_at(3, n, low, high) : "") . few(n + 1, last, low, high, step)
 log_list(low, high, cm, points, horizontal) = (from10 = ceil(log10(low) - 1e-6), to10 = floor(log10(high) + 1e-6), \
   every10 = ceil((log10(high) - log10(low)) * (horizontal ? 0.14 : 0.07) * points / cm), every10 = every10 < 1 ? 1 : every10, \
-  to10 - from10 < 2 && log10(high / low) > 0.4 ? few(from10 - 1, to10, low, high)[3:*] : \
+  to10 - from10 < 2 && log10(high / low) > 0.4 ? few(from10 - 1, to10, low, high, (horizontal ? 0.2 + text_cm("5×10^{−5}", points) : 0.06 * points) * log10(high / low) / cm)[3:*] : \
   to10 - from10 < 2 ? tick_list(first_tick(low, nice((high - low) / 2.0)), last_tick(high, nice((high - low) / 2.0)), nice((high - low) / 2.0), 0) : \
   powers(every10 * ceil(1.0 * from10 / every10), to10, every10)[3:*] . between(from10 - 1, to10, every10))
 
@@ -129,5 +131,5 @@ seen = 'if (pass == 0) { \
     y_least[panel_k] = smaller(GPVAL_Y_MIN, GPVAL_Y_MAX); y_most[panel_k] = larger(GPVAL_Y_MIN, GPVAL_Y_MAX); \
     eval find_ends; \
     if (strlen(heading) > 0) { text_to_break = with_power(heading, strlen(y_title) == 0 ? y_power : 0); break_cm = panel_width; break_points = heading_points; eval break_text; heading_lines = larger(heading_lines, text_lines) }; \
-    tick_room = larger(tick_room, y_log ? text_cm("10^{−00}", tick_points) : widest_number(y_l, y_h, y_s, y_power, tick_points)); \
+    tick_room = larger(tick_room, y_log ? text_cm(y_h < 1001 * y_l ? "5×10^{−00}" : "10^{−00}", tick_points) : widest_number(y_l, y_h, y_s, y_power, tick_points)); \
     x_overhang = larger(x_overhang, 0.5 * (x_log ? text_cm("10^{−00}", tick_points) : widest_number(x_l, x_h, x_s, x_power, tick_points))) }'
