@@ -184,9 +184,12 @@ Layout lay_out(const FrameView& view, int width, const Font& font, const LayoutL
     throw Error(ExitCode::usage,
                 fmt::format("width = {}: expected {} ... {} px", width, smallest_width, largest_side));
   if (!view.furniture) return lay_out_bed(view, width);
-  const double wanted_em = std::min(std::max(10.0, std::round(width / view.letters)), limits.largest_em);
+  // Lines are broken at the same size whether or not other pictures limit it: all of a panel have one size
+  // then.
+  const double wanted_em = std::max(10.0, std::round(width / view.letters));
   for (const bool broken : {false, true})
-    for (double em = wanted_em; em >= (broken ? smallest_em : least_unbroken * wanted_em); em -= 0.5)
+    for (double em = std::min(wanted_em, limits.largest_em);
+         em >= (broken ? smallest_em : least_unbroken * wanted_em); em -= 0.5)
       if (std::optional<Layout> layout = lay_out_with(view, width, em, broken, font, limits)) return *layout;
   throw Error(
       ExitCode::usage,

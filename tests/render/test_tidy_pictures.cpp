@@ -191,11 +191,12 @@ std::vector<std::vector<FrameView>> panel_of(const Bed& bed, const std::vector<s
 TEST(TidyPictures, of_panels_whose_rows_are_level) {
   const Font font = embedded_font();
   for (const auto& [length, depth] : {std::pair{60.0, 30.0}, {200.0, 40.0}, {10.0, 5.0}})
-    for (const std::vector<std::string>& maps :
-         {std::vector<std::string>{"gamma", "clusters"}, {"coarse+forces", "displacement", "temperature"}})
+    for (const std::vector<std::string>& maps : {std::vector<std::string>{"gamma", "clusters"},
+                                                 {"coarse+forces", "displacement", "temperature"},
+                                                 {"dilation", "vorticity"}})
       for (const bool turned : {false, true})
         for (const bool traced : {false, true})
-          for (const int width : {200, 400, 800, 1600}) {
+          for (const int width : {200, 400, 550, 800, 1600}) {
             std::vector<std::vector<FrameView>> rows = panel_of(bed_of(length, depth), maps, turned, traced);
             const std::vector<LayoutLimits> limits = level_rows(rows, width, font);
             for (std::size_t r = 0; r < rows.size(); ++r) {
@@ -214,6 +215,23 @@ TEST(TidyPictures, of_panels_whose_rows_are_level) {
               }
             }
           }
+}
+
+// Otherwise the columns of a panel would have letters of different sizes.
+TEST(TidyPictures, letters_under_a_limit_have_the_size_of_the_limit) {
+  const Font font = embedded_font();
+  const Bed bed = bed_of(50.0, 20.0);
+  for (const MapKind kind : map_kinds())
+    for (int width = 300; width < 1000; width += 50) {
+      FrameView view = view_of(bed, longest_settings(std::string(map_name(kind))));
+      view.letters /= 2.0;
+      LayoutLimits limits;
+      for (const double less : {0.0, 1.0, 2.0}) {
+        limits.largest_em = lay_out(view, width, font).em - less;
+        EXPECT_EQ(lay_out(view, width, font, limits).em, limits.largest_em)
+            << map_name(kind) << ", " << width << " px";
+      }
+    }
 }
 
 TEST(TidyPictures, panels_have_letters_that_go_by_the_width_of_all_columns) {
