@@ -43,7 +43,7 @@ y_to = 1.05
 x_title = "{/:Italic ℓ} / {/:Italic D}"
 y_title = "{/:Italic γ_ℓ}"
 eval axes
-set label 1 letter(2) at graph 0.04, graph 0.93 left
+set label 100 letter(2) at graph 0.04, graph 0.93 left
 last_limit = -1.0
 do for [f = 1:words(factors)] {
   limit = word(thresholds, f) + 0.0

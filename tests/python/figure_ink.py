@@ -1,5 +1,6 @@
 """Where a figure has its texts: each glyph as ink on the page, from its PDF; what is cut off, from its SVG."""
 
+import re
 import xml.etree.ElementTree as ElementTree
 from dataclasses import dataclass
 
@@ -168,6 +169,11 @@ def faults(pdf, svg=None):
         for glyph in glyphs:
             if crosses(stroke, glyph.box):
                 found.append(f"{name(glyph)} is crossed by a line")
+    # Letters of panels count on from (a), and no panel has one alone.
+    panels = sorted(match[1] for label in labels.values() if (match := re.match(r"\(([a-z])\)", label)))
+    expected = [chr(ord("a") + k) for k in range(max(2, len(panels)))] if panels else []
+    if panels != expected:
+        found.append(f"the panels are lettered {', '.join(panels)}, not {', '.join(expected)}")
     if svg is not None:
         drawn = {}
         for glyph in glyphs:
