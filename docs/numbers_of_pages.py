@@ -19,8 +19,7 @@ SEEDS = range(1, 9)
 
 def row_of(kind):
     """A row of the tutorial's table of angles: its text, and its values."""
-    label = {"poured": "poured", "collapsed": "collapsed"}[kind]
-    return (f"| {label} | {', '.join(['{:.1f}'] * len(SEEDS))} | {{:.2f}} ± {{:.2f}} | {{:.1f}} |",
+    return (f"| {kind} | {', '.join(['{:.1f}'] * len(SEEDS))} | {{:.2f}} ± {{:.2f}} | {{:.1f}} |",
             [*(f"{kind}.{seed}" for seed in SEEDS), f"{kind}.mean", f"{kind}.error", f"{kind}.deviation"])
 
 

@@ -33,7 +33,7 @@ std::vector<double> label_widths(const Bar& bar, double em, const Font& font) {
   return widths;
 }
 
-/// With every second tick, until the labels have room; with the first and the last one at least.
+/// With every second tick, until the labels have room.
 Bar thinned(Bar bar, double room, double em, const Font& font) {
   const auto needed = [&] {
     const std::vector<double> widths = label_widths(bar, em, font);

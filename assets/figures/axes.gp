@@ -62,7 +62,7 @@ with_power(text, power) = power == 0 ? text : words(text) > 2 && word(text, word
   before_last(text) . power_unit(power) . " " . last_word(text) : \
   last_word(text)[1:1] eq "(" ? before_last(text) . "(" . power_unit(power) . " " . last_word(text)[2:*] : text . " (" . power_unit(power) . ")"
 
-most_panels = 200
+most_panels = 1000
 if (pass == 0) {
   array x_least[most_panels]
   array x_most[most_panels]

@@ -1,7 +1,7 @@
 
 # The key stands above all panels, in as many columns as its longest text allows, longer texts on several lines; the page
 # is higher by as much. Of each entry: the line and the point of its sample ("" for none), or the fill of a box, and its text.
-most_entries = 60
+most_entries = 1000
 array key_line[most_entries]
 array key_point[most_entries]
 array key_box[most_entries]

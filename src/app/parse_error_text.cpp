@@ -1,6 +1,7 @@
 #include "app/parse_error_text.h"
 
 #include <algorithm>
+#include <cctype>
 #include <fmt/core.h>
 #include <string_view>
 
@@ -35,10 +36,18 @@ std::string value_of(const CLI::Option& option) {
   return choices.empty() ? before(type, ":in [") : "{" + choices;
 }
 
+/// The first sentence of a description, without the default behind it. "e.g. " ends no sentence.
+std::string first_sentence(const std::string& description) {
+  const std::string text = before(description, " [");
+  for (std::size_t at = text.find(". "); at != std::string::npos; at = text.find(". ", at + 1))
+    if (std::isupper(static_cast<unsigned char>(text[at + 2])) != 0) return text.substr(0, at);
+  return text;
+}
+
 /// "--range: expected LOW,HIGH, found 0..1 (LOW,HIGH: ends of the bar ...)".
 std::string expected(const CLI::Option& option, const std::string& found) {
-  const std::string meaning = before(before(option.get_description(), " ["), ". ");
-  return fmt::format("{}: expected {}, found {} ({})", option.get_name(), value_of(option), found, meaning);
+  return fmt::format("{}: expected {}, found {} ({})", option.get_name(), value_of(option), found,
+                     first_sentence(option.get_description()));
 }
 
 std::string missing(const CLI::App& command, const std::string& said) {
@@ -47,7 +56,7 @@ std::string missing(const CLI::App& command, const std::string& said) {
                        options);
   const std::string name = before(said, " is required");
   const CLI::Option* option = option_called(command, name);
-  if (option == nullptr) return said.starts_with("A subcommand") ? "a command of it is missing" : said;
+  if (option == nullptr) return said.starts_with("A subcommand") ? "a subcommand is missing" : said;
   if (option->get_positional()) return name + " is missing";
   return fmt::format("{} is missing: expected {} {}", name, name, value_of(*option));
 }

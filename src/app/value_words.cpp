@@ -10,7 +10,7 @@ namespace {
 struct ValueWord {
   std::string_view option;
   std::string_view word;
-  std::string_view command = {};  ///< its name, where the word is of this command alone; such rows come first
+  std::string_view command = {};  ///< its name, if the word is of this command alone
 };
 
 constexpr ValueWord value_words[] = {
@@ -79,6 +79,13 @@ constexpr ValueWord value_words[] = {
     {"--max-iterations", "N"},
 };
 
+/// Whether the word is one of the parser's own, as "FLOAT", which says nothing to a user.
+bool is_word_of_parser(const std::string& word) {
+  constexpr std::string_view words[] = {"TEXT", "FLOAT", "INT",  "UINT",    "BOOLEAN",
+                                        "CHAR", "ENUM",  "NONE", "COMPLEX", "[some_object]"};
+  return std::ranges::find(words, word) != std::end(words);
+}
+
 std::string_view word_of(const std::string& option, const std::string& command) {
   std::string_view word;
   for (const ValueWord& row : value_words) {
@@ -113,12 +120,6 @@ void name_values(CLI::App& app) {
     name_values_of(*command, command->get_name().empty() ? app.get_name() : command->get_name());
     name_values(*command);
   }
-}
-
-bool is_word_of_parser(const std::string& word) {
-  constexpr std::string_view words[] = {"TEXT", "FLOAT", "INT",  "UINT",    "BOOLEAN",
-                                        "CHAR", "ENUM",  "NONE", "COMPLEX", "[some_object]"};
-  return std::ranges::find(words, word) != std::end(words);
 }
 
 }  // namespace talus

@@ -10,7 +10,4 @@ namespace talus {
 /// show: "DEG" for an angle in degrees, "FOLDER", "LOW,HIGH".
 void name_values(CLI::App& app);
 
-/// Whether the word is one of the parser's own, as "FLOAT", which says nothing to a user.
-bool is_word_of_parser(const std::string& word);
-
 }  // namespace talus

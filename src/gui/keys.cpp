@@ -141,9 +141,10 @@ void act(Gui& gui, ImWchar key) {
       save_state(gui);
       break;
     default:
-      if (!change_view(gui, key) && key > ' ' && key < 127)
+      if (!change_view(gui, key) && key > ' ')
         model.state.message =
-            fmt::format("{} is for nothing here: ? lists the keys.", static_cast<char>(key));
+            key < 127 ? fmt::format("{} does nothing here; ? lists the keys.", static_cast<char>(key))
+                      : "That key does nothing here; ? lists the keys.";
   }
 }
 

@@ -52,7 +52,8 @@ LegendItem bar_item(const Bar& bar, float room, float em) {
     item.bar_top = static_cast<float>(item.lines.size()) * text_line * em;
     item.bar_length = std::max(shortest_bar * em, std::min(item.bar_length, room - low - high));
   }
-  item.width = std::max(item.bar_left + item.bar_length + high, text_width(item.lines[0]));
+  item.width = item.bar_left + item.bar_length + high;
+  for (const std::string& line : item.lines) item.width = std::max(item.width, text_width(line));
   item.height = item.bar_top + below_bar * em;
   return item;
 }

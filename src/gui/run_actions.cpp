@@ -14,7 +14,7 @@ namespace {
 
 /// Why a run that has ended does nothing more.
 std::string ended_text(const ViewModel& model, const LiveStatus& status) {
-  return fmt::format("The run has ended, at {:.2f}°: r begins {} anew{}.", degrees(status.tilt),
+  return fmt::format("The run has ended, at {:.2f}°; r restarts {}{}.", degrees(status.tilt),
                      model.branch_line() ? "the branch" : "it",
                      status.commands_given > 0 ? ", U goes back before the last command" : "");
 }
@@ -81,8 +81,8 @@ void deposit(Gui& gui) {
   } else {
     model.state.message = status.done ? ended_text(model, status)
                                       : fmt::format(
-                                            "The bed is deposited, and at {:.2f}°: space goes on, r "
-                                            "begins anew.",
+                                            "The bed is deposited and tilted by {:.2f}°; space "
+                                            "continues, r restarts the run.",
                                             degrees(status.tilt));
   }
 }
@@ -97,8 +97,9 @@ void run_to_tilt(Gui& gui) {
     model.state.message = ended_text(model, status);
   } else if (tilt >= wanted - 1e-6) {
     model.state.run_to_tilt = next_round_tilt(tilt);
-    model.state.message = fmt::format("The tilt is {:.2f}°, and so not below {:.2f}°: {:.2f}° is the next.",
-                                      tilt, wanted, model.state.run_to_tilt);
+    model.state.message =
+        fmt::format("The tilt is already {:.2f}°, beyond {:.2f}°; the target is now {:.2f}°.", tilt, wanted,
+                    model.state.run_to_tilt);
   } else {
     live->run_to(radians(wanted));
     model.state.message = fmt::format("Computing until the tilt is {:.2f}°.", wanted);
@@ -115,12 +116,12 @@ void offer_tilt_ahead(ViewModel& model) {
 
 void send(Gui& gui, const Command& command) {
   LiveRun* live = gui.model.live();
-  if (!live) return refuse_in_replay(gui, "No command is taken");
+  if (!live) return refuse_in_replay(gui, "Commands are not possible");
   gui.model.follow();  // a command is to the run as it is now
   try {
     live->apply(command);
     const Command given = live->commands().back();
-    gui.model.state.message = fmt::format("Done after step {}: {}.", given.step, command_text(given));
+    gui.model.state.message = fmt::format("Applied after step {}: {}.", given.step, command_text(given));
   } catch (const Error& error) {
     gui.model.state.message = error.what();
   }

@@ -68,7 +68,7 @@ void finish(Gui& gui, const BedPlace& bed_place) {
   const std::vector<Index> found = gui.model.grains_within(corners);
   gui.model.select_found(found);
   gui.model.state.message =
-      fmt::format("{} grains lie within; {} are selected.", found.size(), gui.model.selected_grains().size());
+      fmt::format("Grains within: {}; selected: {}.", found.size(), gui.model.selected_grains().size());
 }
 
 }  // namespace

@@ -40,7 +40,7 @@ std::string absence_of(const ViewModel& model, Landmark landmark, bool goes_on) 
   const std::string name = name_of(landmark);
   if (landmark == Landmark::theta_c)
     return goes_on ? name + " is not known yet: the slope stands." : "There is no failure: the slope stands.";
-  return name + (goes_on ? " is not known yet." : " is not there, or not found yet.");
+  return name + (goes_on ? " is not known yet." : " does not exist, or has not been found yet.");
 }
 
 void next_overlay(MapLayers& layers) {
@@ -72,7 +72,7 @@ void choose_map(MapLayers& layers, std::size_t k) {
 void change_number(Gui& gui, double& value, double step, double low, double high, const char* what,
                    const char* unit) {
   value = std::clamp(value + step, low, high);
-  const char* limit = value == low ? ", the least" : value == high ? ", the most" : "";
+  const char* limit = value == low ? ", the minimum" : value == high ? ", the maximum" : "";
   say(gui, fmt::format("{}: {:.3g} {}{}.", what, value, unit, limit));
 }
 
@@ -178,8 +178,8 @@ void go_to_landmark(Gui& gui, Landmark landmark) {
 
 void zoom_about(Gui& gui, double factor, double x, double y) {
   if (gui.model.zoom(factor, x, y)) return;
-  say(gui, factor < 1.0 ? "The whole bed is shown: it can be no smaller."
-                        : "A few grains fill the picture: they can be no larger.");
+  say(gui, factor < 1.0 ? "The whole bed is visible; there is nothing to zoom out to."
+                        : "This is the largest zoom.");
 }
 
 void move_picture(Gui& gui, double dx, double dy) {
@@ -187,7 +187,7 @@ void move_picture(Gui& gui, double dx, double dy) {
   const ViewCamera& camera = model.state.camera;
   model.state.selecting.follow = false;
   if (model.look({camera.centre_x + dx, camera.centre_y + dy, camera.zoom})) return;
-  say(gui, "The bed ends there: + and the wheel zoom in, and then the picture can be moved.");
+  say(gui, "The bed ends there; zoom in (+ or the wheel) to move the picture.");
 }
 
 void show_whole_bed(Gui& gui) {
@@ -230,7 +230,7 @@ void change_speed(Gui& gui, double factor) {
     return say(gui, "A run that is computed goes as fast as it can; < and > are for a replay.");
   model.set_speed(std::min(factor * model.speed(), fastest_replay));
   say(gui, fmt::format("Speed of the replay: {:.3g} deg/s{}.", model.speed(),
-                       model.speed() >= fastest_replay ? ", the most" : ""));
+                       model.speed() >= fastest_replay ? ", the maximum" : ""));
 }
 
 bool change_view(Gui& gui, ImWchar key) {

@@ -43,7 +43,7 @@ std::string first_run_in(const std::string& folder) {
                     "-o FOLDER draws all of them, and talus ensemble average {0} averages them",
                     path, example));
   throw Error(ExitCode::missing_input,
-              fmt::format("{} is a folder, and no such run; expected a run file{}, or a folder RUN.h5.run",
+              fmt::format("{} is a folder, but not a run; expected a run file{}, or a folder RUN.h5.run",
                           path, example));
 }
 
@@ -73,13 +73,13 @@ void refuse_no_run(const std::string& path) {
   std::string folder = path;
   while (folder.size() > 1 && folder.ends_with('/')) folder.pop_back();
   if (!folder.ends_with(run_folder(""))) folder = run_folder(folder);
+  if (fs::is_regular_file(path, unknown)) refuse_file(path);
   if (fs::is_directory(folder, unknown))
     throw Error(ExitCode::missing_input, folder +
                                              ": nothing is committed there yet; wait for the first "
                                              "checkpoint, or start its command again; if it was damaged, "
                                              "save what is undamaged with: talus repair");
   if (fs::is_directory(path, unknown)) refuse_folder(path);
-  if (fs::is_regular_file(path, unknown)) refuse_file(path);
   throw Error(ExitCode::missing_input,
               fmt::format("{}: no such run; expected a run file, or a folder {}", path, folder));
 }
@@ -94,19 +94,20 @@ void refuse_no_scenario(const std::string& path) {
   const RunPresence presence = run_presence(run);
   if (presence == RunPresence::folder)
     throw Error(ExitCode::bad_data,
-                fmt::format("{} is no scenario but a run that is not complete, stopped at {:.3f} deg; go on "
+                fmt::format("{} is not a scenario but an incomplete run, now at {:.3f} deg; go on "
                             "with it: talus run --resume {}",
                             path, degrees(RunFile::open(run).checkpoint().world.tilt), run));
   if (presence == RunPresence::packed && begins_as_run(run))
     throw Error(ExitCode::bad_data,
-                fmt::format("{} is no scenario but a complete run; talus info {} shows what it holds, and "
+                fmt::format("{} is not a scenario but a complete run; talus info {} shows what it holds, and "
                             "talus replay {} computes it again",
                             path, run, run));
   if (is_ensemble_folder(path))
-    throw Error(ExitCode::bad_data,
-                fmt::format("{0} is no scenario but the folder of an ensemble; talus ensemble work {0} goes "
-                            "on with it",
-                            path));
+    throw Error(
+        ExitCode::bad_data,
+        fmt::format("{0} is not a scenario but the folder of an ensemble; talus ensemble work {0} goes "
+                    "on with it",
+                    path));
 }
 
 }  // namespace talus

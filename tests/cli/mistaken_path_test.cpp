@@ -73,7 +73,7 @@ TEST_F(MistakenPath, a_stopped_run_in_place_of_a_scenario_is_told_with_the_comma
   for (const char* path : {"stopped.h5", "stopped.h5.run", "stopped.h5.run/"})
     for (const Words& words : takers_of_scenarios)
       expect_refused(words, path,
-                     {"is no scenario but a run that is not complete, stopped at ",
+                     {"is not a scenario but an incomplete run, now at ",
                       "go on with it: talus run --resume stopped.h5\n"});
   expect_refused({"run", "X", "--resume", "-o", "other.h5"}, "stopped.h5",
                  {"go on with it: talus run --resume stopped.h5\n"});
@@ -86,7 +86,8 @@ TEST_F(MistakenPath, a_stopped_run_in_place_of_a_scenario_is_told_with_the_comma
 TEST_F(MistakenPath, a_complete_run_in_place_of_a_scenario_is_told_with_what_takes_it) {
   take_run(folder_, "done.h5", bed);
   for (const Words& words : takers_of_scenarios)
-    expect_refused(words, "done.h5", {"done.h5 is no scenario but a complete run; talus info done.h5 shows"});
+    expect_refused(words, "done.h5",
+                   {"done.h5 is not a scenario but a complete run; talus info done.h5 shows"});
 }
 
 TEST_F(MistakenPath, a_scenario_in_place_of_a_run_is_told_with_what_takes_it) {
@@ -108,14 +109,14 @@ TEST_F(MistakenPath, the_folder_of_an_ensemble_is_told_with_what_takes_it) {
   expect_refused({"check", "X"}, "beds", {"beds is the folder of an ensemble"});
   for (const Words& words : takers_of_scenarios)
     expect_refused(words, "beds",
-                   {"no scenario but the folder of an ensemble; talus ensemble work beds goes on"});
+                   {"not a scenario but the folder of an ensemble; talus ensemble work beds goes on"});
 }
 
 TEST_F(MistakenPath, a_folder_without_a_run_is_told) {
   fs::create_directory(folder_.path("empty"));
   fs::create_directory(folder_.path("begun.h5.run"));
   for (const Words& words : takers_of_runs) {
-    expect_refused(words, "empty", {"empty is a folder, and no such run; expected a run file, or a folder"});
+    expect_refused(words, "empty", {"empty is a folder, but not a run; expected a run file, or a folder"});
     expect_refused(words, "nothing.h5", {"nothing.h5: no such run; expected a run file, or a folder"});
     expect_refused(words, "begun.h5", {"begun.h5.run: nothing is committed there yet"});
   }

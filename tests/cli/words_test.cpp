@@ -67,6 +67,8 @@ TEST_F(TypedWords, a_number_out_of_its_range_is_told_with_the_range) {
 
 TEST_F(TypedWords, options_without_what_they_need_are_told_in_plain_words) {
   const std::pair<Words, std::string> cases[] = {
+      {{"run", "x.toml", "--set"},
+       "found nothing (Change a key of the scenario, e.g. --set contact.friction=0.3);"},
       {{"render", "x.h5", "--map", "gamma", "--range", "0..1"},
        "--range: expected LOW,HIGH, found 0..1 (LOW,HIGH: ends of the bar, in the unit of its title);"},
       {{"render", "x.h5", "--map", "gamma", "--range", "1,2,3"}, "--range: expected LOW,HIGH, found 1,2,3 ("},

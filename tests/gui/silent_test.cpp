@@ -139,7 +139,7 @@ TEST_F(SilentReplay, the_mouse_says_what_it_cannot_do) {
   };
   gui.settle();
   gui.scroll("map", -1.0f);
-  expect_told("The whole bed is shown");
+  expect_told("The whole bed is visible");
   gui.drag("map", 0.4f, 0.5f, 0.6f, 0.5f);
   expect_told("The bed ends there");
   gui.click("map", 0.003f, 0.003f);
@@ -148,7 +148,7 @@ TEST_F(SilentReplay, the_mouse_says_what_it_cannot_do) {
   gui.click("map", 0.003f, 0.003f);
   expect_told("No grain is there");
   gui.drag("map", 0.0f, 0.0f, 1.0f, 1.0f);
-  expect_told("are selected");
+  expect_told("; selected: ");
   gui.hold(key_left_shift, false);
   gui.hold(key_left_control, true);
   gui.click("map", 0.003f, 0.003f);
@@ -228,10 +228,11 @@ TEST_F(SilentLive, a_tilt_that_is_reached_is_offered_no_more_and_a_bed_that_rest
   EXPECT_EQ(model.state.run_to_tilt, 5.0);
   model.state.run_to_tilt = 0.2;
   window->gui.key('g');
-  EXPECT_NE(model.state.message.find("0.50°, and so not below 0.20°: 5.00° is the next"), std::string::npos)
+  EXPECT_NE(model.state.message.find("already 0.50°, beyond 0.20°; the target is now 5.00°"),
+            std::string::npos)
       << model.state.message;
   window->gui.key('b');
-  EXPECT_NE(model.state.message.find("The bed is deposited, and at 0.50°"), std::string::npos)
+  EXPECT_NE(model.state.message.find("The bed is deposited and tilted by 0.50°"), std::string::npos)
       << model.state.message;
 }
 
@@ -243,7 +244,7 @@ TEST_F(SilentLive, a_command_is_told_with_what_it_did_and_the_step_that_info_lis
   window->gui.key('u');
   ASSERT_EQ(model.live()->commands().size(), 1u);
   EXPECT_EQ(model.live()->commands().front().step, step);
-  EXPECT_TRUE(model.state.message.starts_with(fmt::format("Done after step {}: push grain 3 by (", step)))
+  EXPECT_TRUE(model.state.message.starts_with(fmt::format("Applied after step {}: push grain 3 by (", step)))
       << model.state.message;
 }
 

@@ -86,7 +86,7 @@ TEST_F(Live, grains_that_are_dropped_are_seen_before_they_fall) {
   gui_.settle();
   EXPECT_GE(shown_to(), highest()) << "what has been lifted is in the picture";
   EXPECT_EQ(model_.state.message,
-            fmt::format("Done after step {}: {}.", model_.live()->commands().back().step,
+            fmt::format("Applied after step {}: {}.", model_.live()->commands().back().step,
                         command_text(model_.live()->commands().back())));
 }
 

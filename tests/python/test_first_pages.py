@@ -108,6 +108,7 @@ def test_pictures_are_made_by_the_commands_beside_them():
     assert {name for name in kept if not name.startswith("cookbook/")} == shown
     for picture in shown:
         make.command_of(picture)
+    assert len({file for file, _ in make.PICTURES.values()}) == len(make.PICTURES), "pictures are drawn side by side"
     printed = {line.strip() for text in texts.values() for line in text.splitlines() if line.startswith("    ")}
     for run, commands in make.RUNS.items():
         missing = {line.strip() for line in commands.splitlines()} - printed
