@@ -14,6 +14,8 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "python"))
 
+import talus  # noqa: E402
+
 SEEDS = range(1, 9)
 
 
@@ -25,6 +27,9 @@ def row_of(kind):
 
 #: Page, sentence, and the names of its values (class Values).
 NUMBERS = {
+    "README": [
+        ("tilted to failure in {:.0f} steps", ["paper.steps"]),
+    ],
     "tutorial": [
         ("sustained flow began: {:.2f} deg for this bed", ["demo.theta_c"]),
         ("grows from {:.2f} on the flat bed to {:.2f} just before failure", ["demo.p_o_flat", "demo.p_o_repose"]),
@@ -56,6 +61,7 @@ NUMBERS = {
         ("the largest l_c jumps at {:.1f} ± {:.1f} deg, overloaded clusters span from {:.1f} ± {:.1f} deg on, and the "
          "volume of single beds is least at {:.1f} ± {:.1f} deg.",
          [f"fifty.theta_d/{name}.{value}" for name in ("lc_jump", "percolation", "dilation") for value in ("mean", "error")]),
+        ("Of the paper's run {:.0f} of {:.0f} steps do not.", ["paper.unconverged", "paper.steps"]),
     ],
 }
 
@@ -85,6 +91,8 @@ class Values:
     def needs(self, name):
         """The runs from which a value is computed, or that show that it still holds."""
         group = name.partition(".")[0]
+        if group == "paper":
+            return ("runs/paper.h5",)
         if group in ("demo", "smooth", "collapse"):
             return dict.fromkeys(("runs/demo.h5", f"runs/{group}.h5"))
         return FIRST_MEMBERS.values() if group in ("poured", "collapsed", "difference") else ()
@@ -98,6 +106,10 @@ class Values:
     def read(self, group):
         if group in ("demo", "smooth", "collapse"):
             return self.of_run(group)
+        if group == "paper":
+            with talus.open(self.folder / "runs/paper.h5") as run:
+                unconverged = run["results/unconverged_steps"] + run["results/unconverged_steps_deposition"]
+                return {"steps": len(run.steps["step"]), "unconverged": int(unconverged)}
         if group == "fifty":
             rows = members("paper-pbc")
             names = ["theta_c", "first_slide", "theta_d/lc_jump", "theta_d/percolation", "theta_d/dilation"]
@@ -112,8 +124,6 @@ class Values:
         return angles | mean_of(angles.values())
 
     def of_run(self, name):
-        import talus
-
         with talus.open(self.folder / f"runs/{name}.h5", units="D") as run:
             observed = run.observables["tilt"] <= run.theta_c
             strain = 100 * run.observables["volume_strain"][observed]
