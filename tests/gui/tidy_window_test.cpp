@@ -70,7 +70,9 @@ std::string untidy(const std::vector<Letter>& letters) {
     for (const Letter* other : seen) {
       const float x = std::min(box.z, other->box.z) - std::max(box.x, other->box.x);
       const float y = std::min(box.w, other->box.w) - std::max(box.y, other->box.y);
-      if (x > 1.5f && y > 1.5f) wrong += text_of(letter) + " meets " + text_of(*other) + "\n";
+      // The foot of a j reaches below the letter before it.
+      const bool next = other == seen.back() && box.x > other->box.x && x < 0.3f * (box.w - box.y);
+      if (!next && x > 1.5f && y > 1.5f) wrong += text_of(letter) + " meets " + text_of(*other) + "\n";
     }
     seen.push_back(&letter);
   }
