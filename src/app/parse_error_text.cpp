@@ -38,7 +38,7 @@ std::string value_of(const CLI::Option& option) {
 
 /// The first sentence of a description, without the default behind it. "e.g. " ends no sentence.
 std::string first_sentence(const std::string& description) {
-  const std::string text = before(description, " [");
+  std::string text = before(description, " [");
   for (std::size_t at = text.find(". "); at != std::string::npos; at = text.find(". ", at + 1))
     if (std::isupper(static_cast<unsigned char>(text[at + 2])) != 0) return text.substr(0, at);
   return text;
@@ -88,7 +88,7 @@ std::string unread(const CLI::App& command, const std::string& said) {
 }  // namespace
 
 std::string parse_error_text(const CLI::App& command, const CLI::ParseError& error) {
-  const std::string said = error.what(), kind = error.get_name();
+  std::string said = error.what(), kind = error.get_name();
   if (kind == "RequiredError") return missing(command, said);
   if (kind == "RequiresError")
     return fmt::format("{} needs {}", before(said, " requires "), after(said, " requires "));
