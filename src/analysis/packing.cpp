@@ -6,7 +6,7 @@
 #include "analysis/free_grains.h"
 #include "core/tensor.h"
 #include "core/trigonometry.h"
-#include "stress/bed.h"
+#include "stress/free_surface.h"
 #include "stress/internal_moment.h"
 
 namespace talus {
@@ -25,7 +25,6 @@ double area_below(double height, double radius) {
 }  // namespace
 
 double frame_volume(const BedFrame& bed) {
-  constexpr double samples_per_diameter = 10.0;
   Grains grains;
   grains.free_count = bed.statics.free_count;
   grains.x = bed.frame.x;
@@ -34,7 +33,7 @@ double frame_volume(const BedFrame& bed) {
   Boundary boundary;
   boundary.periodic = bed.statics.periodic;
   boundary.length = bed.statics.length;
-  return bed_volume(grains, boundary, bed.statics.mean_diameter / samples_per_diameter);
+  return bed_volume(grains, boundary);
 }
 
 double bulk_solid_fraction(const BedFrame& bed, double volume) {

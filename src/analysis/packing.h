@@ -19,8 +19,8 @@ struct PackingStress {
   double shear_over_normal = 0.0;  ///< sigma_T / sigma_N; NaN where nothing is carried
 };
 
-/// Area V below the free surface and above the tops of the floor grains, m^2: bed_volume of stress/bed.h,
-/// sampled every 0.1 mean diameters.
+/// Area V below the free surface and above the tops of the floor grains, m^2 (bed_volume of
+/// stress/free_surface.h).
 double frame_volume(const BedFrame& bed);
 
 /// Layers at the floor and below the free surface that are not the bulk of a bed, in mean diameters: the

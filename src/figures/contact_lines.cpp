@@ -1,5 +1,7 @@
 #include "figures/contact_lines.h"
 
+#include <cmath>
+
 #include "stress/free_surface.h"
 
 namespace talus {
@@ -48,9 +50,12 @@ SurfaceLine surface_line(const BedFrame& bed) {
   boundary.periodic = statics.periodic;
   boundary.length = statics.length;
   SurfaceLine line;
-  line.y = free_surface(grains, boundary, statics.mean_diameter / samples_per_diameter);
-  const double step = statics.length / static_cast<double>(line.y.size());
-  for (std::size_t k = 0; k < line.y.size(); ++k) line.x.push_back((static_cast<double>(k) + 0.5) * step);
+  const std::vector<SurfaceArc> surface = free_surface(grains, boundary);
+  const double samples = std::ceil(statics.length / statics.mean_diameter * samples_per_diameter);
+  for (double k = 0.5; k < samples; ++k) {
+    line.x.push_back(k * statics.length / samples);
+    line.y.push_back(height_of(surface, line.x.back()));
+  }
   return line;
 }
 

@@ -45,12 +45,12 @@ double tilt_before(const Command& command, std::span<const Command> commands,
 double time_before(const Command& command, std::span<const ObservableRow> rows);
 
 /// The free grains at the free surface, ascending: those with nothing above their centres.
-std::vector<Index> surface_grains(const World& world, double mean_diameter);
+std::vector<Index> surface_grains(const World& world);
 
 /// Lifts `count` grains at the free surface, those farthest from x (m; a periodic bed goes on across its
 /// edge), and places them in a square lattice about x, at rest, `height` (m) above the highest grain below
 /// it. They touch nothing, and the contacts they had are gone. Throws Error(usage) where the surface has
 /// fewer grains.
-void drop_grains(World& world, Index count, double x, double height, double mean_diameter);
+void drop_grains(World& world, Index count, double x, double height);
 
 }  // namespace talus

@@ -16,8 +16,8 @@ namespace {
 constexpr double room = 0.02;
 
 /// `count` grains at the surface, the farthest from x first; of two as far the one with the smaller id.
-std::vector<Index> farthest_grains(const World& world, Index count, double x, double mean_diameter) {
-  std::vector<Index> grains = surface_grains(world, mean_diameter);
+std::vector<Index> farthest_grains(const World& world, Index count, double x) {
+  std::vector<Index> grains = surface_grains(world);
   if (grains.size() < static_cast<std::size_t>(count))
     throw Error(ExitCode::usage, fmt::format("drop: {} grains, expected at most the {} at the free surface",
                                              count, grains.size()));
@@ -98,22 +98,17 @@ void remove_contacts(Contacts& contacts, const std::vector<bool>& lifted) {
 
 }  // namespace
 
-std::vector<Index> surface_grains(const World& world, double mean_diameter) {
+std::vector<Index> surface_grains(const World& world) {
   const Grains& grains = world.grains;
-  const std::vector<double> height =
-      free_surface(grains, world.boundary, surface_sample_spacing * mean_diameter);
-  const double samples_per_metre = static_cast<double>(height.size()) / world.boundary.length;
+  const std::vector<SurfaceArc> surface = free_surface(grains, world.boundary);
   std::vector<Index> found;
-  for (Index i = 0; i < grains.free_count; ++i) {
-    const double sample = std::floor(grains.x[i] * samples_per_metre);
-    const auto k = static_cast<std::size_t>(std::clamp(sample, 0.0, static_cast<double>(height.size() - 1)));
-    if (grains.y[i] + grains.radius[i] >= height[k]) found.push_back(i);
-  }
+  for (Index i = 0; i < grains.free_count; ++i)
+    if (grains.y[i] + grains.radius[i] >= height_of(surface, grains.x[i])) found.push_back(i);
   return found;
 }
 
-void drop_grains(World& world, Index count, double x, double height, double mean_diameter) {
-  const std::vector<Index> chosen = farthest_grains(world, count, x, mean_diameter);
+void drop_grains(World& world, Index count, double x, double height) {
+  const std::vector<Index> chosen = farthest_grains(world, count, x);
   std::vector<bool> lifted(world.grains.x.size(), false);
   for (const Index i : chosen) lifted[static_cast<std::size_t>(i)] = true;
   Lattice lattice = lattice_at(world, chosen, x);

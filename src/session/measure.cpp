@@ -1,6 +1,7 @@
 #include "session/measure.h"
 
 #include "stress/bed.h"
+#include "stress/free_surface.h"
 #include "stress/internal_moment.h"
 #include "stress/stress_state.h"
 
@@ -29,10 +30,6 @@ double critical_fraction(const World& world, const ContactLawParameters& law) {
   return carrying > 0 ? static_cast<double>(critical) / carrying : 0.0;
 }
 
-double volume_of(const World& world, double mean_diameter) {
-  return bed_volume(world.grains, world.boundary, surface_sample_spacing * mean_diameter);
-}
-
 void append_contact(const World& world, const ContactLawParameters& law, Index c, FrameContacts& out) {
   const Contacts& contacts = world.contacts;
   const Index a = contacts.a[c];
@@ -51,15 +48,15 @@ void append_contact(const World& world, const ContactLawParameters& law, Index c
 
 }  // namespace
 
-Baseline measure_baseline(const World& world, double mean_diameter) {
-  return {volume_of(world, mean_diameter), centre_of_mass_height(world.grains)};
+Baseline measure_baseline(const World& world) {
+  return {bed_volume(world.grains, world.boundary), centre_of_mass_height(world.grains)};
 }
 
 ObservableRow measure(const World& world, const RowContext& context) {
   std::vector<Tensor2> moments;
   internal_moments(world.grains, world.contacts, moments);
   const Tensor2 sum = sum_of_moments(moments, 0, world.grains.free_count);
-  const double volume = volume_of(world, context.mean_diameter);
+  const double volume = bed_volume(world.grains, world.boundary);
   ObservableRow row{};
   at(row, Observable::step) = static_cast<double>(world.step);
   at(row, Observable::time) = world.time;

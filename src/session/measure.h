@@ -12,10 +12,7 @@ struct Baseline {
   double volume = 0.0;                 ///< V0, m^2
   double centre_of_mass_height = 0.0;  ///< y0, m
 };
-Baseline measure_baseline(const World& world, double mean_diameter);
-
-/// Spacing of the samples of the free surface, in mean diameters.
-inline constexpr double surface_sample_spacing = 0.1;
+Baseline measure_baseline(const World& world);
 
 /// What a row of observables needs besides the world.
 struct RowContext {

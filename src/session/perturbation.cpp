@@ -10,14 +10,21 @@
 namespace talus {
 namespace {
 
-double mean_height(const std::vector<double>& heights) {
-  double sum = 0.0;
-  for (double height : heights) sum += height;
-  return heights.empty() ? 0.0 : sum / static_cast<double>(heights.size());
-}
-
-std::vector<double> surface_of(const World& world, double mean_diameter) {
-  return free_surface(world.grains, world.boundary, surface_sample_spacing * mean_diameter);
+/// Mean height of the free surface within `half_width` of a place, m; in a periodic bed beyond its ends too.
+double mean_height(const World& world, double centre, double half_width) {
+  const Boundary& boundary = world.boundary;
+  const std::vector<SurfaceArc> surface = free_surface(world.grains, boundary);
+  const double half = boundary.periodic ? std::min(half_width, 0.5 * boundary.length) : half_width;
+  double area = 0.0, width = 0.0;
+  for (const int image : {-1, 0, 1}) {
+    if (image != 0 && !boundary.periodic) continue;
+    const double from = std::max(0.0, centre - half + image * boundary.length);
+    const double to = std::min(boundary.length, centre + half + image * boundary.length);
+    if (!(to > from)) continue;
+    area += area_below(surface, from, to);
+    width += to - from;
+  }
+  return width > 0.0 ? area / width : 0.0;
 }
 
 /// Free grains whose centres are more than `distance` from where they were.
@@ -53,12 +60,7 @@ std::vector<Index> grains_in_patch(const World& world, const SurfacePatch& patch
   const auto beside = [&](double x) {
     return std::fabs(offset_along(world.boundary, centre, x)) < half_width;
   };
-  const std::vector<double> surface = surface_of(world, mean_diameter);
-  const double spacing = world.boundary.length / static_cast<double>(surface.size());
-  std::vector<double> above;
-  for (std::size_t k = 0; k < surface.size(); ++k)
-    if (beside((static_cast<double>(k) + 0.5) * spacing)) above.push_back(surface[k]);
-  const double lower_edge = mean_height(above) - patch.depth * mean_diameter;
+  const double lower_edge = mean_height(world, centre, half_width) - patch.depth * mean_diameter;
   std::vector<Index> found;
   for (Index i = 0; i < world.grains.free_count; ++i)
     if (beside(world.grains.x[i]) && world.grains.y[i] > lower_edge) found.push_back(i);
@@ -87,7 +89,7 @@ Trial follow(World& world, const Scenario& scenario, const std::function<void()>
     if (keep_on) keep_on();
     const StepReport report = step(world, step_settings(scenario, world), workspace);
     time += h;
-    const double surface = mean_height(surface_of(world, diameter));
+    const double surface = bed_volume(world.grains, world.boundary) / world.boundary.length;
     const double velocity = surface_velocity(world.grains, surface - surface_layer_depth * diameter);
     trial.displacement += h * velocity / diameter;
     follow_surface(flow, velocity, world.tilt, h, rule);

@@ -131,7 +131,7 @@ void Session::apply(Command command) {
       world_.grains.vy[command.grain] += command.y;
       break;
     case CommandKind::drop:
-      drop_grains(world_, command.grain, command.x, command.y, scenario_.grains.mean_diameter);
+      drop_grains(world_, command.grain, command.x, command.y);
       break;
     case CommandKind::friction:
       schedule_.friction = command.x;
@@ -219,7 +219,7 @@ void Session::advance_deposition() {
 
 void Session::begin_tilt() {
   schedule_.phase = Phase::tilt;
-  schedule_.baseline = measure_baseline(world_, scenario_.grains.mean_diameter);
+  schedule_.baseline = measure_baseline(world_);
   if (!program_.empty()) schedule_.last_tilt_step = world_.step;
   record_start();
 }
@@ -264,9 +264,7 @@ void Session::advance_flow() {
   const bool ends = rests || (lowered ? world_.tilt == 0.0 : time >= scenario_.deposition.max_time);
   record(ends, ends);
   if (rests)
-    schedule_.angle_at_rest =
-        side * (world_.tilt - surface_inclination(world_.grains, world_.boundary,
-                                                  surface_sample_spacing * scenario_.grains.mean_diameter));
+    schedule_.angle_at_rest = side * (world_.tilt - surface_inclination(world_.grains, world_.boundary));
   if (ends) schedule_.phase = Phase::done;
 }
 

@@ -3,18 +3,8 @@
 #include <cmath>
 
 #include "core/trigonometry.h"
-#include "stress/free_surface.h"
 
 namespace talus {
-
-double bed_volume(const Grains& grains, const Boundary& boundary, double spacing) {
-  const std::vector<double> height = free_surface(grains, boundary, spacing);
-  if (height.empty()) return 0.0;
-  const double step = boundary.length / static_cast<double>(height.size());
-  double sum = 0.0;
-  for (double sample : height) sum += sample;
-  return sum * step;
-}
 
 double solid_area(const Grains& grains) {
   double sum = 0.0;

@@ -10,9 +10,6 @@
 
 namespace talus {
 
-/// Area below the free surface (free_surface.h) and above y = 0, m^2.
-double bed_volume(const Grains& grains, const Boundary& boundary, double spacing);
-
 /// Area of the free grains, m^2.
 double solid_area(const Grains& grains);
 

@@ -1,96 +1,219 @@
 #include "stress/free_surface.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 
 #include "core/trigonometry.h"
 
 namespace talus {
 namespace {
 
-/// Samples are looked at in blocks of so many: a disk below the lowest sample of each block that it covers,
-/// as nearly all of a bed are, raises none.
-constexpr Index samples_of_block = 16;
+struct Disk {
+  double x, y, radius;
+  bool operator==(const Disk&) const = default;
 
-/// The upper edges of disks at evenly spaced samples.
-struct Envelope {
-  std::vector<double> height;
-  std::vector<double> lowest;  ///< of each block, or less
-  double spacing;
-  bool periodic;
-
-  Envelope(std::size_t samples, double length, bool is_periodic)
-      : height(samples, 0.0),
-        lowest((samples + samples_of_block - 1) / samples_of_block, 0.0),
-        spacing(length / static_cast<double>(samples)),
-        periodic(is_periodic) {}
-
-  Index count() const { return static_cast<Index>(height.size()); }
-
-  /// Raises samples first ... last of one block that a disk covers to its upper edge. The disk is seen from
-  /// sample k as from place k + shift, which is another one where it is a periodic image that covers them.
-  void raise_block(Index first, Index last, Index shift, Vec2 centre, double radius) {
-    const double highest = centre.y + radius;
-    double& low = lowest[static_cast<std::size_t>(first / samples_of_block)];
-    if (low >= highest) return;
-    for (Index k = first; k <= last; ++k) {
-      double& sample = height[static_cast<std::size_t>(k)];
-      if (sample >= highest) continue;
-      const double offset = (k + shift + 0.5) * spacing - centre.x;
-      sample = std::max(sample, centre.y + std::sqrt(std::max(0.0, radius * radius - offset * offset)));
-    }
-    const Index begin = first / samples_of_block * samples_of_block;
-    low = *std::min_element(height.begin() + begin,
-                            height.begin() + std::min(begin + samples_of_block, count()));
+  /// Half the width of its part above y = 0, m; not positive if there is none.
+  double half_width() const {
+    return y >= 0.0 ? radius : std::sqrt(std::max(0.0, radius * radius - y * y)) * (radius > -y ? 1.0 : 0.0);
   }
-
-  /// The samples may lie outside: they are periodic or cut.
-  void raise(Vec2 centre, double radius) {
-    auto k = static_cast<Index>(std::ceil((centre.x - radius) / spacing - 0.5));
-    auto last = static_cast<Index>(std::floor((centre.x + radius) / spacing - 0.5));
-    if (!periodic) {
-      k = std::max(k, 0);
-      last = std::min(last, count() - 1);
-    }
-    while (k <= last) {
-      Index place = k;
-      while (place < 0) place += count();
-      while (place >= count()) place -= count();
-      const Index end =
-          std::min({(place / samples_of_block + 1) * samples_of_block, count(), place + last - k + 1});
-      raise_block(place, end - 1, k - place, centre, radius);
-      k += end - place;
-    }
+  /// Height of its upper side; that of its sides beyond them.
+  double height_at(double place) const {
+    const double offset = place - x;
+    return y + std::sqrt(std::max(0.0, radius * radius - offset * offset));
   }
 };
 
-}  // namespace
+Disk disk_of(const SurfaceArc& arc) { return {arc.x, arc.y, arc.radius}; }
 
-std::vector<double> free_surface(const Grains& grains, const Boundary& boundary, double spacing) {
-  const auto samples = static_cast<std::size_t>(std::ceil(boundary.length / spacing));
-  if (samples == 0) return {};
-  Envelope envelope(samples, boundary.length, boundary.periodic);
-  // The last grains first: they are at the surface, and most of the others below what they leave.
-  for (Index i = grains.free_count - 1; i >= 0; --i)
-    envelope.raise({grains.x[i], grains.y[i]}, grains.radius[i]);
-  return std::move(envelope.height);
+/// Heights that the free surface reaches at least, in equal cells: nearly all disks of a bed lie below them
+/// and need not be merged.
+class LowestHeights {
+ public:
+  LowestHeights(double length, double width)
+      : heights_(static_cast<std::size_t>(std::clamp(std::ceil(length / width), 1.0, 1e6)), 0.0),
+        width_(length / static_cast<double>(heights_.size())) {}
+
+  /// Whether a disk may be seen from above.
+  bool may_show(const Disk& disk) const {
+    const double half = disk.half_width();
+    for (std::size_t k = cell(disk.x - half), last = cell(disk.x + half); k <= last; ++k) {
+      const double nearest = std::clamp(disk.x, left(k), left(k + 1));
+      if (disk.height_at(nearest) > heights_[k]) return true;
+    }
+    return false;
+  }
+
+  /// Counts a disk in: an upper side is lowest at an end of a cell that it covers.
+  void add(const Disk& disk) {
+    const double half = disk.half_width();
+    for (std::size_t k = cell(disk.x - half), last = cell(disk.x + half); k <= last; ++k)
+      if (disk.x - half <= left(k) && left(k + 1) <= disk.x + half)
+        heights_[k] = std::max(heights_[k], std::min(disk.height_at(left(k)), disk.height_at(left(k + 1))));
+  }
+
+ private:
+  double left(std::size_t k) const { return width_ * static_cast<double>(k); }
+  std::size_t cell(double place) const {
+    const double k = std::clamp(std::floor(place / width_), 0.0, static_cast<double>(heights_.size() - 1));
+    return static_cast<std::size_t>(k);
+  }
+
+  std::vector<double> heights_;
+  double width_;
+};
+
+/// The disks that may be seen from above, and their images, each at least in part between 0 and the length.
+std::vector<Disk> upper_disks(const Grains& grains, const Boundary& boundary) {
+  const double length = boundary.length;
+  double sum = 0.0;
+  for (Index i = 0; i < grains.free_count; ++i) sum += grains.radius[i];
+  if (!(sum > 0.0)) return {};
+  LowestHeights lowest(length, 0.5 * sum / grains.free_count);
+  std::vector<Disk> disks;
+  const auto add = [&](const Disk& disk) {
+    const double half = disk.half_width();
+    if (!(half > 0.0) || disk.x + half <= 0.0 || disk.x - half >= length || !lowest.may_show(disk)) return;
+    lowest.add(disk);
+    disks.push_back(disk);
+  };
+  // The last grains first: they are at the surface.
+  for (Index i = grains.free_count - 1; i >= 0; --i) {
+    const Disk disk{grains.x[i], grains.y[i], grains.radius[i]};
+    if (!boundary.periodic) {
+      add(disk);
+      continue;
+    }
+    const double first = std::ceil(-(disk.x + disk.radius) / length);
+    const double last = std::floor((length - disk.x + disk.radius) / length);
+    for (double image = first; image <= last; ++image) add({disk.x + image * length, disk.y, disk.radius});
+  }
+  std::erase_if(disks, [&](const Disk& disk) { return !lowest.may_show(disk); });
+  return disks;
 }
 
-double surface_inclination(const Grains& grains, const Boundary& boundary, double spacing) {
-  if (boundary.periodic) return 0.0;
-  const std::vector<double> height = free_surface(grains, boundary, spacing);
-  const double step = boundary.length / static_cast<double>(height.size());
-  const std::size_t first = height.size() / 4;
-  const std::size_t last = height.size() - first;
-  // About the middle of the bed, so that the sum of the distances is zero.
-  const double middle = 0.5 * static_cast<double>(height.size() - 1);
-  double moment = 0.0, squares = 0.0;
-  for (std::size_t k = first; k < last; ++k) {
-    const double distance = step * (static_cast<double>(k) - middle);
-    moment += distance * height[k];
-    squares += distance * distance;
+using Surface = std::vector<SurfaceArc>;
+
+void append(Surface& surface, double end, const Disk& disk) {
+  if (!surface.empty() && disk_of(surface.back()) == disk)
+    surface.back().end = end;
+  else
+    surface.push_back({end, disk.x, disk.y, disk.radius});
+}
+
+constexpr Disk plane = {0.0, 0.0, 0.0};
+
+Surface surface_of(const Disk& disk, double length) {
+  const double half = disk.half_width();
+  Surface surface;
+  if (disk.x - half > 0.0) append(surface, disk.x - half, plane);
+  append(surface, std::min(disk.x + half, length), disk);
+  if (disk.x + half < length) append(surface, length, plane);
+  return surface;
+}
+
+/// Where two circles cross, in ascending order; NaN if they do not.
+std::array<double, 2> crossings(const Disk& a, const Disk& b) {
+  const double dx = b.x - a.x, dy = b.y - a.y, square = dx * dx + dy * dy;
+  const double along = (a.radius * a.radius - b.radius * b.radius + square) / (2.0 * square);
+  const double across = std::sqrt(a.radius * a.radius / square - along * along);
+  const double middle = a.x + along * dx, half = std::abs(across * dy);
+  return {middle - half, middle + half};
+}
+
+/// The higher one of two surfaces.
+Surface merged(const Surface& a, const Surface& b) {
+  Surface surface;
+  double begin = 0.0;
+  for (std::size_t i = 0, j = 0; i < a.size() && j < b.size();) {
+    const double end = std::min(a[i].end, b[j].end);
+    const Disk one = disk_of(a[i]), other = disk_of(b[j]);
+    if (one == plane || other == plane) {
+      append(surface, end, one == plane ? other : one);
+    } else {
+      const auto take_higher = [&](double to) {
+        if (!(to > begin)) return;
+        const double middle = 0.5 * (begin + to);
+        append(surface, to, one.height_at(middle) >= other.height_at(middle) ? one : other);
+        begin = to;
+      };
+      for (const double crossing : crossings(one, other))
+        if (begin < crossing && crossing < end) take_higher(crossing);
+      take_higher(end);
+    }
+    begin = end;
+    if (a[i].end <= end) ++i;
+    if (b[j].end <= end) ++j;
   }
-  return squares > 0.0 ? arctangent(moment / squares) : 0.0;
+  return surface;
+}
+
+Surface surface_of(std::span<const Disk> disks, double length) {
+  if (disks.size() == 1) return surface_of(disks.front(), length);
+  const std::size_t half = disks.size() / 2;
+  return merged(surface_of(disks.first(half), length), surface_of(disks.subspan(half), length));
+}
+
+/// Integrals of the height h of a surface between two places, about a third one: of h, and of (x - about) h.
+struct Integrals {
+  double area = 0.0, moment = 0.0;
+};
+
+/// From the centre of a disk to u: of sqrt(r^2 - u^2), and of u sqrt(r^2 - u^2) but for a constant.
+Integrals primitive(double u, double radius) {
+  const double root = std::sqrt(std::max(0.0, radius * radius - u * u));
+  const double angle = root > 0.0 ? arctangent(u / root) : u < 0.0 ? -0.5 * pi : 0.5 * pi;
+  return {0.5 * (u * root + radius * radius * angle), -root * root * root / 3.0};
+}
+
+Integrals integrals(const Surface& surface, double from, double to, double about) {
+  Integrals sum;
+  double begin = 0.0;
+  for (const SurfaceArc& arc : surface) {
+    const double first = std::max(begin, from), last = std::min(arc.end, to);
+    begin = arc.end;
+    if (!(last > first) || arc.radius == 0.0) continue;
+    const double u = first - arc.x, v = last - arc.x;
+    const Integrals low = primitive(u, arc.radius), high = primitive(v, arc.radius);
+    const double area = arc.y * (v - u) + high.area - low.area;
+    sum.area += area;
+    sum.moment += (arc.x - about) * area + 0.5 * arc.y * (v * v - u * u) + high.moment - low.moment;
+  }
+  return sum;
+}
+
+}  // namespace
+
+std::vector<SurfaceArc> free_surface(const Grains& grains, const Boundary& boundary) {
+  if (!(boundary.length > 0.0)) return {};
+  const std::vector<Disk> disks = upper_disks(grains, boundary);
+  if (disks.empty()) return {{boundary.length, 0.0, 0.0, 0.0}};
+  return surface_of(disks, boundary.length);
+}
+
+double height_of(const Surface& surface, double place) {
+  if (surface.empty()) return 0.0;
+  const auto arc = std::ranges::lower_bound(surface, place, {}, &SurfaceArc::end);
+  const Disk disk = disk_of(arc == surface.end() ? surface.back() : *arc);
+  return disk == plane ? 0.0 : disk.height_at(place);
+}
+
+double area_below(const Surface& surface, double from, double to) {
+  return integrals(surface, from, to, 0.0).area;
+}
+
+double bed_volume(const Grains& grains, const Boundary& boundary) {
+  return area_below(free_surface(grains, boundary), 0.0, boundary.length);
+}
+
+double surface_inclination(const Grains& grains, const Boundary& boundary) {
+  const double length = boundary.length;
+  if (boundary.periodic || !(length > 0.0)) return 0.0;
+  // About the middle of the bed, so that the integral of the distances is zero.
+  const double moment =
+      integrals(free_surface(grains, boundary), 0.25 * length, 0.75 * length, 0.5 * length).moment;
+  return arctangent(moment / (length * length * length / 96.0));
 }
 
 }  // namespace talus

@@ -90,9 +90,9 @@ std::uint64_t hash_of(const World& world) {
   Hasher hash;
   hash.add(state_hash(world));
   for (const Tensor2& moment : moments) hash.add(stress_state(moment).ratio);
-  constexpr double spacing = 1e-3;  // m
-  for (double height : free_surface(world.grains, world.boundary, spacing)) hash.add(height);
-  hash.add(surface_inclination(world.grains, world.boundary, spacing));
+  for (const SurfaceArc& arc : free_surface(world.grains, world.boundary)) hash.add(arc.end);
+  hash.add(bed_volume(world.grains, world.boundary));
+  hash.add(surface_inclination(world.grains, world.boundary));
   return hash.value();
 }
 

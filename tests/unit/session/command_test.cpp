@@ -53,22 +53,22 @@ double smallest_gap(const World& world) {
 
 TEST(Drop, finds_the_grains_that_nothing_covers) {
   World world = layers(true);
-  EXPECT_EQ(surface_grains(world, diameter), (Ids{10, 11, 12, 13, 14, 15, 16, 17, 18, 19}));
+  EXPECT_EQ(surface_grains(world), (Ids{10, 11, 12, 13, 14, 15, 16, 17, 18, 19}));
   world.grains.x[19] = 0.5 * diameter;  // over grain 10: that one is covered, 9 comes to light
   world.grains.y[19] = 5.0 * diameter;
-  EXPECT_EQ(surface_grains(world, diameter), (Ids{9, 11, 12, 13, 14, 15, 16, 17, 18, 19}));
+  EXPECT_EQ(surface_grains(world), (Ids{9, 11, 12, 13, 14, 15, 16, 17, 18, 19}));
 }
 
 TEST(Drop, takes_the_farthest_around_a_periodic_bed) {
   World world = layers(true);
-  drop_grains(world, 3, 2.5 * diameter, 4.0 * diameter, diameter);  // at grain 12: 17 is opposite
+  drop_grains(world, 3, 2.5 * diameter, 4.0 * diameter);  // at grain 12: 17 is opposite
   for (const Index lifted : {16, 17, 18}) EXPECT_GE(world.grains.y[lifted], 6.5 * diameter) << lifted;
   for (Index i = 0; i < 16; ++i) EXPECT_LT(world.grains.y[i], 2.0 * diameter) << i;
 }
 
 TEST(Drop, takes_the_farthest_between_walls) {
   World world = layers(false);
-  drop_grains(world, 2, 2.5 * diameter, 4.0 * diameter, diameter);
+  drop_grains(world, 2, 2.5 * diameter, 4.0 * diameter);
   for (const Index lifted : {18, 19}) EXPECT_GE(world.grains.y[lifted], 6.5 * diameter) << lifted;
 }
 
@@ -81,7 +81,7 @@ TEST(Drop, leaves_grains_at_rest_above_the_surface_that_touch_nothing) {
         grains.radius[i] *= 1.0 - 0.02 * (i % 7);
         grains.vx[i] = grains.vy[i] = grains.omega[i] = 1.0;
       }
-      drop_grains(world, 7, x * diameter, 0.0, diameter);
+      drop_grains(world, 7, x * diameter, 0.0);
       EXPECT_GT(smallest_gap(world), -1e-12) << x;
       int lifted = 0;
       for (Index i = 0; i < grains.count(); ++i) {
@@ -98,7 +98,7 @@ TEST(Drop, leaves_grains_at_rest_above_the_surface_that_touch_nothing) {
 
 TEST(Drop, falls_from_the_height_asked_for) {
   World world = layers(true);
-  drop_grains(world, 1, 2.5 * diameter, 4.0 * diameter, diameter);
+  drop_grains(world, 1, 2.5 * diameter, 4.0 * diameter);
   EXPECT_NEAR(world.grains.x[17], 2.5 * diameter, 1e-15);
   EXPECT_NEAR(world.grains.y[17] - 0.5 * diameter, 6.0 * diameter, 0.011 * diameter) << "2 D of bed, and 4 D";
 }
@@ -109,7 +109,7 @@ TEST(Drop, counts_the_turns_of_a_periodic_bed) {
     World world = layers(true);
     std::ranges::fill(world.grains.image, 3);
     const Grains before = world.grains;
-    drop_grains(world, 6, x * diameter, diameter, diameter);
+    drop_grains(world, 6, x * diameter, diameter);
     const Grains& grains = world.grains;
     for (Index i = 0; i < grains.count(); ++i) {
       EXPECT_GE(grains.x[i], 0.0);
@@ -122,7 +122,7 @@ TEST(Drop, counts_the_turns_of_a_periodic_bed) {
 
 TEST(Drop, forgets_the_contacts_of_what_was_lifted) {
   World world = layers(true);
-  drop_grains(world, 3, 2.5 * diameter, diameter, diameter);
+  drop_grains(world, 3, 2.5 * diameter, diameter);
   EXPECT_EQ(world.contacts.a, (Ids{0, 1, 2, 3, 4, 5, 9}));
   EXPECT_EQ(world.contacts.fn, (std::vector{1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 10.0}));
 }
@@ -130,7 +130,7 @@ TEST(Drop, forgets_the_contacts_of_what_was_lifted) {
 TEST(Drop, of_more_grains_than_the_surface_has_is_refused) {
   World world = layers(true);
   const std::uint64_t before = state_hash(world);
-  EXPECT_THROW(drop_grains(world, 11, 0.0, 0.0, diameter), Error);
+  EXPECT_THROW(drop_grains(world, 11, 0.0, 0.0), Error);
   EXPECT_EQ(state_hash(world), before);
 }
 

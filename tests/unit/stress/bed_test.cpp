@@ -22,56 +22,6 @@ void add_grain(World& world, double x, double y, double radius = r, bool fixed =
   add_disk(world.grains, {x, y}, radius, 1.0, fixed);
 }
 
-double volume(const World& world, double spacing = 1e-3) {
-  return bed_volume(world.grains, world.boundary, spacing);
-}
-
-// The upper half of a disk stands on average pi/4 r above its centre. Samples err where the envelope is
-// steepest, by less than (spacing / r)^1.5.
-TEST(BedVolume, of_a_row_of_touching_disks) {
-  for (const bool periodic : {true, false}) {
-    World world = empty_bed(10.0, periodic);
-    for (int k = 0; k < 10; ++k) add_grain(world, k + 0.5, 0.75);
-    EXPECT_NEAR(volume(world), 10.0 * (0.75 + 0.25 * pi * r), 10.0 * 1e-4);
-  }
-}
-
-TEST(BedVolume, uncovered_places_count_with_height_zero) {
-  World world = empty_bed(10.0, true);
-  EXPECT_EQ(volume(world), 0.0);
-  add_grain(world, 5.0, 2.0);
-  EXPECT_NEAR(volume(world), 2.0 * r * (2.0 + 0.25 * pi * r), 1e-3);
-}
-
-TEST(BedVolume, only_the_highest_grain_counts_and_only_free_ones) {
-  World world = empty_bed(10.0, true);
-  add_grain(world, 5.0, 2.0);
-  const double alone = volume(world);
-  add_grain(world, 5.2, 0.9, 0.2);
-  add_grain(world, 5.0, 7.0, r, true);
-  add_grain(world, 2.0, -0.5, r, true);
-  EXPECT_EQ(volume(world), alone);
-}
-
-TEST(BedVolume, reaches_through_the_periodic_edge_and_stops_at_walls) {
-  World middle = empty_bed(10.0, true);
-  add_grain(middle, 5.0, 2.0);
-  World edge = empty_bed(10.0, true);
-  add_grain(edge, 0.1, 2.0);
-  EXPECT_NEAR(volume(edge), volume(middle), 1e-3);
-  World walled = empty_bed(10.0, false);
-  add_grain(walled, 0.0, 2.0);
-  EXPECT_NEAR(volume(walled), 0.5 * volume(middle), 2e-3);
-}
-
-// A tall staircase of two steps, sampled so coarsely that each sample sees one of them.
-TEST(BedVolume, samples_at_the_middle_of_each_interval) {
-  World world = empty_bed(4.0, true);
-  add_grain(world, 1.0, 1.0);
-  add_grain(world, 3.0, 2.0);
-  EXPECT_DOUBLE_EQ(volume(world, 2.0), 2.0 * (1.5 + 2.5));
-}
-
 TEST(Bed, area_and_height_are_those_of_the_free_grains) {
   World world = empty_bed(10.0, true);
   add_grain(world, 1.0, 1.0, 1.0);

@@ -7,12 +7,12 @@
 #include <vector>
 
 #include "core/random.h"
+#include "core/trigonometry.h"
 
 namespace talus {
 namespace {
 
 constexpr double r = 0.5;
-constexpr double spacing = 0.05;
 
 /// Disks side by side from x = 0 to `length`, their tops on the line `height` + `slope` x.
 World bed(double length, bool periodic, double height, double slope) {
@@ -24,52 +24,203 @@ World bed(double length, bool periodic, double height, double slope) {
   return world;
 }
 
-double inclination(const World& world) { return surface_inclination(world.grains, world.boundary, spacing); }
+double inclination(const World& world) { return surface_inclination(world.grains, world.boundary); }
 
-TEST(FreeSurface, is_the_envelope_of_the_grains_at_the_middle_of_each_section) {
-  World world = bed(0.0, false, 0.0, 0.0);
-  world.boundary.length = 4.0;
-  add_disk(world.grains, {1.5, 2.0}, 0.4, 1.0, false);
-  add_disk(world.grains, {1.4, 1.0}, 0.4, 1.0, false);
-  const std::vector<double> height = free_surface(world.grains, world.boundary, 1.0);
-  ASSERT_EQ(height.size(), 4u);
-  EXPECT_EQ(height[0], 0.0);
-  EXPECT_DOUBLE_EQ(height[1], 2.4);
-  EXPECT_EQ(height[2], 0.0);
+double volume(const World& world) { return bed_volume(world.grains, world.boundary); }
+
+World empty_bed(double length, bool periodic) {
+  World world;
+  world.boundary.periodic = periodic;
+  world.boundary.length = length;
+  return world;
 }
 
-/// Sample by sample, each over all disks and their images.
+void add_grain(World& world, double x, double y, double radius = r, bool fixed = false) {
+  add_disk(world.grains, {x, y}, radius, 1.0, fixed);
+}
+
+/// The free surface at the middle of each of the equal sections of a bed, over all disks and their images.
 std::vector<double> plain_surface(const World& world, std::size_t samples) {
   const Grains& g = world.grains;
   const double length = world.boundary.length, step = length / static_cast<double>(samples);
   std::vector<double> height(samples, 0.0);
-  for (std::size_t k = 0; k < samples; ++k)
-    for (Index i = 0; i < g.free_count; ++i)
-      for (int image = -2; image <= 2; ++image) {
-        if (image != 0 && !world.boundary.periodic) continue;
-        const double place = static_cast<double>(k) + image * static_cast<double>(samples);
-        const double offset = (place + 0.5) * step - g.x[i];
+  for (Index i = 0; i < g.free_count; ++i)
+    for (int image = -6; image <= 6; ++image) {
+      if (image != 0 && !world.boundary.periodic) continue;
+      const double x = g.x[i] + image * length;
+      const double first = std::max(0.0, std::floor((x - g.radius[i]) / step));
+      for (auto k = static_cast<std::size_t>(first); k < samples; ++k) {
+        const double offset = (static_cast<double>(k) + 0.5) * step - x;
+        if (offset > g.radius[i]) break;
         const double square = g.radius[i] * g.radius[i] - offset * offset;
         if (square >= 0.0) height[k] = std::max(height[k], g.y[i] + std::sqrt(square));
       }
+    }
   return height;
 }
 
-TEST(FreeSurface, is_that_of_all_disks_sample_by_sample) {
+/// Beds that a scenario may give and others that it cannot: overlapping, sparse, wider than they are long.
+World bed_of_chance(Random& random, bool periodic) {
+  World world = empty_bed(1.0 + 9.0 * random.uniform(), periodic);
+  const double length = world.boundary.length;
+  const auto count = 1 + static_cast<int>(60.0 * random.uniform());
+  const double largest = random.uniform() < 0.2 ? 2.0 * length : 0.6;
+  const double depth = 4.0 * random.uniform();
+  for (int k = 0; k < count; ++k) {
+    const double radius = 0.02 + largest * random.uniform() * random.uniform();
+    add_grain(world, length * random.uniform(), depth * random.uniform() - 0.3, radius);
+  }
+  return world;
+}
+
+TEST(FreeSurface, is_the_envelope_of_the_grains) {
+  World world = empty_bed(4.0, false);
+  add_grain(world, 1.5, 2.0, 0.4);
+  add_grain(world, 1.4, 1.0, 0.4);
+  const std::vector<SurfaceArc> surface = free_surface(world.grains, world.boundary);
+  ASSERT_EQ(surface.size(), 4u);
+  EXPECT_DOUBLE_EQ(surface[0].end, 1.0);
+  EXPECT_DOUBLE_EQ(surface[1].end, 1.1);
+  EXPECT_DOUBLE_EQ(surface[2].end, 1.9);
+  EXPECT_EQ(surface[3].end, 4.0);
+  EXPECT_EQ(height_of(surface, 0.5), 0.0);
+  EXPECT_DOUBLE_EQ(height_of(surface, 1.5), 2.4);
+  EXPECT_EQ(height_of(surface, 3.5), 0.0);
+}
+
+TEST(FreeSurface, is_that_of_all_disks_and_their_images_at_every_place) {
   Random random(7);
-  for (const bool periodic : {false, true})
-    for (const int samples : {1, 15, 16, 40, 331}) {
-      World world;
-      world.boundary.periodic = periodic;
-      world.boundary.length = 7.0;
-      for (int k = 0; k < 40; ++k)
-        add_disk(world.grains, {7.0 * random.uniform(), 3.0 * random.uniform()}, 0.1 + random.uniform(), 1.0,
-                 false);
-      add_disk(world.grains, {6.9, 2.0}, 4.0, 1.0, false);  // wider than the bed
-      const std::vector<double> height = free_surface(world.grains, world.boundary, 7.0 / samples);
-      const std::vector<double> plain = plain_surface(world, height.size());
-      for (std::size_t k = 0; k < height.size(); ++k) EXPECT_EQ(height[k], plain[k]) << samples << ' ' << k;
+  for (int k = 0; k < 400; ++k) {
+    const World world = bed_of_chance(random, k % 2 == 0);
+    const std::vector<SurfaceArc> surface = free_surface(world.grains, world.boundary);
+    constexpr std::size_t samples = 331;
+    const std::vector<double> plain = plain_surface(world, samples);
+    for (std::size_t s = 0; s < samples; ++s) {
+      const double place = (static_cast<double>(s) + 0.5) * world.boundary.length / samples;
+      ASSERT_NEAR(height_of(surface, place), plain[s], 2e-7) << "bed " << k << " at " << place;
     }
+  }
+}
+
+TEST(FreeSurface, ends_in_ascending_order_at_the_length_of_the_bed) {
+  Random random(11);
+  for (int k = 0; k < 100; ++k) {
+    const World world = bed_of_chance(random, k % 2 == 0);
+    const std::vector<SurfaceArc> surface = free_surface(world.grains, world.boundary);
+    ASSERT_FALSE(surface.empty());
+    EXPECT_EQ(surface.back().end, world.boundary.length);
+    double begin = 0.0;
+    for (const SurfaceArc& arc : surface) {
+      EXPECT_GT(arc.end, begin);
+      begin = arc.end;
+    }
+  }
+}
+
+/// The area below a surface by the midpoint rule, and how far off it may be: the surface changes by no more
+/// than its variation.
+struct Sampled {
+  double area = 0.0, error = 0.0;
+};
+Sampled sampled_volume(const World& world, double samples_per_metre) {
+  const std::vector<double> heights =
+      plain_surface(world, static_cast<std::size_t>(samples_per_metre * world.boundary.length));
+  const double step = world.boundary.length / static_cast<double>(heights.size());
+  Sampled sampled;
+  for (std::size_t k = 0; k < heights.size(); ++k) {
+    sampled.area += step * heights[k];
+    if (k > 0) sampled.error += step * std::abs(heights[k] - heights[k - 1]);
+  }
+  return sampled;
+}
+
+TEST(BedVolume, is_that_of_very_many_samples) {
+  Random random(5);
+  for (int k = 0; k < 6; ++k) {
+    const World world = bed_of_chance(random, k % 2 == 0);
+    const Sampled sampled = sampled_volume(world, 1e5);
+    EXPECT_LT(sampled.error, 3e-3);
+    EXPECT_NEAR(volume(world), sampled.area, sampled.error) << "bed " << k;
+  }
+}
+
+// A row of touching disks of many sizes, as the surface of a bed is one: its samples, 10 000 for a diameter,
+// err by 1e-7 of the bed.
+TEST(BedVolume, of_a_packing_has_no_error_that_would_hide_its_dilation) {
+  World world = empty_bed(0.0, false);
+  Random random(9);
+  double x = 0.0;
+  for (int k = 0; k < 40; ++k) {
+    const double radius = 0.2 + 0.6 * random.uniform();
+    for (const double depth : {0.0, 1.1}) add_grain(world, x + radius, 20.0 - depth * radius, radius);
+    x += 2.0 * radius;
+  }
+  world.boundary.length = x;
+  EXPECT_NEAR(volume(world), sampled_volume(world, 1e4).area, 3e-7 * 20.0 * x);
+}
+
+// The upper half of a disk stands on average pi/4 r above its centre.
+TEST(BedVolume, of_a_row_of_touching_disks) {
+  for (const bool periodic : {true, false}) {
+    World world = empty_bed(10.0, periodic);
+    for (int k = 0; k < 10; ++k) add_grain(world, k + 0.5, 0.75);
+    EXPECT_NEAR(volume(world), 10.0 * (0.75 + 0.25 * pi * r), 1e-12);
+  }
+}
+
+// Two equal disks d apart cross at half of d: each side adds the integral of sqrt(r^2 - u^2) from -r to d/2.
+TEST(BedVolume, of_two_disks_that_overlap) {
+  World world = empty_bed(10.0, false);
+  const double d = 0.6;
+  add_grain(world, 4.0, 2.0);
+  add_grain(world, 4.0 + d, 2.0);
+  const double u = 0.5 * d,
+               half = 0.5 * (u * std::sqrt(r * r - u * u) + r * r * (std::asin(u / r) + 0.5 * pi));
+  EXPECT_NEAR(volume(world), 2.0 * (2.0 * (r + u) + half), 1e-12);
+}
+
+TEST(BedVolume, counts_what_is_above_the_tops_of_the_floor_grains) {
+  World world = empty_bed(10.0, true);
+  EXPECT_EQ(volume(world), 0.0);
+  add_grain(world, 5.0, 2.0);
+  EXPECT_NEAR(volume(world), 2.0 * r * (2.0 + 0.25 * pi * r), 1e-12);
+  World sunk = empty_bed(10.0, true);
+  add_grain(sunk, 5.0, -0.3);
+  const double w = std::sqrt(r * r - 0.09);
+  EXPECT_NEAR(volume(sunk), w * 0.3 + r * r * std::asin(w / r) - 0.6 * w, 1e-12);
+  add_grain(sunk, 8.0, -0.6);
+  EXPECT_NEAR(volume(sunk), w * 0.3 + r * r * std::asin(w / r) - 0.6 * w, 1e-12);
+}
+
+TEST(BedVolume, only_the_highest_grain_counts_and_only_free_ones) {
+  World world = empty_bed(10.0, true);
+  add_grain(world, 5.0, 2.0);
+  const double alone = volume(world);
+  add_grain(world, 5.2, 0.9, 0.2);
+  add_grain(world, 5.0, 7.0, r, true);
+  add_grain(world, 2.0, -0.5, r, true);
+  EXPECT_EQ(volume(world), alone);
+}
+
+TEST(BedVolume, reaches_through_the_periodic_edge_and_stops_at_walls) {
+  World middle = empty_bed(10.0, true);
+  add_grain(middle, 5.0, 2.0);
+  World edge = empty_bed(10.0, true);
+  add_grain(edge, 0.1, 2.0);
+  EXPECT_NEAR(volume(edge), volume(middle), 1e-12);
+  World walled = empty_bed(10.0, false);
+  add_grain(walled, 0.0, 2.0);
+  EXPECT_NEAR(volume(walled), 0.5 * volume(middle), 1e-12);
+}
+
+TEST(BedVolume, is_the_sum_of_its_parts) {
+  Random random(3);
+  const World world = bed_of_chance(random, true);
+  const std::vector<SurfaceArc> surface = free_surface(world.grains, world.boundary);
+  const double length = world.boundary.length, cut = 0.37 * length;
+  EXPECT_NEAR(area_below(surface, 0.0, cut) + area_below(surface, cut, length), volume(world),
+              1e-12 * length);
+  EXPECT_EQ(area_below(surface, -2.0, -1.0), 0.0);
 }
 
 // n = 20 bumps lie in the middle half. Each is symmetric about its grain, so what is fitted is a staircase of
