@@ -33,15 +33,15 @@ class LowestHeights {
  public:
   LowestHeights(double length, double width)
       : heights_(static_cast<std::size_t>(std::clamp(std::ceil(length / width), 1.0, 1e6)), 0.0),
-        width_(length / static_cast<double>(heights_.size())) {}
+        width_(length / static_cast<double>(heights_.size())),
+        per_width_(1.0 / width_) {}
 
   /// Whether a disk may be seen from above.
   bool may_show(const Disk& disk) const {
-    const double half = disk.half_width();
-    for (std::size_t k = cell(disk.x - half), last = cell(disk.x + half); k <= last; ++k) {
-      const double nearest = std::clamp(disk.x, left(k), left(k + 1));
-      if (disk.height_at(nearest) > heights_[k]) return true;
-    }
+    const double half = disk.half_width(), top = disk.y + disk.radius;
+    for (std::size_t k = cell(disk.x - half), last = cell(disk.x + half); k <= last; ++k)
+      if (top > heights_[k] && disk.height_at(std::clamp(disk.x, left(k), left(k + 1))) > heights_[k])
+        return true;
     return false;
   }
 
@@ -56,12 +56,12 @@ class LowestHeights {
  private:
   double left(std::size_t k) const { return width_ * static_cast<double>(k); }
   std::size_t cell(double place) const {
-    const double k = std::clamp(std::floor(place / width_), 0.0, static_cast<double>(heights_.size() - 1));
-    return static_cast<std::size_t>(k);
+    const double k = place * per_width_;
+    return k > 0.0 ? std::min(static_cast<std::size_t>(k), heights_.size() - 1) : 0;
   }
 
   std::vector<double> heights_;
-  double width_;
+  double width_, per_width_;
 };
 
 /// The disks that may be seen from above, and their images, each at least in part between 0 and the length.
@@ -81,8 +81,8 @@ std::vector<Disk> upper_disks(const Grains& grains, const Boundary& boundary) {
   // The last grains first: they are at the surface.
   for (Index i = grains.free_count - 1; i >= 0; --i) {
     const Disk disk{grains.x[i], grains.y[i], grains.radius[i]};
-    if (!boundary.periodic) {
-      add(disk);
+    if (!boundary.periodic || (disk.radius <= disk.x && disk.x <= length - disk.radius)) {
+      add(disk);  // it has no image in sight
       continue;
     }
     const double first = std::ceil(-(disk.x + disk.radius) / length);
