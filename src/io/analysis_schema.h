@@ -14,7 +14,7 @@ namespace talus {
 
 /// Counts up with each change of the table or of what is computed: stored analyses of other versions are
 /// computed again.
-inline constexpr std::int32_t analysis_version = 6;
+inline constexpr std::int32_t analysis_version = 7;
 
 /// The data set of a quantity.
 DataSetField data_set_of(const Quantity& quantity);
