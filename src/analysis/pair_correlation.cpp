@@ -1,11 +1,11 @@
 #include "analysis/pair_correlation.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <utility>
 
-#include "analysis/cells.h"
 #include "analysis/free_grains.h"
 #include "core/trigonometry.h"
 
@@ -60,37 +60,126 @@ std::vector<double> over_layer_mean(const std::vector<double>& y, const std::vec
   return result;
 }
 
+/// Points in rows of one height, in each by ascending x, so that those near a place are one block of a row.
+/// A periodic bed is continued to either side by copies of points, as far as pairs reach.
+struct SortedRows {
+  struct Row {
+    std::size_t first = 0, last = 0;          ///< its points and copies
+    std::size_t own_first = 0, own_last = 0;  ///< its points
+  };
+  double height = 1.0;  ///< m
+  std::vector<Row> rows;
+  std::vector<double> x, y, deviation;
+};
+
+/// A row is an eighth of the reach high: less would be more blocks, more would be pairs that are too far.
+SortedRows sort_into_rows(const Points& points, double reach, double period) {
+  SortedRows sorted;
+  if (points.x.empty()) return sorted;
+  const auto [lowest, highest] = std::ranges::minmax(points.y);
+  // A point far away from all others must not cost memory without bound.
+  const double most = static_cast<double>(points.x.size());
+  sorted.height = std::max(reach / 8.0, (highest - lowest) / most);
+  struct Entry {
+    std::size_t row;
+    double x;
+    std::size_t point;
+    auto operator<=>(const Entry&) const = default;
+  };
+  std::vector<Entry> entries;
+  for (std::size_t i = 0; i < points.x.size(); ++i) {
+    const auto row = static_cast<std::size_t>((points.y[i] - lowest) / sorted.height);
+    const double x = period > 0.0 ? points.x[i] - std::floor(points.x[i] / period) * period : points.x[i];
+    entries.push_back({row, x, i});
+    if (period > 0.0 && x < reach) entries.push_back({row, x + period, i});
+    if (period > 0.0 && x >= period - reach) entries.push_back({row, x - period, i});
+  }
+  std::ranges::sort(entries);
+  sorted.rows.resize(entries.back().row + 1);
+  for (const Entry& entry : entries) {
+    SortedRows::Row& row = sorted.rows[entry.row];
+    if (row.last == 0) row = {sorted.x.size(), 0, sorted.x.size(), sorted.x.size()};
+    row.last = sorted.x.size() + 1;
+    if (period > 0.0 && entry.x < 0.0) row.own_first = row.last;
+    if (!(period > 0.0) || entry.x < period) row.own_last = row.last;
+    sorted.x.push_back(entry.x);
+    sorted.y.push_back(points.y[entry.point]);
+    sorted.deviation.push_back(points.deviation[entry.point]);
+  }
+  return sorted;
+}
+
+/// Sums over pairs in bins of their distance. The last bin takes the pairs that are too far apart.
+struct PairSums {
+  PairSums(double farthest, double bin_width, int bins)
+      : reach(farthest),
+        width(bin_width),
+        products(static_cast<std::size_t>(bins) + 1, 0.0),
+        pairs(products.size(), 0.0) {}
+
+  double reach, width;  ///< m
+  std::vector<double> products, pairs;
+};
+
+/// Counts the pairs of a point with a block of points in. In pieces, as the compiler takes several distances
+/// at a time where their bins go to a small array first.
+void add_block(const SortedRows& rows, std::size_t i, std::size_t first, std::size_t last, PairSums& sums) {
+  constexpr std::size_t piece = 64;
+  std::array<int, piece> bin{};
+  const double x = rows.x[i], y = rows.y[i], deviation = rows.deviation[i];
+  const double square_of_reach = sums.reach * sums.reach, width = sums.width;
+  const auto beyond = static_cast<int>(sums.pairs.size()) - 1;
+  const double last_bin = beyond - 1;
+  for (; first < last; first += piece) {
+    const std::size_t count = std::min(piece, last - first);
+    const double* const other_x = rows.x.data() + first;
+    const double* const other_y = rows.y.data() + first;
+    for (std::size_t k = 0; k < count; ++k) {
+      const double dx = other_x[k] - x, dy = other_y[k] - y, square = dx * dx + dy * dy;
+      const auto inside = static_cast<int>(std::min(std::sqrt(square) / width, last_bin));
+      bin[k] = square < square_of_reach ? inside : beyond;
+    }
+    for (std::size_t k = 0; k < count; ++k) {
+      const auto b = static_cast<std::size_t>(bin[k]);
+      sums.products[b] += deviation * rows.deviation[first + k];
+      sums.pairs[b] += 1.0;
+    }
+  }
+}
+
+/// Counts the pairs of the points of a row with those of another one at or above it, or within it.
+void add_pairs(const SortedRows& rows, std::size_t row, std::size_t above, double reach, PairSums& sums) {
+  const SortedRows::Row& from = rows.rows[row];
+  const SortedRows::Row& to = rows.rows[above];
+  const double apart = above > row + 1 ? static_cast<double>(above - row - 1) * rows.height : 0.0;
+  if (apart >= reach) return;
+  const double across = std::sqrt(reach * reach - apart * apart) * (1.0 + 1e-12);  // for rounding
+  std::size_t first = to.first, last = to.first;
+  for (std::size_t i = from.own_first; i < from.own_last; ++i) {
+    while (first < to.last && rows.x[first] < rows.x[i] - across) ++first;
+    while (last < to.last && rows.x[last] <= rows.x[i] + across) ++last;
+    add_block(rows, i, above == row ? i + 1 : first, last, sums);
+  }
+}
+
 }  // namespace
 
 PairCorrelation pair_correlation(const std::vector<double>& x, const std::vector<double>& y,
                                  const std::vector<double>& value, double largest, int bins, double period) {
   const Points points = points_with_value(x, y, value);
-  const Cells cells = sort_into_cells(points.x, points.y, 0.5 * largest, period);
-  const auto count = static_cast<std::size_t>(bins);
-  const double width = largest / bins;
-  std::vector<double> sums(count, 0.0), pairs(count, 0.0);
-  for (Index i = 0; i < static_cast<Index>(points.x.size()); ++i) {
-    const auto add = [&](Index j) {
-      if (j <= i) return;
-      double dx = points.x[j] - points.x[i];
-      dx += nearest_image(dx, period) * period;
-      const double dy = points.y[j] - points.y[i];
-      const double square = dx * dx + dy * dy;
-      if (square >= largest * largest) return;
-      const std::size_t bin = std::min(static_cast<std::size_t>(std::sqrt(square) / width), count - 1);
-      sums[bin] += points.deviation[i] * points.deviation[j];
-      pairs[bin] += 1.0;
-    };
-    const Index column = column_of(cells, points.x[i]);
-    const Index row = row_of(cells, points.y[i]);
-    for (Index ring = 0; ring <= 2; ++ring) visit_ring(cells, column, row, ring, add);
-  }
+  const double reach = period > 0.0 ? std::min(largest, 0.5 * period) : largest;
+  const SortedRows rows = sort_into_rows(points, reach, period);
+  PairSums sums(reach, largest / bins, bins);
+  const auto steps = static_cast<std::size_t>(std::ceil(reach / rows.height)) + 1;
+  for (std::size_t row = 0; row < rows.rows.size(); ++row)
+    for (std::size_t other = row; other < std::min(row + steps, rows.rows.size()); ++other)
+      add_pairs(rows, row, other, reach, sums);
   PairCorrelation result;
-  for (std::size_t bin = 0; bin < count; ++bin) {
-    const bool any = pairs[bin] > 0.0 && points.variance > 0.0;
-    result.r.push_back((static_cast<double>(bin) + 0.5) * width);
-    result.value.push_back(any ? sums[bin] / (pairs[bin] * points.variance) : not_known);
-    result.pairs.push_back(pairs[bin]);
+  for (std::size_t bin = 0; bin < static_cast<std::size_t>(bins); ++bin) {
+    const bool any = sums.pairs[bin] > 0.0 && points.variance > 0.0;
+    result.r.push_back((static_cast<double>(bin) + 0.5) * largest / bins);
+    result.value.push_back(any ? sums.products[bin] / (sums.pairs[bin] * points.variance) : not_known);
+    result.pairs.push_back(sums.pairs[bin]);
   }
   return result;
 }

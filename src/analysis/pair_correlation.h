@@ -15,8 +15,7 @@ struct PairCorrelation {
   std::vector<double> pairs;  ///< number of pairs in each bin
 };
 
-/// `period` in m, 0 where the bed is not periodic; of periodic images the nearest counts, so that `largest`
-/// should not be above half a period.
+/// `period` in m, 0 where the bed is not periodic. In a periodic bed pairs count up to half a period.
 PairCorrelation pair_correlation(const std::vector<double>& x, const std::vector<double>& y,
                                  const std::vector<double>& value, double largest, int bins, double period);
 

@@ -39,34 +39,58 @@ TEST(PairCorrelation, of_an_alternating_chain) {
   EXPECT_EQ(pair_correlation(x, y, value, 4.5, 9, 0.0).pairs[2], 19.0);
 }
 
-TEST(PairCorrelation, equals_the_sum_over_all_pairs) {
-  for (const bool periodic : {false, true}) {
-    const Packing packing = test::random_packing(8, 200, 20.0, 12.0, periodic);
-    std::vector<double> value;
-    Random random(9);
-    double mean = 0.0;
-    for (int k = 0; k < 200; ++k) {
-      value.push_back(random.uniform());
-      mean += value.back() / 200.0;
+/// The same, over all pairs of points.
+PairCorrelation plain_correlation(const std::vector<double>& x, const std::vector<double>& y,
+                                  const std::vector<double>& value, double largest, int bins, double period) {
+  const auto count = static_cast<double>(value.size());
+  double mean = 0.0, variance = 0.0;
+  for (const double each : value) mean += each / count;
+  for (const double each : value) variance += (each - mean) * (each - mean) / count;
+  const auto size = static_cast<std::size_t>(bins);
+  PairCorrelation plain{{}, std::vector<double>(size, 0.0), std::vector<double>(size, 0.0)};
+  for (std::size_t i = 0; i < value.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const double dx = period > 0.0 ? std::remainder(x[i] - x[j], period) : x[i] - x[j];
+      const double r = std::hypot(dx, y[i] - y[j]);
+      if (r >= largest) continue;
+      plain.value[static_cast<std::size_t>(r / (largest / bins))] += (value[i] - mean) * (value[j] - mean);
+      ++plain.pairs[static_cast<std::size_t>(r / (largest / bins))];
     }
-    double variance = 0.0;
-    for (double each : value) variance += (each - mean) * (each - mean) / 200.0;
-    std::vector<double> sums(10, 0.0), pairs(10, 0.0);
-    for (std::size_t i = 0; i < 200; ++i)
-      for (std::size_t j = 0; j < i; ++j) {
-        double dx = std::fabs(packing.frame.x[i] - packing.frame.x[j]);
-        if (periodic) dx = std::min(dx, 20.0 - dx);
-        const double r = std::hypot(dx, packing.frame.y[i] - packing.frame.y[j]);
-        if (r >= 5.0) continue;
-        sums[static_cast<std::size_t>(r / 0.5)] += (value[i] - mean) * (value[j] - mean);
-        ++pairs[static_cast<std::size_t>(r / 0.5)];
-      }
-    const PairCorrelation result =
-        pair_correlation(packing.frame.x, packing.frame.y, value, 5.0, 10, periodic ? 20.0 : 0.0);
-    EXPECT_EQ(result.pairs, pairs);
-    for (std::size_t bin = 0; bin < 10; ++bin)
-      EXPECT_NEAR(result.value[bin], sums[bin] / pairs[bin] / variance, 1e-12);
+  for (std::size_t bin = 0; bin < size; ++bin) {
+    plain.r.push_back((static_cast<double>(bin) + 0.5) * largest / bins);
+    plain.value[bin] /= plain.pairs[bin] * variance;  // NaN without pairs
   }
+  return plain;
+}
+
+TEST(PairCorrelation, equals_the_sum_over_all_pairs) {
+  Random random(9);
+  for (const bool periodic : {false, true})
+    for (const double largest : {0.7, 5.0, 10.0, 40.0})
+      for (const double highest : {0.0, 12.0, 1e7}) {
+        std::vector<double> x, y, value;
+        for (int k = 0; k < 200; ++k) {
+          x.push_back(random.uniform(-3.0, 22.0));
+          y.push_back(highest > 0.0 ? random.uniform(-1.0, 12.0) : 0.5);
+          value.push_back(random.uniform());
+        }
+        y.back() = highest;
+        const double period = periodic ? 20.0 : 0.0, farthest = periodic ? std::min(largest, 10.0) : largest;
+        const PairCorrelation plain = plain_correlation(x, y, value, farthest, 10, period);
+        const PairCorrelation result = pair_correlation(x, y, value, farthest, 10, period);
+        EXPECT_EQ(result.pairs, plain.pairs) << largest;
+        for (std::size_t bin = 0; bin < 10; ++bin)
+          if (plain.pairs[bin] > 0.0)
+            EXPECT_NEAR(result.value[bin], plain.value[bin], 1e-11) << largest;
+          else
+            EXPECT_TRUE(std::isnan(result.value[bin]));
+      }
+}
+
+TEST(PairCorrelation, of_a_periodic_bed_counts_pairs_up_to_half_a_period) {
+  const PairCorrelation result =
+      pair_correlation({1.0, 9.0, 4.0}, {0.5, 0.5, 0.5}, {1.0, 2.0, 3.0}, 20.0, 20, 10.0);
+  EXPECT_EQ(result.pairs, (std::vector<double>{0, 0, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}));
 }
 
 TEST(PairCorrelation, is_the_same_wherever_the_period_is_cut) {
