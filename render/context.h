@@ -31,12 +31,15 @@ std::optional<ContextKind> context_kind(std::string_view name);
 /// Whether that is the name of a renderer of Mesa in software (GL_RENDERER). A GPU rounds in other ways.
 bool draws_in_software(std::string_view renderer);
 
-/// Each throws Error(unavailable) if its library is not installed, or refuses.
+/// Each throws Error(unavailable) if its library is not installed, or refuses. They draw as the environment
+/// says: call make_context.
 std::unique_ptr<Context> make_osmesa_context();
 std::unique_ptr<Context> make_egl_context();
 
-/// A context of that kind; without a kind OSMesa, or EGL if OSMesa is unavailable.
-/// Throws Error(unavailable) with what is missing for each kind that was tried.
+/// A context of that kind; without a kind OSMesa, or EGL if OSMesa is unavailable. The first call removes
+/// from the environment all that configures drivers (GALLIUM_DRIVER, LIBGL_*, MESA_*, ...), so that pictures
+/// have the same bits whatever it says. Throws Error(unavailable) with what is missing for each kind that was
+/// tried.
 std::unique_ptr<Context> make_context(std::optional<ContextKind> kind);
 
 using ContextMaker = std::function<std::unique_ptr<Context>()>;

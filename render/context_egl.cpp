@@ -2,10 +2,8 @@
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
 #include <dlfcn.h>
-#include <unistd.h>
 
 #include <array>
-#include <cstdlib>
 #include <fmt/core.h>
 #include <string>
 
@@ -17,8 +15,6 @@ namespace {
 
 constexpr const char* egl_library = "libEGL.so.1";
 constexpr const char* packages = "apt-get install libegl1 libegl-mesa0 libgl1-mesa-dri";
-/// What names Mesa's driver to libEGL, which takes that of a GPU where there is one.
-constexpr const char* mesa_of_egl = "/usr/share/glvnd/egl_vendor.d/50_mesa.json";
 constexpr unsigned renderer_name = 0x1F01;  // GL_RENDERER
 
 /// The entry points of libEGL, opened at run time.
@@ -43,10 +39,6 @@ void find_egl(void* library, const char* name, Pointer& pointer) {
 }
 
 Egl open_egl() {
-  setenv("MESA_SHADER_CACHE_DISABLE", "true", 0);  // as for OSMesa
-  setenv("LIBGL_ALWAYS_SOFTWARE", "true", 0);      // the same pictures on a machine with a GPU
-  if (!getenv("__EGL_VENDOR_LIBRARY_DIRS") && access(mesa_of_egl, R_OK) == 0)
-    setenv("__EGL_VENDOR_LIBRARY_FILENAMES", mesa_of_egl, 0);
   void* library = dlopen(egl_library, RTLD_NOW | RTLD_LOCAL);  // never closed: Mesa keeps thread-local state
   if (!library) refuse(fmt::format("cannot load {} ({}); {}", egl_library, dlerror(), packages));
   Egl egl;

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cerrno>
-#include <cstdlib>
 #include <fmt/core.h>
 #include <new>
 #include <string>
@@ -42,8 +41,6 @@ OSMesa entry_points(void* library) {
 }
 
 OSMesa open_osmesa() {
-  // The few small shaders compile in no time; a cache would only leave files in the user's home.
-  setenv("MESA_SHADER_CACHE_DISABLE", "true", 0);
   errno = 0;
   void* library =
       dlopen(osmesa_library, RTLD_NOW | RTLD_LOCAL);  // never closed: Mesa keeps thread-local state

@@ -50,7 +50,7 @@ void write_text(const fs::path& path, const std::string& text) {
 
 void draw_maps(const Figure& figure, const fs::path& folder, double width) {
   if (figure.maps.empty()) return;
-  Renderer renderer(make_osmesa_context());
+  Renderer renderer(make_context(std::nullopt));
   for (const FigureMap& map : figure.maps)
     write_png((folder / file_of(figure, map)).string(),
               renderer.draw(map.view, static_cast<int>(std::lround(map.width * width * dots_per_cm))));

@@ -238,15 +238,51 @@ TEST_F(MapCommands, a_frame_has_the_same_colours_alone_as_among_all) {
 
 TEST_F(MapCommands, without_a_context_nothing_is_made) {
   make_run();
-  setenv("MESA_GL_VERSION_OVERRIDE", "3.0", 1);
-  const Outcome outcome = render({"--map", "pressure", "-o", "maps"});
-  const Outcome run = talus({"run", "bed.toml", "-o", "more.h5", "--frames", "frames", "--map", "pressure"});
-  unsetenv("MESA_GL_VERSION_OVERRIDE");
+  const Words broken = {"LD_LIBRARY_PATH=" + folder_.path().string()};
+  for (const char* library : {"libOSMesa.so.8", "libEGL.so.1"})
+    write_file(folder_, library, "no library, but longer than a header " + std::string(100, '.'));
+  const auto draw = [&](const Words& words) { return run_talus(words, folder_.path(), broken); };
+  const Outcome outcome = draw({"render", "bed.h5", "--map", "pressure", "-o", "maps"});
+  const Outcome run = draw({"run", "bed.toml", "-o", "more.h5", "--frames", "frames", "--map", "pressure"});
   EXPECT_EQ(outcome.exit_code, 69);
-  EXPECT_NE(outcome.err.find("OpenGL 3.3"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("libOSMesa.so.8"), std::string::npos) << outcome.err;
   EXPECT_FALSE(fs::exists(folder_.path() / "maps"));
   EXPECT_EQ(run.exit_code, 69) << "it would compute for hours and draw nothing";
   EXPECT_FALSE(fs::exists(folder_.path() / "more.h5.run"));
+}
+
+TEST_F(MapCommands, no_variable_of_a_driver_changes_a_picture_or_costs_a_run) {
+  make_run();
+  const Words variables = {"GALLIUM_DRIVER=swr",
+                           "MESA_GLSL_VERSION_OVERRIDE=110",
+                           "LP_NATIVE_VECTOR_WIDTH=1",
+                           "__EGL_VENDOR_LIBRARY_DIRS=/nowhere",
+                           "LIBGL_DRIVERS_PATH=/nowhere",
+                           "LIBGL_ALWAYS_SOFTWARE=0",
+                           "EGL_PLATFORM=x11",
+                           "DISPLAY=:99"};
+  const Words map = {"--map", "pressure", "--width", "300"};
+  for (const Words& command :
+       std::vector<Words>{Words{"render", "../bed.h5", "--at", "1", "-o", "maps"} + map,
+                          Words{"render", "../bed.h5", "--at", "1", "--context", "egl", "-o", "by_egl"} + map,
+                          Words{"panel", "../bed.h5", "--at", "0,1", "-o", "panel.png"} + map,
+                          Words{"run", "../bed.toml", "-o", "run.h5", "--frames", "live"} + map}) {
+    for (const char* folder : {"plain", "disturbed"}) {
+      fs::create_directory(folder_.path() / folder);
+      const Outcome outcome =
+          run_talus(command, folder_.path() / folder, folder == std::string("plain") ? Words{} : variables);
+      EXPECT_EQ(outcome.exit_code, 0) << command[0] << ": " << outcome.err;
+    }
+  }
+  for (const char* picture : {"maps/pressure_001.00.png", "by_egl/pressure_001.00.png", "panel.png",
+                              "live/pressure_000.00.png", "live/pressure_001.50.png"}) {
+    const auto pixels = [&](const char* folder) {  // their texts name the folder
+      const std::string bytes = file_bytes(folder_.path() / folder / picture);
+      return bytes.substr(std::min(bytes.find("IDAT"), bytes.size()));
+    };
+    EXPECT_FALSE(pixels("plain").empty()) << picture;
+    EXPECT_TRUE(pixels("disturbed") == pixels("plain")) << picture;
+  }
 }
 
 TEST_F(MapCommands, a_full_disk_leaves_no_part_of_a_picture) {

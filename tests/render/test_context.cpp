@@ -80,10 +80,78 @@ TEST(Context, WithNeitherBothAreNamed) {
 }
 
 TEST(Context, WithoutADriverEglSaysWhatToInstall) {
-  // As on a machine with libegl1 alone: it finds no vendor's implementation.
-  const Outcome outcome = picture_hash("__EGL_VENDOR_LIBRARY_DIRS=/nowhere", "egl");
+  const BrokenLibraries broken({"libEGL_mesa.so.0"});
+  const Outcome outcome = picture_hash(broken.environment(), "egl");
   EXPECT_EQ(outcome.exit_code, static_cast<int>(ExitCode::unavailable));
   EXPECT_NE(outcome.text.find("libegl-mesa0"), std::string::npos) << outcome.text;
+}
+
+/// Variables that Mesa, its drivers and libEGL read, with values that make a driver crash, draw nothing, draw
+/// something else or write to the terminal. Some have several: each is tried.
+const std::vector<std::vector<std::string>> driver_settings = {
+    {"GALLIUM_DRIVER=swr", "GALLIUM_DRIVER=softpipe", "GALLIUM_DRIVER=d3d12", "GALLIUM_DRIVER=zink"},
+    {"LIBGL_ALWAYS_SOFTWARE=0", "LIBGL_ALWAYS_SOFTWARE=no"},
+    {"LIBGL_DRIVERS_PATH=/nowhere"},
+    {"LIBGL_DEBUG=verbose"},
+    {"MESA_LOADER_DRIVER_OVERRIDE=zink", "MESA_LOADER_DRIVER_OVERRIDE=iris"},
+    {"MESA_GL_VERSION_OVERRIDE=3.0", "MESA_GL_VERSION_OVERRIDE=2.1"},
+    {"MESA_GLSL_VERSION_OVERRIDE=110"},
+    {"MESA_EXTENSION_OVERRIDE=-GL_ARB_framebuffer_object"},
+    {"MESA_GLSL=dump", "MESA_GLSL=errors,useprog"},
+    {"MESA_LOG_FILE=/nowhere/log"},
+    {"__EGL_VENDOR_LIBRARY_FILENAMES=/nowhere", "__EGL_VENDOR_LIBRARY_FILENAMES=/etc/passwd"},
+    {"__EGL_VENDOR_LIBRARY_DIRS=/nowhere"},
+    {"__GLX_VENDOR_LIBRARY_NAME=nvidia"},
+    {"EGL_PLATFORM=wayland", "EGL_PLATFORM=x11", "EGL_PLATFORM=drm"},
+    {"EGL_LOG_LEVEL=debug"},
+    {"DISPLAY=:99", "DISPLAY=nowhere:0"},
+    {"WAYLAND_DISPLAY=wayland-99"},
+    {"LP_NUM_THREADS=-1", "LP_NUM_THREADS=999999999999", "LP_NUM_THREADS=many"},
+    {"LP_NATIVE_VECTOR_WIDTH=64", "LP_NATIVE_VECTOR_WIDTH=1", "LP_NATIVE_VECTOR_WIDTH=512"},
+    {"LP_NO_RAST=1"},
+    {"LP_PERF=no_tex", "LP_PERF=no_blend"},
+    {"DRAW_USE_LLVM=0"},
+    {"GALLIUM_NOSSE=1"},
+    {"GALLIUM_OVERRIDE_CPU_CAPS=sse2", "GALLIUM_OVERRIDE_CPU_CAPS=nosse"},
+    {"GALLIUM_NOOP=1"},
+    {"GALLIUM_DDEBUG=always"},
+    {"GALLIUM_TRACE=/dev/null"},
+    {"GALLIUM_DUMP_CPU=1"},
+    {"ST_DEBUG=wf", "ST_DEBUG=tgsi"},
+    {"TGSI_PRINT_SANITY=1"},
+    {"DRI_PRIME=1"},
+    {"vblank_mode=0"},
+    {"pp_celshade=1"},
+    {"force_glsl_version=110"},
+};
+
+TEST(Context, NoVariableChangesWhatIsDrawn) {
+  for (const char* kind : {"osmesa 2>&1", "egl 2>&1"}) {
+    const Outcome plain = picture_hash("", kind);
+    ASSERT_EQ(plain.exit_code, 0) << plain.text;
+    const auto is_as_plain = [&](const std::string& environment) {
+      const Outcome outcome = picture_hash(environment, kind);
+      return outcome.exit_code == 0 && outcome.text == plain.text;
+    };
+    for (std::size_t value = 0; value < 4; ++value) {
+      std::string environment;  // all variables at once; one by one only to find that which does harm
+      for (const auto& settings : driver_settings) environment += settings[value % settings.size()] + " ";
+      if (is_as_plain(environment)) continue;
+      ADD_FAILURE() << kind << ": the picture differs with " << environment;
+      for (const auto& settings : driver_settings)
+        if (const std::string& one = settings[value % settings.size()]; !is_as_plain("timeout 20 env " + one))
+          ADD_FAILURE() << kind << ": the picture differs with " << one;
+    }
+  }
+}
+
+TEST(Context, ARefusalNamesTheVariablesThatAreNotUsed) {
+  const BrokenLibraries broken({"libOSMesa.so.8"});
+  const Outcome outcome =
+      picture_hash(broken.environment() + " GALLIUM_DRIVER=swr LIBGL_DRIVERS_PATH=/nowhere", "osmesa");
+  EXPECT_EQ(outcome.exit_code, static_cast<int>(ExitCode::unavailable));
+  for (const char* name : {"GALLIUM_DRIVER", "LIBGL_DRIVERS_PATH"})
+    EXPECT_NE(outcome.text.find(name), std::string::npos) << outcome.text;
 }
 
 TEST(Context, OtherErrorsAreNotHidden) {
