@@ -9,13 +9,17 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from talus.errors import Error
+from talus.checked_file import read_text
+from talus.errors import Error, WrongType, check_name, short
+from talus.manifest import is_sealed
 from talus.optional import need
-from talus.run import Run
+from talus.run import Run, as_path
 from talus.run import open as open_run
-from talus.units import Units
+from talus.units import Units, check_units
 
 FIRST_LINE = "talus ensemble 1"
+#: Seeds that an ensemble can have.
+MAX_SEEDS = 10000
 NUMBERS_HEADER = ["quantity", "unit", "value"]
 
 
@@ -30,7 +34,12 @@ class Mean(NamedTuple):
 
 def mean_of(values: Sequence[float] | np.ndarray) -> Mean:
     """The mean of values, and how well it is known."""
-    numbers = np.asarray(values, dtype=float)
+    try:
+        numbers = np.asarray(values, dtype=float)
+    except (TypeError, ValueError):
+        numbers = np.array(np.nan)
+    if numbers.ndim != 1:
+        raise WrongType(f"mean_of({short(values)}): expected a sequence of numbers")
     numbers = numbers[~np.isnan(numbers)]
     count = len(numbers)
     deviation = float(numbers.std(ddof=1)) if count > 1 else np.nan
@@ -64,16 +73,15 @@ def read_member(variant: str, seed: int, path: Path) -> Member:
         failed = path.with_suffix(".failed").is_file()
         claimed = any(path.parent.glob(path.stem + ".claim-*"))
         return Member(variant, seed, path, "failed" if failed else "claimed" if claimed else "waiting")
-    with table.open(newline="", encoding="utf-8") as file:
-        rows = list(csv.reader(file))
     try:
+        rows = list(csv.reader(read_text(table).splitlines()))
         if rows[0] != NUMBERS_HEADER:
             raise ValueError
         texts = {name: value for name, _, value in rows[1:4]}
         numbers = {name: float(value) if value else np.nan for name, _, value in rows[4:]}
         return Member(variant, seed, path, "done", texts["state_hash"], texts["version"], float(texts["seconds"]),
                       numbers, {name: unit for name, unit, _ in rows[4:]})
-    except (IndexError, KeyError, ValueError):
+    except (IndexError, KeyError, ValueError, OSError, csv.Error):
         raise Error(f"{table}: is not what talus wrote; remove it, and `talus ensemble` analyses the member again") from None
 
 
@@ -104,9 +112,10 @@ class Ensemble:
         if not path.is_file():
             raise Error(f"{self.folder}: no ensemble here; begin one with: talus ensemble SCENARIO --seeds 1-50 -o "
                         f"{self.folder}")
-        lines = path.read_text(encoding="utf-8", errors="replace").splitlines()
         try:
-            if lines[0] != FIRST_LINE or not lines[-1].startswith("hash "):
+            text = read_text(path)
+            lines = text.split("\n")
+            if lines[0] != FIRST_LINE or not is_sealed(text):
                 raise ValueError
             for line in lines[1:]:
                 kind, _, rest = line.partition(" ")
@@ -122,7 +131,7 @@ class Ensemble:
                     self.variants.append(rest.partition(" ")[2])
             if not self.seeds or not self.variants:
                 raise ValueError
-        except (IndexError, ValueError):
+        except (IndexError, ValueError, OSError):
             raise Error(f"{path}: is not what talus wrote; the runs beside it are not affected: talus.open opens "
                         "each") from None
 
@@ -134,8 +143,8 @@ class Ensemble:
         variant = self._variant(variant)
         path = self.folder / "scenarios" / f"{variant or 'scenario'}.toml"
         try:
-            return tomllib.loads(path.read_text(encoding="utf-8"))
-        except (OSError, ValueError) as error:
+            return tomllib.loads(read_text(path))
+        except (OSError, ValueError, RecursionError) as error:
             raise Error(f"{path}: cannot be read: {error}") from error
 
     def done(self, variant: str | None = None) -> list[Member]:
@@ -146,6 +155,7 @@ class Ensemble:
     def numbers(self, name: str, variant: str | None = None) -> np.ndarray:
         """A number of each member of a variant that is done, by seed; NaN where a member has no value. The variant may
         be left out where there is one only. Throws Error where no member has a number of this name."""
+        check_name(name, "the number")
         members = self.done(self._variant(variant))
         known = dict.fromkeys(name for member in members for name in member.numbers)
         if members and name not in known:
@@ -158,6 +168,7 @@ class Ensemble:
 
     def unit(self, name: str) -> str:
         """The unit of a number: "deg", "D", "1". Throws Error where no member has it."""
+        check_name(name, "the number")
         for member in self.done():
             if name in member.units:
                 return member.units[name]
@@ -166,11 +177,17 @@ class Ensemble:
     def measure(self, function: Callable[[Run], Any], variant: str | None = None, units: Units = "SI") -> np.ndarray:
         """What a function of your own gives for the run of each member of a variant that is done, by seed; values or
         arrays of one shape."""
+        if not callable(function):
+            raise WrongType(f"measure({short(function)}): expected a function of a run")
+        check_units(units)
         values = []
         for member in self.done(self._variant(variant)):
             with member.open(units) as run:
                 values.append(function(run))
-        return np.array(values)
+        try:
+            return np.array(values)
+        except ValueError:
+            raise Error(f"{self.folder}: the function gives arrays of several shapes; expected one") from None
 
     def to_pandas(self) -> Any:
         """A DataFrame as `members.csv`: one row for each member that is done, with variant, seed, state_hash, version,
@@ -182,19 +199,22 @@ class Ensemble:
     def _variant(self, variant: str | None) -> str:
         if variant is None and len(self.variants) == 1:
             return self.variants[0]
-        if variant not in self.variants:
-            named = "name a variant" if variant is None else f"has no variant {variant!r}"
+        if not isinstance(variant, str) or variant not in self.variants:
+            named = "name a variant" if variant is None else f"has no variant {short(variant)}"
             raise Error(f"{self.folder}: {named}; it has {', '.join(self.variants) or 'none'}")
         return variant
 
 
 def parse_seeds(text: str) -> list[int]:
-    """ "1-3,8": 1, 2, 3, 8. Throws ValueError where the text has another form."""
+    """ "1-3,8": 1, 2, 3, 8. Throws ValueError where the text has another form, or names more seeds than there can be."""
     ranges = [part.partition("-") for part in text.split(",")]
-    return [seed for first, _, last in ranges for seed in range(int(first), int(last or first) + 1)]
+    bounds = [(int(first), int(last or first)) for first, _, last in ranges]
+    if sum(last - first + 1 for first, last in bounds) > MAX_SEEDS:
+        raise ValueError
+    return [seed for first, last in bounds for seed in range(first, last + 1)]
 
 
 def open_ensemble(folder: str | Path) -> Ensemble:
     """Opens the folder of an ensemble, whatever of it is done. Throws Error where there is none, or its manifest or the
     numbers of a member are not what talus wrote."""
-    return Ensemble(Path(folder))
+    return Ensemble(as_path(folder))

@@ -19,13 +19,22 @@ class Frame:
 
     def __init__(self, run: "Run", index: int) -> None:
         self.run = run
-        self.index = index  #: counted from 0
+        self.index = index = run.frame_index(index)  #: counted from 0
         self.step = int(run.step[index])  #: steps since the beginning of the run
         self.time = float(run.time[index])  #: s
         self.tilt = float(run.tilt[index])  #: angle of the bed to the horizontal
 
     def __repr__(self) -> str:
         return f"<frame {self.index} of {self.run.path}: tilt {self.tilt:.4g} {self.run.unit('frames/tilt')}>"
+
+    def __reduce__(self) -> Any:
+        return Frame, (self.run, self.index)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Frame) and (self.index, self.run.path) == (other.index, other.run.path)
+
+    def __hash__(self) -> int:
+        return hash((self.index, self.run.path))
 
     def _read(self, name: str) -> np.ndarray:
         return self.run.read_frame(f"particles/grains/{name}/value", self.index)
@@ -87,7 +96,7 @@ class Frame:
         """The contacts that carry force."""
         read = {name: self.run.read_frame(f"contacts/{name}", self.index)
                 for name in ("pair", "shift", "normal", "point", "force", "status")}
-        if "moment" in self.run.storage.names("contacts") and len(read["pair"]):
+        if len(read["pair"]) and self.run.storage.has("contacts/moment"):
             read["moment"] = self.run.read_frame("contacts/moment", self.index)
         a, b = read["pair"].T
         between_grains = b < len(self.position)

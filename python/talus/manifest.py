@@ -1,8 +1,9 @@
 """The manifest of the folder in which a run is being computed: which of its files count."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
+from talus.checked_file import text_hash
 from talus.errors import Error
 
 NAME = "manifest"
@@ -13,7 +14,8 @@ FIRST_LINE = "talus run folder 1"
 class StoredFile:
     path: Path
     size: int  #: bytes
-    frames: int = 0  #: of a segment
+    hash: str  #: of all bytes, 16 hexadecimal digits
+    sizes: dict[str, int] = field(default_factory=dict)  #: of a segment, by the letters of the shapes
 
 
 @dataclass(frozen=True)
@@ -28,22 +30,37 @@ def replaces_packed(text: str) -> bool:
     return "\nreplaces the packed file\n" in text
 
 
+def is_sealed(text: str) -> bool:
+    """Whether the last line is the hash of all lines before it."""
+    body, _, seal = text.rpartition("hash ")
+    return text.endswith("\n") and seal == text_hash(body) + "\n"
+
+
+def stored_file(folder: Path, words: list[str]) -> StoredFile:
+    """A file by its line: "header header.h5 SIZE HASH", and of a segment how much it holds. Throws ValueError if it is
+    none of the folder."""
+    kind, name, size, hash_text, *counts = words
+    if not name.endswith(".h5") or "/" in name or len(counts) != (4 if kind == "segment" else 0):
+        raise ValueError
+    return StoredFile(folder / name, int(size), hash_text, dict(zip("TMRS", map(int, counts))))
+
+
 def parse_manifest(text: str, folder: Path) -> Manifest:
-    """What a manifest says. Throws Error where it is not what talus wrote, or of another version."""
-    lines = text.splitlines()
-    if not lines or lines[0] != FIRST_LINE:
-        raise Error(f"{folder / NAME}: begins with {''.join(lines[:1])!r}, expected {FIRST_LINE!r}: it is damaged, "
+    """What a manifest says. Throws Error if it is not what talus wrote, or of another version, or names a file outside of
+    its folder."""
+    lines = text.split("\n")
+    if lines[0] != FIRST_LINE:
+        raise Error(f"{folder / NAME}: begins with {lines[0]!r}, expected {FIRST_LINE!r}: it is damaged, "
                     "or was written by another version of Talus")
-    files: dict[str, list[StoredFile]] = {"header": [], "checkpoint": [], "segment": []}
+    kinds = ("header", "checkpoint", "segment")
     try:
-        for words in (line.split() for line in lines):
-            if words[0] in files:
-                frames = int(words[4]) if words[0] == "segment" else 0
-                files[words[0]].append(StoredFile(folder / words[1], int(words[2]), frames))
-        whole = lines[-1].startswith("hash ") and text.endswith("\n")
-        [header], [checkpoint] = files["header"], files["checkpoint"]
-    except (IndexError, ValueError):
-        whole = False
-    if not whole:
-        raise Error(f"{folder / NAME}: is damaged; keep what is whole of the run: talus repair RUN.h5 -o NEW.h5")
-    return Manifest(header, checkpoint, files["segment"])
+        if not is_sealed(text):
+            raise ValueError
+        files = [(line.split()[0], stored_file(folder, line.split())) for line in lines if line.startswith(kinds)]
+        [header], [checkpoint], segments = ([file for kind, file in files if kind == each] for each in kinds)
+        if len({file.path for _, file in files}) < len(files):
+            raise ValueError
+    except ValueError:
+        raise Error(f"{folder / NAME}: is damaged (its hash does not match its lines, or they name what is no file of a "
+                    "run folder); keep what is whole of the run: talus repair RUN.h5 -o NEW.h5") from None
+    return Manifest(header, checkpoint, segments)

@@ -3,12 +3,14 @@
 import importlib
 from types import ModuleType
 
+from talus.errors import MissingPackage
+
 
 def need(name: str, purpose: str) -> ModuleType:
     """The package `name`. Throws ImportError, with what to install, where it is missing."""
     try:
         return importlib.import_module(name)
     except ImportError as missing:
-        raise ImportError(
+        raise MissingPackage(
             f"{purpose} needs {name}, which is not installed: apt install python3-{name}, or pip install {name}"
         ) from missing

@@ -1,14 +1,18 @@
 """A run, read from its packed file or from the folder in which it is being computed."""
 
+import os
 import tomllib
 from collections.abc import Sequence
 from functools import cached_property
+from operator import index as as_integer
 from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
 
-from talus.errors import Error
+from talus.checked_file import Identity
+from talus.checks import check_between, check_frame_values, check_series, check_statics, refuse
+from talus.errors import Error, MissingIndex, WrongType, WrongValue, check_name, short
 from talus.frame import Frame
 from talus.storage import Storage, find_run, manifest_text
 from talus.table import Table
@@ -39,10 +43,19 @@ class Frames(Sequence[Frame]):
 
     def __getitem__(self, k: Any) -> Any:
         if isinstance(k, slice):
-            return [self[i] for i in range(*k.indices(len(self)))]
-        if not -len(self) <= k < len(self):
-            raise IndexError(f"frame {k}: {self._run.path} has {len(self)} frames")
-        return Frame(self._run, int(k) % len(self))
+            try:
+                return [self[i] for i in range(*k.indices(len(self)))]
+            except (TypeError, ValueError) as error:
+                raise WrongType(f"frames[{short(k)}]: {error}") from None
+        return Frame(self._run, k)
+
+    def index(self, value: Any, start: int = 0, stop: int | None = None) -> int:
+        """The index of a frame of this run. Throws Error where it is none."""
+        try:
+            return super().index(value, start, stop)  # type: ignore[arg-type]
+        except (TypeError, ValueError):
+            raise WrongValue(f"{short(value)} is no frame of {self._run.path} between {short(start)} and "
+                             f"{short(stop)}") from None
 
 
 class Run:
@@ -65,6 +78,7 @@ class Run:
         if schema != SCHEMA:
             raise Error(f"{self.path}: has schema version {schema}, this package reads version {SCHEMA}: use the "
                         "package of the Talus that wrote it, or compute the run again")
+        self._check_statics()
         self.D = float(storage.read("parameters/mean_diameter"))  #: mean diameter of the free grains, always in m
         self.gravity = float(storage.read("parameters/gravity"))  #: m/s^2
         self.friction = float(storage.read("parameters/friction"))  #: coefficient of friction between grains, mu
@@ -81,6 +95,20 @@ class Run:
         self.tilt: np.ndarray = self["frames/tilt"]  #: (frames,) angle of the bed to the horizontal
         #: What the run found: theta_c (NaN if the slope has not failed), theta_r, residual_max, ...
         self.results: dict[str, float] = {name: self["results/" + name] for name in storage.names("results")}
+
+    def _check_statics(self) -> None:
+        read = self.storage.read
+        edges = read("particles/grains/box/edges")
+        d = float(read("parameters/mean_diameter"))
+        check_statics(self.path, d, edges, read("particles/grains/radius"), read("particles/grains/mass"),
+                      read("particles/grains/species"))
+        for name in ("gravity", "friction"):
+            check_between(self.path, f"parameters/{name}", read(f"parameters/{name}"), 0)
+        self.farthest = min(1e4 * float(edges.sum()), 1e8 * d)  #: where a grain can be, m
+
+    def __reduce__(self) -> Any:
+        """A copy, or what pickle brings to another process, is the run opened again: by its path, in its units."""
+        return reopen, (self.storage.absolute, self.units, self.storage.mark, self.storage.known)
 
     def __enter__(self) -> "Run":
         return self
@@ -99,35 +127,49 @@ class Run:
     def __getitem__(self, name: str) -> Any:
         """All values of any data set of the file, in the units of the run: `run["steps/iterations"]`. An array, a
         number or a text. Throws Error where there is none of this name."""
-        name = name.strip("/")
-        return self._converted(name, self.storage.read(name))
+        name = self._known(name)
+        values = self.storage.read(name)
+        check_series(self.path, name, values)
+        return self._converted(name, values)
+
+    def _known(self, name: Any) -> str:
+        """The path of a data set as the storage has it: `step` and `time` beside the values of grains are those of the
+        frames."""
+        name = check_name(name, "the data set").strip("/")
+        if name.startswith("particles/grains/") and name.endswith(("/step", "/time")):
+            return "frames/" + name.rpartition("/")[2]
+        return name
 
     def _converted(self, name: str, values: Any) -> Any:
         if isinstance(values, np.ndarray) and values.dtype.kind == "f":
             values = values.astype(np.float64)
-        values = values_in(self.units, self.storage.attribute(name, "unit"), values, self.D)
+        values = values_in(self.units, self.storage.unit(name), values, self.D)
         return values.item() if isinstance(values, np.generic) else values
 
     def unit(self, name: str) -> str:
         """The unit in which `run[name]` is given; "1": a number."""
-        self.storage.check(name.strip("/"))
-        return unit_in(self.units, self.storage.attribute(name.strip("/"), "unit"))
+        name = self._known(name)
+        self.storage.check(name)
+        return unit_in(self.units, self.storage.unit(name))
 
     def meaning(self, name: str) -> str:
         """What a data set is, a sentence; empty where the file does not say (a folder, /results)."""
-        name = name.strip("/")
+        name = self._known(name)
         self.storage.check(name)
-        return self.storage.attribute(name, "definition") or self.storage.help(name)
+        return self.storage.meaning(name)
 
     @property
     def theta_c(self) -> float:
         """Angle of repose, the tilt at which the slope failed; NaN if it has not."""
-        return self.results["theta_c"]
+        return self["results/theta_c"]
 
     @cached_property
     def scenario(self) -> dict[str, Any]:
         """The scenario with every key, in its own units (docs/scenario.md): `run.scenario["tilt"]["rate"]`."""
-        return tomllib.loads(self["parameters/scenario_resolved"])
+        try:
+            return tomllib.loads(self["parameters/scenario_resolved"])
+        except (ValueError, RecursionError) as error:
+            raise refuse(self.path, "parameters/scenario_resolved", f"is no scenario: {error}") from None
 
     @cached_property
     def provenance(self) -> dict[str, Any]:
@@ -165,15 +207,22 @@ class Run:
         """Whether the tilt follows a programme: then it may fall, be held, and change its sign."""
         return "last_tilt_step" in self.storage.names("checkpoint/integers")
 
+    @cached_property
+    def planes(self) -> int:
+        """How many planes (floor, walls) there are; without the last state of the run, as many as there can be."""
+        name = "checkpoint/plane_offset"
+        return len(self.storage.read(name)) if self.storage.has(name) else 3
+
     def frame_at(self, angle: float | Literal["repose"]) -> Frame:
         """The frame of the tilt nearest to an angle in degrees, or with "repose" the last one with a tilt up to theta_c,
         as `--at` of `talus render` has it: where the tilt goes up and down, the first frame that reaches the angle, and
         "repose" in the last rise. Throws Error where no frame lies within half the spacing of the frames, or
         theta_c is not known."""
+        degrees = as_angle(angle)
         tilts = np.degrees(self.storage.read("frames/tilt")[: self.frames_of_tilt])
         if not len(tilts):
             raise Error(f"{self.path}: has no frame yet")
-        if angle == "repose":
+        if degrees is None:
             theta_c = np.degrees(float(self.storage.read("results/theta_c")))
             if np.isnan(theta_c):
                 raise Error(f"{self.path}: the angle of repose is not known, as the slope has not failed")
@@ -181,10 +230,10 @@ class Run:
             rise = np.abs(tilts[first:end])
             return self.frames[first + max(int(np.searchsorted(rise, theta_c + 1e-7, side="right")) - 1, 0)]
         spacing = float(np.abs(np.diff(tilts)).max()) if len(tilts) > 1 else 1.0
-        distance = np.abs(tilts - float(angle))
+        distance = np.abs(tilts - degrees)
         near = np.flatnonzero(distance <= 0.5 * spacing + 1e-7)
         if not len(near):
-            raise Error(f"{self.path}: no frame at {angle} deg; its {len(tilts)} frames go from {tilts.min():.2f} to "
+            raise Error(f"{self.path}: no frame at {short(angle)} deg; its {len(tilts)} frames go from {tilts.min():.2f} to "
                         f"{tilts.max():.2f} deg, every {spacing:.3g} deg")
         last = int(near[0])
         while last + 1 < len(tilts) and distance[last + 1] <= distance[last]:
@@ -192,8 +241,28 @@ class Run:
         return self.frames[int(near[0]) + int(np.argmin(distance[near[0] : last + 1]))]
 
     def read_frame(self, name: str, k: int) -> np.ndarray:
-        """What a data set by frame holds of frame k, 0 <= k < len(frames), in the units of the run."""
-        return np.asarray(self._converted(name, self.storage.read_frame(name, k)))
+        """What a data set by frame holds of frame k, in the units of the run. Throws Error where the run has no frame k
+        or no such data set, or the values are impossible."""
+        name = self._known(name)
+        if not name.startswith("contacts/") and not name.endswith("/value"):
+            raise Error(f"{self.path}: {name} is no data set by frame")
+        k = self.frame_index(k)
+        self.storage.check(name)
+        values = self.storage.read_frame(name, k)
+        check_frame_values(self, name, values)
+        return np.asarray(self._converted(name, values))
+
+    def frame_index(self, k: Any) -> int:
+        """The index of a frame, counted from 0; one below 0 counts from the end, as in a list."""
+        try:
+            if isinstance(k, (bool, np.bool_)):
+                raise TypeError
+            integer = as_integer(k)
+        except TypeError:
+            raise WrongType(f"frame {short(k)}: expected an integer, or a slice of them") from None
+        if not -len(self.tilt) <= integer < len(self.tilt):
+            raise MissingIndex(f"frame {short(integer)}: {self.path} has {len(self.tilt)} frames")
+        return integer % len(self.tilt)
 
     @cached_property
     def observables(self) -> Table:
@@ -216,7 +285,44 @@ class Run:
         if version != ANALYSIS:
             raise Error(f"{self.path}: its analysis has version {version}, this package reads version {ANALYSIS}; make "
                         f"it again: talus analyze {self.path}")
+        rows = len(self["analysis/packing/volume"])
+        if rows != self.frames_of_tilt:
+            raise refuse(self.path, "analysis", f"has rows for {rows} frames, the tilt has {self.frames_of_tilt}")
         return Table(self, "analysis")
+
+
+def as_angle(angle: Any) -> float | None:
+    """An angle in degrees; None for "repose"."""
+    if isinstance(angle, str) and angle == "repose":
+        return None
+    try:
+        if isinstance(angle, (str, bytes, bool, np.bool_)):
+            raise TypeError
+        degrees = float(angle)
+    except (TypeError, ValueError, OverflowError):
+        raise WrongType(f'a frame at {short(angle)}: expected an angle in degrees, or "repose"') from None
+    if not np.isfinite(degrees):
+        raise WrongValue(f"a frame at {degrees}: expected an angle in degrees")
+    return degrees
+
+
+def as_path(path: Any) -> Path:
+    """The path of a file or folder. Throws Error for what names none."""
+    try:
+        if not os.fspath(path) or "\0" in os.fspath(path):
+            raise TypeError
+        return Path(path)
+    except TypeError:
+        raise WrongType(f"{short(path)}: expected the path of a file or folder, as a text or a Path") from None
+
+
+def reopen(path: Path, units: Units, mark: bytes, known: tuple[bytes, Identity] | None) -> Run:
+    """A run that was open elsewhere. Throws Error where it is not there, or has changed since."""
+    place = find_run(path)
+    storage = Storage(place, "" if place.is_file() else manifest_text(place), known)
+    if place != path or storage.mark != mark:
+        raise Error(f"{path}: has changed since the run was opened; open it again, and pass its path")
+    return Run(storage, units)
 
 
 def open(path: str | Path, units: Units = "SI") -> Run:
@@ -226,10 +332,17 @@ def open(path: str | Path, units: Units = "SI") -> Run:
     units: "SI" gives lengths in m and angles in rad, as in the file; "D" in mean diameters and in degrees.
 
     Throws Error where there is no run, nothing of it is committed yet, it is no run or one of another version, or it is
-    damaged. A changed byte is found by `talus check`; here it is noticed where HDF5 cannot read on."""
+    damaged. All bytes of a packed file are compared with the hash of its seal, and those of a file of a folder with that
+    of the manifest before it is first read. What is read then must have the type and shape that docs/file_format.md
+    tells, and values that are possible; nothing that lies in other files is read."""
+    path = as_path(path)
+    check_units(units)
     for attempts_left in reversed(range(20)):
-        place = find_run(Path(path))
-        manifest = manifest_text(place)
+        try:
+            place = find_run(path)
+        except (OSError, ValueError) as error:
+            raise Error(f"{short(str(path))}: cannot be opened: {error}") from None
+        manifest = "" if place.is_file() else manifest_text(place)
         try:
             return Run(Storage(place, manifest), units)
         except Error:

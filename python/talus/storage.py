@@ -1,18 +1,17 @@
 """Where the data sets of a run lie: in its packed file, or in the folder that it has while it is computed."""
 
-import time
+import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-import h5py
 import numpy as np
 
+from talus.checked_file import CheckedFile, Identity, as_text, check_seal, check_stored, field_of, read_seal, read_text
 from talus.errors import Error
-from talus.manifest import NAME, Manifest, parse_manifest, replaces_packed
+from talus.manifest import NAME, StoredFile, parse_manifest, replaces_packed
 
-SEAL = b"talus run file 1\n"
 SERIES = ("frames/", "contacts/", "observables/", "steps/", "commands/")
 STATE = ("checkpoint/", "results/", "provenance/timing/")
 
@@ -20,7 +19,7 @@ STATE = ("checkpoint/", "results/", "provenance/timing/")
 def find_run(path: Path) -> Path:
     """The packed file of the run called `path`, or its folder while it is being computed. Throws Error where there is
     neither."""
-    beside = path.with_name(path.name + ".run")
+    beside = path.parent / (path.name + ".run")
     if path.is_file() and not replaces_packed(manifest_text(beside)):
         return path
     for folder in (path, beside):
@@ -39,67 +38,70 @@ def find_run(path: Path) -> Path:
 def manifest_text(folder: Path) -> str:
     """The manifest of a folder; empty where there is none."""
     try:
-        return (folder / NAME).read_text(encoding="utf-8", errors="replace")
+        return read_text(folder / NAME)
     except OSError:
         return ""
 
 
-def check_seal(path: Path) -> None:
-    """Throws Error where the first lines of a packed file are not those of a run, or tell of another size. Bytes that
-    were changed are noticed by `talus check` only, or when HDF5 cannot read them."""
-    with path.open("rb") as file:
-        begin = file.read(512)
-    if not begin.startswith(SEAL):
-        raise Error(f"{path}: is not a Talus run file (it does not begin with {SEAL.decode().strip()!r})")
-    words = begin[len(SEAL):].split(b"\n")[0].split()
-    size = path.stat().st_size
-    if words != [b"size", str(size).encode()]:
-        raise Error(f"{path}: is damaged: it has {size} bytes, but its first lines say otherwise; restore it from a "
-                    f"copy, or save what is undamaged with: talus repair {path} -o NEW.h5")
-
-
 class Storage:
     """The data sets of one run by their paths in docs/file_format.md, without the first slash. One file at a time is
-    open."""
+    open, and each is compared with its hash before it is read for the first time."""
 
-    def __init__(self, place: Path, manifest: str = "") -> None:
-        """`manifest`: the text of the manifest where `place` is a folder."""
+    def __init__(self, place: Path, manifest: str = "", known: tuple[bytes, Identity] | None = None) -> None:
+        """`manifest`: the text of the manifest where `place` is a folder. `known`: the mark and the identity of a packed
+        file that was compared with its hash before."""
         self.place = place
+        #: Where it is, even if the process has gone to another folder since.
+        self.absolute = place = Path(os.path.abspath(place))
         self.complete = place.is_file()
-        self._open_path: Path | None = None
-        self._open_file: h5py.File | None = None
+        self._open_file: CheckedFile | None = None
+        self._identities: dict[Path, Identity] = {}
+        #: By which a file of this name tells whether it is the same: the seal, or the manifest.
+        self.mark: bytes = manifest.encode("utf-8", "surrogateescape")
         if self.complete:
-            check_seal(place)
+            with told_as_damage(place):
+                self.mark, self._identities[place] = known if known and read_seal(place) == known else check_seal(place)
+            self._stored = {place: StoredFile(place, 0, "")}
             self.header = self.state = place
             self.parts = [place]
-            self.frames = [len(self._whole(place, "frames/tilt"))]  #: of each part
         else:
-            self._take(parse_manifest(manifest, place))
+            files = parse_manifest(manifest, place)
+            self._stored = {file.path: file for file in (files.header, files.checkpoint, *files.segments)}
+            for path in self._stored:
+                if not path.is_file():
+                    raise Error(f"{path}: is missing, although the manifest names it")
+            self.header, self.state = files.header.path, files.checkpoint.path
+            self.parts = [segment.path for segment in files.segments]
+        with self._file(self.header) as file:
+            self.grains = file.rows("particles/grains/species")
+        self.frames = [self._rows(path, "frames/tilt") for path in self.parts]  #: of each part
 
-    def _take(self, manifest: Manifest) -> None:
-        for file in [manifest.header, manifest.checkpoint, *manifest.segments]:
-            if not file.path.is_file():
-                raise Error(f"{file.path}: is missing, although the manifest names it")
-            if (size := file.path.stat().st_size) != file.size:
-                raise Error(f"{file.path}: is damaged: it has {size} bytes, the manifest says {file.size}")
-        self.header, self.state = manifest.header.path, manifest.checkpoint.path
-        self.parts = [segment.path for segment in manifest.segments]
-        self.frames = [segment.frames for segment in manifest.segments]
+    @property
+    def known(self) -> tuple[bytes, Identity] | None:
+        """What to give to another Storage of the same packed file."""
+        return (self.mark, self._identities[self.absolute]) if self.complete else None
+
+    def has(self, name: str) -> bool:
+        """Whether a file of the run holds the data set; while it has no segment yet, any series may be there."""
+        files = self._files_of(name)
+        return field_of(name) is not None and (not files or any(self._holds(path, name) for path in files))
 
     def check(self, name: str) -> None:
-        """Throws Error where the run has no data set of this name. While it has no segment yet, any series may be."""
-        files = self._files_of(name)
-        if files and not any(self._holds(path, name) for path in files):
+        """Throws Error where the run has no data set of this name."""
+        if not self.has(name):
             raise Error(f"{self.place}: has no data set {name}")
 
     def read(self, name: str) -> Any:
         """All values of a data set; none of a series while the run has no segment. Throws Error where the run has no
-        data set of this name."""
+        data set of this name, or one that is not as the table of data sets has it."""
         self.check(name)
-        values = [self._whole(path, name) for path in self._files_of(name) if self._holds(path, name)]
+        # Segments without contacts have no moments of them; all else is in each.
+        holds = self._holds if name == "contacts/moment" else lambda *_: True
+        values = [self._whole(path, name) for path in self._files_of(name) if holds(path, name)]
         if len(values) < 2:
             return values[0] if values else np.zeros(0)
-        return joined_offsets(values) if name == "contacts/offset" else np.concatenate(values)
+        with told_as_damage(self.place):
+            return joined_offsets(values) if name == "contacts/offset" else np.concatenate(values)
 
     def read_frame(self, name: str, k: int) -> np.ndarray:
         """What a data set holds of frame k: a row of it, or the contacts of the frame. 0 <= k < sum(frames)."""
@@ -107,40 +109,40 @@ class Storage:
         while k >= self.frames[part]:
             k -= self.frames[part]
             part += 1
-        path = self.parts[part]
-        with self._file(path) as file:
+        with self._file(self.parts[part]) as file:
             if name.startswith("contacts/"):
-                first, last = file["contacts/offset"][k : k + 2]
-                return file[name][first:last]
-            return file[name][k]
+                first, last = file.read("contacts/offset", k, 2).tolist()
+                rows = file.rows("contacts/pair")
+                if not 0 <= first <= last <= rows:
+                    raise file.refuse("contacts/offset", f"does not ascend within the {rows} contacts")
+                return file.read(name, first, last - first)
+            return file.read(name, k, 1)[0]
 
-    def attribute(self, name: str, attribute: str) -> str:
-        """A text beside a data set; empty where there is none."""
+    def unit(self, name: str) -> str:
+        field = field_of(name)
+        return field[2] if field else ""
+
+    def meaning(self, name: str) -> str:
+        """What a data set means; empty in a folder, which says nothing of it."""
         for path in self._files_of(name)[:1]:
             with self._file(path) as file:
-                return as_text(file[name].attrs.get(attribute, ""))
-        return ""
-
-    def help(self, name: str) -> str:
-        """What a data set means; empty in a folder, which has no help."""
+                if text := file.definition(name):
+                    return text
         with self._file(self.header) as file:
-            entry = file.get("help/" + name)
-            return as_text(entry[()]) if isinstance(entry, h5py.Dataset) else ""
+            return as_text(file.read("help/" + name)) if file.has("help/" + name) else ""
 
     def names(self, group: str) -> list[str]:
         """The data sets below a group, in alphabetical order, by their paths from there; none where there is no such
         group."""
-        found: list[str] = []
         for path in self._files_of(group + "/")[:1]:
             with self._file(path) as file:
-                if group in file:
-                    file[group].visititems(lambda name, item: found.append(name) if isinstance(item, h5py.Dataset) else None)
-        return found
+                return file.names(group)
+        return []
 
     def close(self) -> None:
         if self._open_file is not None:
             self._open_file.close()
-        self._open_path = self._open_file = None
+        self._open_file = None
 
     def _files_of(self, name: str) -> list[Path]:
         if name.startswith(SERIES) or name.endswith("/value"):
@@ -149,45 +151,56 @@ class Storage:
 
     def _holds(self, path: Path, name: str) -> bool:
         with self._file(path) as file:
-            return isinstance(file.get(name), h5py.Dataset)
+            return file.has(name)
+
+    def _rows(self, path: Path, name: str) -> int:
+        with self._file(path) as file:
+            return file.rows(name)
 
     def _whole(self, path: Path, name: str) -> Any:
         with self._file(path) as file:
-            value = file[name][()]
-            return as_text(value) if isinstance(value, bytes) else value
+            values = file.read(name)
+            if name == "contacts/offset" and (values[0] != 0 or np.any(np.diff(values) < 0)):
+                raise file.refuse(name, "does not ascend from 0")
+            return as_text(values) if isinstance(values, bytes) else values
+
+    def _opened(self, path: Path) -> CheckedFile:
+        if self._open_file is not None and self._open_file.path == path:
+            return self._open_file
+        self.close()
+        stored = self._stored[path]
+        if path not in self._identities:
+            self._identities[path] = check_stored(path, stored.size, stored.hash)
+        sizes = stored.sizes | ({"N": self.grains} if path in self.parts and not self.complete else {})
+        self._open_file = CheckedFile(path, self._identities[path], sizes)
+        return self._open_file
 
     @contextmanager
-    def _file(self, path: Path) -> Iterator[h5py.File]:
-        """The file at `path`. What HDF5 cannot read of it is an Error."""
-        try:
-            if self._open_path != path:
-                self.close()
-                self._open_file = open_unlocked(path)
-                self._open_path = path
-            assert self._open_file is not None
-            yield self._open_file
-        except FileNotFoundError:
-            raise Error(f"{path}: is not there any more: the run has gone on, or is complete, since it was opened; "
-                        "open it again") from None
-        except BlockingIOError:
-            raise Error(f"{path}: another process writes to it; open it when that has ended") from None
-        except (OSError, KeyError, RuntimeError, ValueError) as error:
-            raise Error(f"{path}: is damaged: {error.args[0] if error.args else error}; restore it from a copy, or "
-                        "save what is undamaged with: talus repair RUN.h5 -o NEW.h5") from error
+    def _file(self, path: Path) -> Iterator[CheckedFile]:
+        """The file at `path`. What cannot be read of it is an Error."""
+        with told_as_damage(path):
+            yield self._opened(path)
 
 
-def open_unlocked(path: Path) -> h5py.File:
-    """The file, once its writer has let go of it: it keeps its lock for an instant after the file has its name."""
-    for _ in range(100):
-        try:
-            return h5py.File(path, "r")
-        except BlockingIOError:
-            time.sleep(0.05)
-    return h5py.File(path, "r")
-
-
-def as_text(value: Any) -> str:
-    return value.decode("utf-8", "replace").rstrip("\0") if isinstance(value, bytes) else str(value)
+@contextmanager
+def told_as_damage(path: Path) -> Iterator[None]:
+    """Makes an Error of all that a file can do to h5py and numpy."""
+    try:
+        yield
+    except Error:
+        raise
+    except FileNotFoundError:
+        raise Error(f"{path}: is not there any more: the run has gone on, or is complete, since it was opened; "
+                    "open it again") from None
+    except BlockingIOError:
+        raise Error(f"{path}: another process writes to it; open it when that has ended") from None
+    except PermissionError as error:
+        raise Error(f"{path}: cannot be opened: {error.strerror}") from None
+    except MemoryError:
+        raise Error(f"{path}: out of memory while it was read; where there is enough, the file is malformed") from None
+    except Exception as error:
+        raise Error(f"{path}: is damaged: {error.args[0] if error.args else error}; restore it from a copy, or "
+                    "save what is undamaged with: talus repair RUN.h5 -o NEW.h5") from error
 
 
 def joined_offsets(parts: list[np.ndarray]) -> np.ndarray:

@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
-from talus.errors import Error
+from talus.errors import Error, MissingName, check_name
 from talus.optional import need
 
 if TYPE_CHECKING:
@@ -25,8 +25,8 @@ class Table(Mapping[str, Any]):
         self._names = run.storage.names(group)
 
     def __getitem__(self, name: str) -> Any:
-        if name not in self._names:
-            raise KeyError(f"{name}: no such data set in /{self._group} of {self._run.path}; "
+        if check_name(name, "the data set") not in self._names:
+            raise MissingName(f"{name}: no such data set in /{self._group} of {self._run.path}; "
                            f"it has {', '.join(self._names)}")
         return self._run[f"{self._group}/{name}"]
 
@@ -75,8 +75,11 @@ class Table(Mapping[str, Any]):
             raise Error(f"/{self._group} of {self._run.path} holds no rows yet")
         return pandas.DataFrame(columns)
 
+    def __contains__(self, name: object) -> bool:
+        return isinstance(name, str) and name in self._names
+
     def _known(self, name: str) -> None:
-        if name not in self._names:
+        if name not in self:
             self[name]
 
 

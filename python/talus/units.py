@@ -4,7 +4,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from talus.errors import Error
+from talus.errors import Error, short
 
 #: "SI": as in the file, lengths in m and angles in rad. "D": lengths in mean diameters and angles in degrees, as in
 #: scenarios and in the tables of Talus. All else (m^2, m/s, Pa, N/m, J/m, 1/rad) is the same in both.
@@ -13,8 +13,8 @@ Units = Literal["SI", "D"]
 
 def check_units(units: str) -> None:
     """Throws Error where `units` is neither "SI" nor "D"."""
-    if units not in ("SI", "D"):
-        raise Error(f'units={units!r}: expected "SI" (m, rad) or "D" (mean diameters, deg)')
+    if not isinstance(units, str) or units not in ("SI", "D"):
+        raise Error(f'units={short(units)}: expected "SI" (m, rad) or "D" (mean diameters, deg)')
 
 
 def unit_in(units: Units, unit: str) -> str:

@@ -14,6 +14,7 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "python"), str(ROOT / "docs/images/cookbook")]
 pytest.importorskip("h5py", reason="h5py is not installed: python3-h5py")
+pytest.importorskip("xxhash", reason="xxhash is not installed: python3-xxhash")
 
 import talus  # noqa: E402
 

@@ -8,6 +8,7 @@ import threading
 import numpy as np
 import pytest
 from conftest import PROGRAM, ROOT, json_of, run_talus
+from resealed import change_manifest
 
 import talus
 
@@ -37,8 +38,7 @@ def test_frames_of_a_stopped_run_are_those_of_the_run_that_is_resumed(stopped, t
 def test_run_without_a_segment_has_no_frames(tmp_path):
     folder = tmp_path / "begun.h5.run"
     shutil.copytree(ROOT / "tests/runs/schema_4_stopped.h5.run", folder)
-    lines = (folder / "manifest").read_text().splitlines(keepends=True)
-    (folder / "manifest").write_text("".join(line for line in lines if not line.startswith("segment")))
+    change_manifest(folder, r"^segment .*\n", "")
     with talus.open(folder) as run:
         assert len(run.frames) == run.frames_of_tilt == len(run.observables) == 0 and len(run.id) == 30
         with pytest.raises(talus.Error, match="has no frame yet"):
@@ -81,9 +81,7 @@ def test_run_that_replaces_another_is_read_before_it_is_packed(analysed, stopped
     shutil.copy(analysed, path)
     shutil.copytree(f"{stopped}.run", f"{path}.run")
     assert talus.open(path).complete
-    manifest = tmp_path / "again.h5.run/manifest"
-    first, rest = manifest.read_text().split("\n", 1)
-    manifest.write_text(f"{first}\nreplaces the packed file\n{rest}")
+    change_manifest(tmp_path / "again.h5.run", r"^header", "replaces the packed file\nheader")
     assert not talus.open(path).complete
 
 

@@ -1,9 +1,11 @@
-/// docs/file_format.md holds the table of data sets as the code has it.
+/// docs/file_format.md and the Python package hold the table of data sets as the code has it.
 
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <sstream>
 
+#include "io/analysis_schema.h"
 #include "io/run_schema.h"
 #include "support/places.h"
 #include "unit/io/example_run.h"
@@ -25,6 +27,29 @@ TEST(FileFormat, is_documented_as_it_is) {
   for (std::string line; std::getline(page, line);)
     if (line.starts_with("| `/")) found += line + "\n";
   EXPECT_EQ(found, expected) << "the table of docs/file_format.md must be:\n" << expected;
+}
+
+constexpr const char* schema_for_python =
+    R"("""Every data set of a run file and of its analysis. The test FileFormat of unit_io makes this table from that of the
+program, compares them, and says where a new one is."""
+
+#: Type, shape and unit by the path without its first slash; `*` stands for names that the run chooses. Letters of a
+#: shape are sizes (docs/file_format.md).
+DATA_SETS = {
+)";
+
+TEST(FileFormat, is_what_the_python_package_checks) {
+  std::ostringstream table;
+  table << schema_for_python;
+  for (const std::vector<DataSetField>& schema : {run_schema(), analysis_schema()})
+    for (const DataSetField& field : schema)
+      table << "    \"" << field.path.substr(1) << "\": (\"" << type_name(field.type) << "\", \""
+            << field.shape << "\", \"" << field.unit << "\"),\n";
+  table << "}\n";
+  const std::string written = test::build_folder() + "/schema.py";
+  std::ofstream(written) << table.str();
+  EXPECT_TRUE(example::file_text(test::source_folder() + "/python/talus/schema.py") == table.str())
+      << "python/talus/schema.py must be as " << written;
 }
 
 TEST(FileFormat, every_path_stands_once) {

@@ -1,0 +1,266 @@
+"""Files that nobody vouches for: their bytes have the hash that was made when they were written, and of an HDF5 file only
+data sets of the table of run files are read, which lie in the file itself and are no larger than it can hold."""
+
+import os
+import stat
+import time
+from math import prod
+from pathlib import Path
+from typing import Any, BinaryIO
+
+import h5py
+import numpy as np
+import xxhash
+
+from talus.errors import Error
+from talus.schema import DATA_SETS
+
+SEAL = b"talus run file 1\n"
+SEAL_SIZE = 512
+READ_SIZE = 1 << 20
+#: Bytes of a text file: the manifest of a run with a million segments has fewer.
+MAX_TEXT = 1 << 27
+#: Values that are read at once: 4 GiB of doubles.
+MAX_VALUES = 1 << 29
+#: Deflate makes data at most so many times smaller.
+MAX_DEFLATION = 1032
+#: Deflate, shuffle, and checksums. HDF5 would look for a plugin, a library to load, for a filter that it does not have.
+FILTERS = (h5py.h5z.FILTER_DEFLATE, h5py.h5z.FILTER_SHUFFLE, h5py.h5z.FILTER_FLETCHER32)
+TYPES = {"float32": h5py.h5t.IEEE_F32LE, "float64": h5py.h5t.IEEE_F64LE, "int8": h5py.h5t.STD_I8LE,
+         "int32": h5py.h5t.STD_I32LE, "int64": h5py.h5t.STD_I64LE, "uint64": h5py.h5t.STD_U64LE}
+#: What tells that a file is the one whose bytes were checked: device, inode, size and time of the last change.
+Identity = tuple[int, int, int, int]
+
+
+def open_regular(path: Path) -> BinaryIO:
+    """A regular file to read, without waiting for the other end of a pipe. Throws OSError, or Error if it is not
+    regular."""
+    descriptor = os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_CLOEXEC", 0))
+    if not stat.S_ISREG(os.fstat(descriptor).st_mode):
+        os.close(descriptor)
+        raise Error(f"{path}: is not a regular file")
+    return os.fdopen(descriptor, "rb")
+
+
+def read_text(path: Path) -> str:
+    """A small text file. Throws OSError, or Error if it is not regular or too large."""
+    with open_regular(path) as file:
+        if (size := os.fstat(file.fileno()).st_size) > MAX_TEXT:
+            raise Error(f"{path}: has {size} bytes, more than a file of its kind can have")
+        return file.read(size).decode("utf-8", "surrogateescape")
+
+
+def text_hash(text: str) -> str:
+    """The hash of a text as Talus writes it: 16 hexadecimal digits."""
+    return xxhash.xxh3_64_hexdigest(text.encode("utf-8", "surrogateescape"))
+
+
+def identity_of(descriptor: int) -> Identity:
+    status = os.fstat(descriptor)
+    return status.st_dev, status.st_ino, status.st_size, status.st_mtime_ns
+
+
+def hash_of_rest(file: BinaryIO) -> str:
+    hasher = xxhash.xxh3_64()
+    while block := file.read(READ_SIZE):
+        hasher.update(block)
+    return hasher.hexdigest()
+
+
+def read_seal(path: Path) -> tuple[bytes, Identity]:
+    """The first lines of a packed file and its identity. Throws OSError, or Error if it is no run."""
+    with open_regular(path) as file:
+        begin = file.read(SEAL_SIZE)
+        identity = identity_of(file.fileno())
+    if not begin.startswith(SEAL):
+        raise Error(f"{path}: is not a Talus run file (it does not begin with {SEAL.decode().strip()!r})")
+    return begin, identity
+
+
+def check_seal(path: Path) -> tuple[bytes, Identity]:
+    """Throws Error if the bytes of a packed file are not those that its first lines, the seal, tell of. Returns the
+    seal and the identity of the file."""
+    begin, identity = read_seal(path)
+    with open_regular(path) as file:
+        file.seek(SEAL_SIZE)
+        size = identity[2]
+        said = begin[len(SEAL):].split(b"\n")[0]
+        # The size first: a truncated file is told without reading it.
+        seal = b"%ssize %d\nxxh3 of all after byte 512 %s\n" % (
+            SEAL, size, hash_of_rest(file).encode() if said == b"size %d" % size else b"")
+        if begin != seal.ljust(SEAL_SIZE, b"\0") or identity_of(file.fileno()) != identity:
+            raise Error(f"{path}: is damaged: it has {size} bytes, but its first lines say otherwise, or have another "
+                        f"hash; restore it from a copy, or save what is undamaged with: talus repair {path} -o NEW.h5")
+    return begin, identity
+
+
+def check_stored(path: Path, size: int, expected: str) -> Identity:
+    """Throws Error if a file does not have the size and hash that the manifest of its folder says. Returns its
+    identity."""
+    hint = "; save what is undamaged with: talus repair RUN.h5 -o NEW.h5"
+    with open_regular(path) as file:
+        identity = identity_of(file.fileno())
+        if identity[2] != size:
+            raise Error(f"{path}: is damaged: it has {identity[2]} bytes, the manifest says {size}{hint}")
+        if (found := hash_of_rest(file)) != expected:
+            raise Error(f"{path}: is damaged: its hash is {found}, the manifest says {expected}{hint}")
+    return identity
+
+
+def open_unlocked(path: Path) -> h5py.File:
+    """The file, once its writer has let go of it: it keeps its lock for an instant after the file has its name."""
+    for _ in range(100):
+        try:
+            return h5py.File(path, "r")
+        except BlockingIOError:
+            time.sleep(0.05)
+    return h5py.File(path, "r")
+
+
+def field_of(name: str) -> tuple[str, str, str] | None:
+    """Type, shape and unit of a data set, by the path without its first slash; None if no run file has it. Texts below
+    /help have none in the table."""
+    if name in DATA_SETS:
+        return DATA_SETS[name]
+    group, _, last = name.rpartition("/")
+    if last in ("", ".", "..") or "\0" in name:
+        return None
+    if group.partition("/")[0] == "help":
+        return "text", "", "1"
+    return DATA_SETS.get(group + "/*")
+
+
+class CheckedFile:
+    """An HDF5 file that is open."""
+
+    def __init__(self, path: Path, identity: Identity, sizes: dict[str, int]) -> None:
+        """`identity`: that of the file whose bytes were checked. `sizes`: what is known of the letters of shapes."""
+        self.path = path
+        self._file = open_unlocked(path)
+        self._size = identity[2]
+        self._sizes = {"": dict(sizes), "analysis": {"N": sizes["N"]} if "N" in sizes else {}}
+        self._sets: dict[str, h5py.h5d.DatasetID] = {}
+        if identity_of(self._file.id.get_vfd_handle()) != identity:
+            self.close()
+            raise Error(f"{path}: has changed since it was opened; open it again")
+
+    def close(self) -> None:
+        self._sets.clear()
+        self._file.close()
+
+    def refuse(self, name: str, problem: str) -> Error:
+        return Error(f"{self.path}: data set /{name} {problem}")
+
+    def has(self, name: str) -> bool:
+        """Whether there is something of this name, whatever it is."""
+        return name in self._sets or self._find(name) is not None
+
+    def rows(self, name: str) -> int:
+        return int(self._open(name).shape[0])
+
+    def read(self, name: str, first: int = 0, count: int | None = None) -> Any:
+        """All values of a data set, or those of some rows; of a text its bytes. Throws Error if it is not as the table
+        of run files has it."""
+        data_set = self._open(name)
+        shape = data_set.shape
+        if shape and count is not None:
+            if not 0 <= first <= first + count <= shape[0]:
+                raise self.refuse(name, f"has {shape[0]} rows; row {first + count} was asked for")
+            shape = (count, *shape[1:])
+        if prod(shape) > MAX_VALUES:
+            raise self.refuse(name, f"has {prod(shape)} values, more than can be read at once; read it frame by frame")
+        values = h5py.Dataset(data_set)
+        return values[()] if not shape else values[first : first + shape[0]]
+
+    def definition(self, name: str) -> str:
+        """The sentence beside a data set; empty if there is none."""
+        data_set = self._open(name)
+        if not h5py.h5a.exists(data_set, b"definition"):
+            return ""
+        attribute = h5py.h5a.open(data_set, b"definition")
+        kind = attribute.get_type()
+        if not is_fixed_text(kind) or attribute.shape != ():
+            raise self.refuse(name, "has a definition that is not a text")
+        text = np.empty((), dtype=f"S{kind.get_size()}")
+        attribute.read(text, mtype=kind)
+        return as_text(text[()])
+
+    def names(self, group: str) -> list[str]:
+        """The data sets below a group that the table has and the file holds, by their paths from there."""
+        below = [name for name in DATA_SETS if name.startswith(group + "/")]
+        found = {name for name in below if not name.endswith("/*") and self.has(name)}
+        for parent in (name[:-2] for name in below if name.endswith("/*")):
+            found |= {f"{parent}/{child}" for child in self._children(parent)}
+        return sorted((name[len(group) + 1 :] for name in found), key=lambda name: name.split("/"))
+
+    def _children(self, group: str) -> list[str]:
+        """The names in a group but those of groups."""
+        parent = self._find(group)
+        if not isinstance(parent, h5py.h5g.GroupID):
+            return []
+        names = [name.decode("utf-8", "surrogateescape") for name in parent]
+        return [name for name in names if not isinstance(self._find(f"{group}/{name}", links=True), h5py.h5g.GroupID)]
+
+    def _find(self, name: str, links: bool = False) -> Any:
+        """What the path leads to; None if it leads nowhere. Throws Error if it passes a link to another place, which
+        is not followed; with `links` a link is None."""
+        here = h5py.h5g.open(self._file.id, b"/")
+        for part in name.split("/"):
+            key = part.encode("utf-8", "surrogateescape")
+            if not isinstance(here, h5py.h5g.GroupID) or not here.links.exists(key):
+                return None
+            if here.links.get_info(key).type != h5py.h5l.TYPE_HARD:
+                if links:
+                    return None
+                raise self.refuse(name, "is a link to another place, which is not followed")
+            here = h5py.h5o.open(here, key)
+        return here
+
+    def _open(self, name: str) -> h5py.h5d.DatasetID:
+        if name not in self._sets:
+            self._sets[name] = self._checked(name)
+        return self._sets[name]
+
+    def _checked(self, name: str) -> h5py.h5d.DatasetID:
+        found, field = self._find(name), field_of(name)
+        if found is None or field is None:
+            raise self.refuse(name, "is missing")
+        if not isinstance(found, h5py.h5d.DatasetID):
+            raise self.refuse(name, "is not a data set")
+        kind, expected = found.get_type(), field[0]
+        if not (is_fixed_text(kind) if expected == "text" else TYPES[expected].equal(kind)):
+            raise self.refuse(name, f"is not of the type {expected}")
+        layout = found.get_create_plist()
+        if layout.get_layout() == h5py.h5d.VIRTUAL or layout.get_external_count() > 0:
+            raise self.refuse(name, "has its values in another file")
+        if any(layout.get_filter(i)[0] not in FILTERS for i in range(layout.get_nfilters())):
+            raise self.refuse(name, "is packed by a filter that Talus does not use")
+        if found.get_space().get_simple_extent_type() == h5py.h5s.NULL:
+            raise self.refuse(name, "has no shape")
+        self._check_shape(name, field[1], found.shape)
+        chunk = layout.get_chunk() if layout.get_layout() == h5py.h5d.CHUNKED else ()
+        characters = kind.get_size() if expected == "text" else 1
+        if max(prod(found.shape), prod(chunk)) * characters > MAX_DEFLATION * self._size:
+            raise self.refuse(name, f"of shape {list(found.shape)} is larger than the file can hold")
+        return found
+
+    def _check_shape(self, name: str, expected: str, shape: tuple[int, ...]) -> None:
+        """Compares with "T+1", "T N 2": a letter has the same size wherever it stands, that of the analysis apart."""
+        sizes = self._sizes["analysis" if name.startswith("analysis/") else ""]
+        extents = expected.split()
+        fits = len(extents) == len(shape)
+        for extent, size in zip(extents, shape):
+            letter, _, more = extent.partition("+") if extent[0].isalpha() else ("", "", extent)
+            rest = size - int(more or 0)
+            fits = fits and rest >= 0 and (sizes.setdefault(letter, rest) == rest if letter else rest == 0)
+        if not fits:
+            known = ", ".join(f"{letter} = {size}" for letter, size in sizes.items() if letter in expected)
+            raise self.refuse(name, f"has shape {list(shape)}, expected [{expected}]{known and ' with ' + known}")
+
+
+def is_fixed_text(kind: h5py.h5t.TypeID) -> bool:
+    return isinstance(kind, h5py.h5t.TypeStringID) and not kind.is_variable_str()
+
+
+def as_text(value: bytes) -> str:
+    return value.decode("utf-8", "replace").split("\0")[0]

@@ -1,0 +1,301 @@
+"""Runs that somebody has made to do harm: nothing outside of the file is read, nothing is taken for true that the program
+would refuse, and all ends in talus.Error. TALUS_TRIES=2000 makes as many tries of chance (.ci/full hostile)."""
+
+import contextlib
+import os
+import random
+import shutil
+import tracemalloc
+
+import h5py
+import numpy as np
+import pytest
+from conftest import ROOT
+from resealed import change_manifest, reseal_folder, seal, sealed, sealed_text
+
+import talus
+
+KEPT = ROOT / "tests/runs/schema_4.h5"
+HUGE = 1 << 40
+SECRET = 54321.0
+
+
+@pytest.fixture
+def packed(tmp_path):
+    return shutil.copy(KEPT, tmp_path / "run.h5")
+
+
+@pytest.fixture
+def folder_of_run(tmp_path):
+    return shutil.copytree(ROOT / "tests/runs/schema_4_stopped.h5.run", tmp_path / "run.h5.run")
+
+
+@pytest.fixture
+def secret(tmp_path):
+    """A file that no run may show: numbers, as bytes and as a data set of each name that is tried."""
+    path = tmp_path / "secret.h5"
+    with h5py.File(path, "w") as file:
+        for name in ("particles/grains/mass", "observables/sigma_n"):
+            with h5py.File(KEPT) as kept:
+                file[name] = np.full(kept[name].shape, SECRET)
+    (tmp_path / "secret.bin").write_bytes(np.full(10000, SECRET).tobytes())
+    return path
+
+
+def use(run):
+    """Asks for all that there is."""
+    for name in (*talus.checked_file.DATA_SETS, "help/frames/tilt"):
+        with contextlib.suppress(talus.Error):
+            run[name]
+    for name in ("frames/tilt", "contacts/pair", "analysis/gamma_c"):
+        with contextlib.suppress(talus.Error):
+            run.unit(name), run.meaning(name)
+    run.scenario, run.provenance, run.seed, run.theta_c, run.frames_of_tilt, repr(run)
+    for frame in run.frames:
+        for values in (frame.position, frame.unwrapped, frame.velocity, frame.angle, frame.angular_velocity):
+            assert np.isfinite(values).all() and len(values) == len(run.id)
+        frame.internal_moment, frame.gamma, repr(frame)
+        contacts = frame.contacts
+        assert contacts.start.shape == contacts.end.shape == contacts.branch.shape
+        contacts.lines(), contacts.force_on_b
+    for table in (run.observables, run.steps):
+        assert len({len(values) for values in table.values()}) == 1
+    with contextlib.suppress(talus.Error):
+        dict(run.analysis)
+
+
+def replaced(name, **how):
+    """Puts another data set in the place of one."""
+    def change(file):
+        shape, kind = file[name].shape, file[name].dtype
+        del file[name]
+        file.create_dataset(name, **({"shape": shape, "dtype": kind} | how))
+    return change
+
+
+def external(name, path):
+    return replaced(name, external=[(str(path), 0, h5py.h5f.UNLIMITED)])
+
+
+def virtual(name, path):
+    def change(file):
+        shape, kind = file[name].shape, file[name].dtype
+        del file[name]
+        layout = h5py.VirtualLayout(shape, kind)
+        layout[:] = h5py.VirtualSource(str(path), name, shape)
+        file.create_virtual_dataset(name, layout)
+    return change
+
+
+def without(path, name):
+    with h5py.File(path, "r+") as file:
+        del file[name]
+
+
+def linked(name, link):
+    def change(file):
+        del file[name]
+        file[name] = link
+    return change
+
+
+def with_values(name, change_values):
+    def change(file):
+        values = file[name][()]
+        change_values(values)
+        file[name][...] = values
+    return change
+
+
+@pytest.mark.chosen
+@pytest.mark.parametrize("name", ["particles/grains/mass", "observables/sigma_n"])
+def test_nothing_outside_of_the_file_is_read(packed, secret, tmp_path, name):
+    os.mkfifo(tmp_path / "pipe")
+    for change, text in [(external(name, tmp_path / "secret.bin"), "has its values in another file"),
+                         (external(name, tmp_path / "pipe"), "has its values in another file"),
+                         (virtual(name, secret), "has its values in another file"),
+                         (linked(name, h5py.ExternalLink(str(secret), "/" + name)), "is a link to another place"),
+                         (linked(name.rpartition("/")[0], h5py.ExternalLink(str(secret), name.rpartition("/")[0])),
+                          "is a link to another place"),
+                         (linked(name, h5py.SoftLink("/frames/time")), "is a link to another place")]:
+        shutil.copy(KEPT, packed)
+        with pytest.raises(talus.Error, match=text), talus.open(sealed(packed, change)) as run:
+            assert not np.any(run[name] == SECRET)
+            dict(run.observables)
+
+
+@pytest.mark.chosen
+@pytest.mark.parametrize("change, text", [
+    (replaced("particles/grains/mass", shape=(HUGE,), chunks=(1024,)), "has shape .*, expected"),
+    (replaced("analysis/threshold", shape=(HUGE,), chunks=(1024,), dtype="<f8"), "larger than the file can hold"),
+    (replaced("contacts/pair", shape=(HUGE, 2), chunks=(1, 2)), "larger than the file can hold"),
+    (replaced("parameters/scenario_resolved", dtype=h5py.string_dtype()), "is not of the type text"),
+    (replaced("frames/tilt", dtype=[("x", "f8")]), "is not of the type float64"),
+    (with_values("contacts/offset", lambda v: np.put(v, 2, v[4])), "does not ascend"),
+    (with_values("contacts/offset", lambda v: np.put(v, 5, 10**9)), "does not ascend within"),
+    (with_values("contacts/offset", lambda v: np.put(v, 1, -5)), "does not ascend"),
+    (with_values("contacts/pair", lambda v: np.put(v, 1, 10**6)), "joins other bodies"),
+    (with_values("contacts/pair", lambda v: np.put(v, 0, -1)), "joins other bodies"),
+    (with_values("contacts/status", lambda v: np.put(v, 0, 7)), "other than 0, 1 and 2"),
+    (with_values("particles/grains/position/value", lambda v: np.put(v, 0, np.nan)), "no finite number"),
+    (with_values("particles/grains/position/value", lambda v: np.put(v, 0, 1e30)), "farther away"),
+    (with_values("particles/grains/radius", lambda v: np.put(v, 0, -1)), "holds other values than numbers from"),
+    (with_values("particles/grains/species", lambda v: np.put(v, 0, 1)), "has no free grain, or one after"),
+    (with_values("frames/tilt", lambda v: np.put(v, 0, np.inf)), "no finite number"),
+])
+def test_what_the_program_refuses_is_refused(packed, change, text):
+    def make(file):
+        if "analysis/threshold" not in file:
+            file["analysis/threshold"] = np.zeros(2)
+        change(file)
+
+    with pytest.raises(talus.Error, match=text), talus.open(sealed(packed, make)) as run:
+        run["analysis/threshold"]
+        use(run)
+
+
+@pytest.mark.chosen
+@pytest.mark.parametrize("name", ["../other.h5", "/etc/passwd.h5", "segment_000002.h5", "sub/x.h5"])
+def test_a_manifest_names_files_of_its_folder_once(folder_of_run, name):
+    shutil.copy(folder_of_run / "segment_000003.h5", folder_of_run.parent / "other.h5")
+    change_manifest(folder_of_run, r"^segment segment_000003.h5", f"segment {name}")
+    with pytest.raises(talus.Error, match="manifest: is damaged .*no file of a run folder"):
+        talus.open(folder_of_run)
+
+
+@pytest.mark.chosen
+@pytest.mark.parametrize("change, text", [
+    (lambda f: (f / "segment_000003.h5").write_bytes(bytes(27259)), "segment_000003.h5: is damaged: its hash is"),
+    (lambda f: change_manifest(f, r"(segment_000003.h5 \w+ \w+) \d+", r"\1 99999999999999"), "has shape .* T = 9999"),
+    (lambda f: change_manifest(f, r"(segment_000003.h5) \w+", r"\1 -1"), "has 27259 bytes, the manifest says -1"),
+    (lambda f: (f / "manifest").write_text((f / "manifest").read_text().replace("segment_", "segment-", 1)),
+     "manifest: is damaged"),
+    (lambda f: [without(f / "segment_000003.h5", "steps/residual"), reseal_folder(f)], "steps/residual is missing"),
+    (lambda f: [(f / "header.h5").unlink(), os.mkfifo(f / "header.h5")], "header.h5: is missing"),
+    (lambda f: [(f / "manifest").unlink(), os.mkfifo(f / "manifest")], "nothing is committed"),
+    (lambda f: os.truncate(f / "manifest", HUGE), "more than a file of its kind can have"),
+])
+def test_folders_are_what_their_manifest_says(folder_of_run, change, text):
+    change(folder_of_run)
+    with pytest.raises(talus.Error, match=text), talus.open(folder_of_run) as run:
+        use(run)
+
+
+@pytest.mark.chosen
+@pytest.mark.parametrize("seeds", ["1-1000000000000", "1-10001", "1-" + "9" * 5000, "5-x"])
+def test_an_ensemble_has_no_more_seeds_than_there_can_be(tmp_path, seeds):
+    text = f"talus ensemble 1\nversion 0.1.0\nseeds {seeds}\nvariant 0 \nhash \n"
+    (tmp_path / "ensemble.manifest").write_text(sealed_text(text))
+    tracemalloc.start()
+    with pytest.raises(talus.Error, match="ensemble.manifest: is not what talus wrote"):
+        talus.open_ensemble(tmp_path)
+    assert tracemalloc.get_traced_memory()[1] < 1 << 20
+    tracemalloc.stop()
+
+
+def test_a_definition_and_a_name_are_plain_text(packed):
+    def change(file):
+        file["provenance/\x1b[2J"] = np.bytes_("x")
+        del file["particles/grains/radius"]
+
+    with pytest.raises(talus.Error) as error:
+        with talus.open(sealed(packed, change)) as run:
+            use(run)
+    assert "\x1b" not in str(error.value)
+
+
+NUMBERS = [np.nan, np.inf, -np.inf, 0, -1, 1, 2, 1e300, -1e9, 3e38, 1 << 31, 127, -(1 << 62), 5]
+
+
+def spoil(file, chance, secret):
+    """Does one of the harms of tests/reliability/hostile_file.h to a data set of chance."""
+    paths = []
+    file.visititems(lambda name, item: paths.append(name) if isinstance(item, h5py.Dataset) and
+                    not name.startswith("help/") else None)
+    name = chance.choice(paths)
+    shape, kind = file[name].shape, file[name].dtype
+    harm = chance.randrange(16)
+    if harm < 5:
+        values = np.array(file[name][()])
+        if values.size and kind.kind in "iuf":
+            with np.errstate(all="ignore"):
+                number = np.array(chance.choice(NUMBERS)).astype(kind)
+            values.flat[slice(None) if harm == 0 else chance.randrange(values.size)] = number
+            file[name][...] = values
+        return
+    del file[name]
+    if harm == 5:
+        file.create_group(name)
+    elif harm == 6:
+        file.create_dataset(name, shape=shape, dtype=chance.choice(["<f8", ">i8", "S1000000", "<u2", "<f2"]))
+    elif harm == 7:
+        file.create_dataset(name, shape=shape, dtype=h5py.string_dtype())
+    elif harm == 8:
+        file.create_dataset(name, shape=(*shape, 1), dtype=kind)
+    elif harm == 9:
+        file.create_dataset(name, shape=(), dtype=kind)
+    elif harm == 10:
+        file.create_dataset(name, shape=(0, *shape[1:]), dtype=kind)
+    elif harm == 11:
+        file.create_dataset(name, shape=(shape[0] + 1 if shape else 1, *shape[1:]), dtype=kind)
+    elif harm == 12:
+        large = (HUGE,) if len(shape) < 2 else tuple(HUGE >> 8 * (len(shape) - 1) for _ in shape)
+        file.create_dataset(name, shape=large, dtype=kind, chunks=(1,) * len(large))
+    elif harm == 13:
+        file.create_dataset(name, shape=shape or (1,), dtype=kind, external=[(str(secret), 0, h5py.h5f.UNLIMITED)])
+    elif harm == 14:
+        file[name] = chance.choice([h5py.SoftLink("/"), h5py.SoftLink("/frames/tilt"), h5py.SoftLink("/nowhere"),
+                                    h5py.ExternalLink(str(secret), "/" + name)])
+
+
+def spoil_one_of_folder(folder, chance, secret):
+    name = chance.choice(sorted(path.name for path in folder.glob("*.h5")))
+    with h5py.File(folder / name, "r+") as file:
+        spoil(file, chance, secret)
+    reseal_folder(folder)
+    return folder
+
+
+def spoil_bytes(path, chance):
+    data = bytearray(path.read_bytes())
+    for _ in range(chance.randrange(1, 4)):
+        at = chance.randrange(512, len(data) if chance.random() < 0.5 else 6000)
+        data[at] = chance.randrange(256)
+    path.write_bytes(data)
+    return seal(path)
+
+
+def use_spoilt(seed, folder):
+    """One try of chance. Returns whether the run was refused."""
+    chance = random.Random(seed)
+    (folder / "secret").write_bytes(np.full(100000, SECRET).tobytes())
+    for entry in folder.glob("run*"):
+        shutil.rmtree(entry) if entry.is_dir() else entry.unlink()
+    if seed % 4 == 0:
+        path = shutil.copytree(ROOT / "tests/runs/schema_4_stopped.h5.run", folder / "run.h5.run")
+        spoil_one_of_folder(path, chance, folder / "secret")
+    else:
+        path = shutil.copy(KEPT, folder / "run.h5")
+        if seed % 4 == 1:
+            spoil_bytes(path, chance)
+        else:
+            sealed(path, lambda file: [spoil(file, chance, folder / "secret") for _ in range(chance.randrange(1, 3))])
+    try:
+        with talus.open(path) as run:
+            use(run)
+            assert not any(np.any(run[name] == SECRET) for name in ("particles/grains/mass", "particles/grains/radius"))
+    except talus.Error:
+        return True
+    return False
+
+
+@pytest.mark.chosen
+def test_any_damage_that_is_sealed_again_ends_in_an_error(tmp_path):
+    tries = int(os.environ.get("TALUS_TRIES", "40"))
+    refused = 0
+    for seed in range(tries):
+        try:
+            refused += use_spoilt(seed, tmp_path)
+        except Exception as error:
+            raise AssertionError(f"try {seed}") from error
+    assert tries / 4 < refused < tries, "the damage must be such that some runs are refused, and some can be read"
