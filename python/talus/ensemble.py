@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from talus.checked_file import read_text
-from talus.errors import Error, WrongType, check_name, short
+from talus.errors import Error, WrongType, check_text, short
 from talus.manifest import is_sealed
 from talus.optional import need
 from talus.run import Run, as_path
@@ -155,7 +155,7 @@ class Ensemble:
     def numbers(self, name: str, variant: str | None = None) -> np.ndarray:
         """A number of each member of a variant that is done, by seed; NaN where a member has no value. The variant may
         be left out where there is one only. Throws Error where no member has a number of this name."""
-        check_name(name, "the number")
+        check_text(name, "the number")
         members = self.done(self._variant(variant))
         known = dict.fromkeys(name for member in members for name in member.numbers)
         if members and name not in known:
@@ -168,7 +168,7 @@ class Ensemble:
 
     def unit(self, name: str) -> str:
         """The unit of a number: "deg", "D", "1". Throws Error where no member has it."""
-        check_name(name, "the number")
+        check_text(name, "the number")
         for member in self.done():
             if name in member.units:
                 return member.units[name]

@@ -34,7 +34,7 @@ class MissingPackage(Error, ImportError):
     """A package that only some calls need, and that is not installed."""
 
 
-def check_name(name: Any, what: str) -> str:
+def check_text(name: Any, what: str) -> str:
     """The name. Throws WrongType if it is not a text."""
     if not isinstance(name, str):
         raise WrongType(f"{what} {short(name)}: expected a text")

@@ -12,7 +12,7 @@ import numpy as np
 
 from talus.checked_file import Identity
 from talus.checks import check_between, check_frame_values, check_series, check_statics, refuse
-from talus.errors import Error, MissingIndex, WrongType, WrongValue, check_name, short
+from talus.errors import Error, MissingIndex, WrongType, WrongValue, check_text, short
 from talus.frame import Frame
 from talus.storage import Storage, find_run, manifest_text
 from talus.table import Table
@@ -135,7 +135,7 @@ class Run:
     def _known(self, name: Any) -> str:
         """The path of a data set as the storage has it: `step` and `time` beside the values of grains are those of the
         frames."""
-        name = check_name(name, "the data set").strip("/")
+        name = check_text(name, "the data set").strip("/")
         if name.startswith("particles/grains/") and name.endswith(("/step", "/time")):
             return "frames/" + name.rpartition("/")[2]
         return name

@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
-from talus.errors import Error, MissingName, check_name
+from talus.errors import Error, MissingName, check_text
 from talus.optional import need
 
 if TYPE_CHECKING:
@@ -25,7 +25,7 @@ class Table(Mapping[str, Any]):
         self._names = run.storage.names(group)
 
     def __getitem__(self, name: str) -> Any:
-        if check_name(name, "the data set") not in self._names:
+        if check_text(name, "the data set") not in self._names:
             raise MissingName(f"{name}: no such data set in /{self._group} of {self._run.path}; "
                            f"it has {', '.join(self._names)}")
         return self._run[f"{self._group}/{name}"]
