@@ -1,11 +1,17 @@
 #include "ensemble/axes.h"
 
+#include <algorithm>
 #include <fmt/core.h>
+#include <functional>
+#include <span>
+#include <string_view>
 
 #include "core/errors.h"
+#include "core/hash.h"
 #include "core/visible_text.h"
 #include "ensemble/plan.h"
 #include "scenario/keys.h"
+#include "scenario/setting_forms.h"
 #include "scenario/text.h"
 
 namespace talus {
@@ -19,9 +25,94 @@ namespace {
                   visible_word(text)));
 }
 
+[[noreturn]] void refuse_open_value(const std::string& text, std::size_t begin) {
+  throw Error(ExitCode::usage,
+              fmt::format("--vary {}: expected the quote or bracket to be closed that begins at {}",
+                          visible_word(text), visible_word(text.substr(begin), 20)));
+}
+
+/// The place behind the string of TOML whose quote is at `begin`; npos if it has no end.
+std::size_t end_of_string(std::string_view text, std::size_t begin) {
+  const std::string_view three = text.substr(begin, 3);
+  const bool is_long = three == R"(""")" || three == "'''";
+  const std::string_view quote = text.substr(begin, is_long ? 3 : 1);
+  for (std::size_t at = begin + quote.size(); at < text.size(); ++at) {
+    if (quote.front() == '"' && text[at] == '\\')
+      ++at;
+    else if (text.substr(at).starts_with(quote))
+      return at + quote.size();
+  }
+  return std::string_view::npos;
+}
+
+/// The same of an array or an inline table. Whether brackets fit is for the reader of TOML to say.
+std::size_t end_of_bracket(std::string_view text, std::size_t begin) {
+  int depth = 0;
+  for (std::size_t at = begin; at < text.size();) {
+    const char c = text[at];
+    if (c == '"' || c == '\'') {
+      at = end_of_string(text, at);
+      continue;
+    }
+    ++at;
+    if (c == '[' || c == '{') ++depth;
+    if ((c == ']' || c == '}') && --depth == 0) return at;
+  }
+  return std::string_view::npos;
+}
+
+/// Whether a text begins with digits where `form` has 0, and with the same signs elsewhere.
+bool has_form(std::string_view text, std::string_view form) {
+  if (text.size() < form.size()) return false;
+  return std::equal(form.begin(), form.end(), text.begin(), [](char wanted, char found) {
+    return wanted == '0' ? found >= '0' && found <= '9' : found == wanted;
+  });
+}
+
+/// The place behind a date with a time, which may have an offset, at `begin`; `begin` if there is none.
+std::size_t end_of_date(std::string_view text, std::size_t begin) {
+  const std::string_view rest = text.substr(begin);
+  if (!has_form(rest, "0000-00-00T00:00:00") && !has_form(rest, "0000-00-00 00:00:00")) return begin;
+  const std::size_t end = std::min(rest.find_first_not_of("0123456789.", 19), rest.size());
+  const bool has_offset = has_form(rest.substr(end), "+00:00") || has_form(rest.substr(end), "-00:00");
+  return begin + end + (has_offset ? 6 : 0);
+}
+
+/// The separator behind the value that begins at `begin`, or the end of the text.
+std::size_t end_of_value(const std::string& text, std::size_t begin, std::string_view separators) {
+  std::size_t at = std::min(text.find_first_not_of(' ', begin), text.size());
+  const char first = at < text.size() ? text[at] : '\0';
+  const std::size_t opened = at;
+  if (first == '"' || first == '\'')
+    at = end_of_string(text, at);
+  else if (first == '[' || first == '{')
+    at = end_of_bracket(text, at);
+  else
+    at = end_of_date(text, at);
+  if (at == std::string::npos) refuse_open_value(text, opened);
+  return std::min(text.find_first_of(separators, at), text.size());
+}
+
+/// "tilt.rate=2,tilt.step=0.002", with what `shorten` leaves of each value.
+std::string named_values(const std::vector<std::string>& variation, const Scenario& scenario,
+                         const std::function<std::string(const std::string&)>& shorten) {
+  std::string name;
+  for (const std::string& setting : variation) {
+    const ScenarioKey* key = find_key(key_of_setting(setting));
+    if (!name.empty()) name += ",";
+    name += fmt::format("{}={}", full_name(*key), shorten(plain_text(key->get(scenario))));
+  }
+  return name;
+}
+
+/// What every file system has in names, and tells apart.
+bool is_plain(char c) { return c >= ' ' && c <= '~' && c != '/' && c != '\\' && !(c >= 'A' && c <= 'Z'); }
+
 }  // namespace
 
-std::string key_of_setting(const std::string& setting) { return setting.substr(0, setting.find('=')); }
+std::string key_of_setting(const std::string& setting) {
+  return std::string(trimmed(std::string_view(setting).substr(0, setting.find('='))));
+}
 
 std::vector<std::string> settings_without(std::vector<std::string> settings,
                                           const std::vector<std::string>& variation) {
@@ -33,31 +124,39 @@ std::vector<std::string> settings_without(std::vector<std::string> settings,
 }
 
 std::string variation_name(const std::vector<std::string>& variation, const Scenario& scenario) {
-  std::string name;
-  for (const std::string& setting : variation) {
-    const ScenarioKey* key = find_key(key_of_setting(setting));
-    if (!name.empty()) name += ",";
-    name += fmt::format("{}={}", full_name(*key), plain_text(key->get(scenario)));
-  }
-  return name;
+  return named_values(variation, scenario, [](const std::string& value) { return value; });
+}
+
+std::string folder_name(const std::vector<std::string>& variation, const Scenario& scenario) {
+  constexpr std::size_t longest = 100, longest_cut = 60;  // bytes
+  const std::string whole = variation_name(variation, scenario);
+  if (whole.size() <= longest && std::ranges::all_of(whole, is_plain)) return whole;
+  std::string name = named_values(variation, scenario, [](const std::string& value) {
+    return value.substr(value.rfind('/') + 1);  // all of it, without a slash
+  });
+  for (char& c : name)
+    if (c < ' ' || c > '~' || c == '\\') c = '_';
+  return fmt::format("{}~{}", name.substr(0, longest_cut),
+                     hash_text(hash_bytes(std::as_bytes(std::span(whole)))));
 }
 
 std::vector<std::vector<std::string>> parse_axis(const std::string& text) {
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos) refuse_axis(text);
   const std::vector<std::string> keys = split(text.substr(0, equals), ':');
-  std::vector<std::vector<std::string>> variations;
-  for (const std::string& item : split(text.substr(equals + 1), ',')) {
-    const std::vector<std::string> values = split(item, ':');
-    if (values.size() != keys.size()) refuse_axis(text);
-    std::vector<std::string> settings;
-    for (std::size_t k = 0; k < keys.size(); ++k) {
-      if (keys[k].empty() || values[k].empty()) refuse_axis(text);
-      settings.push_back(fmt::format("{}={}", keys[k], values[k]));
-    }
-    variations.push_back(std::move(settings));
+  const std::string_view separators = keys.size() > 1 ? ",:" : ",";
+  std::vector<std::vector<std::string>> variations = {{}};
+  for (std::size_t begin = equals + 1, end = begin;; begin = end + 1) {
+    end = end_of_value(text, begin, separators);
+    const std::string_view value = trimmed(std::string_view(text).substr(begin, end - begin));
+    const std::size_t k = variations.back().size();
+    if (k == keys.size() || trimmed(keys[k]).empty() || value.empty()) refuse_axis(text);
+    variations.back().push_back(fmt::format("{}={}", trimmed(keys[k]), value));
+    const bool is_last = end == text.size();
+    if ((is_last || text[end] == ',') && variations.back().size() != keys.size()) refuse_axis(text);
+    if (is_last) return variations;
+    if (text[end] == ',') variations.emplace_back();
   }
-  return variations;
 }
 
 }  // namespace talus

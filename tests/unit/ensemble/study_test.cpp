@@ -40,9 +40,29 @@ TEST(StudyAxis, has_one_variation_for_each_value) {
       (std::vector<Settings>{{"tilt.rate=2", "tilt.step=0.002"}, {"tilt.rate=0.5", "tilt.step=0.0005"}}));
 }
 
+TEST(StudyAxis, takes_a_value_of_toml_for_one_value) {
+  EXPECT_EQ(parse_axis(R"(a.b=["to 0.1", "to 0"],none)"),
+            (std::vector<Settings>{{R"(a.b=["to 0.1", "to 0"])"}, {"a.b=none"}}));
+  EXPECT_EQ(parse_axis(R"(a.b="b, c.csv",a.csv)"),
+            (std::vector<Settings>{{R"(a.b="b, c.csv")"}, {"a.b=a.csv"}}));
+  EXPECT_EQ(
+      parse_axis(R"(a.b='x,y:"z',"\",",[["]",1],2],{ k = [1,2], l = "}" })"),
+      (std::vector<Settings>{
+          {R"(a.b='x,y:"z')"}, {R"(a.b="\",")"}, {R"(a.b=[["]",1],2])"}, {R"(a.b={ k = [1,2], l = "}" })"}}));
+  EXPECT_EQ(parse_axis(R"(a.b="""one ",", two""",'''x','y''')"),
+            (std::vector<Settings>{{R"(a.b="""one ",", two""")"}, {R"(a.b='''x','y''')"}}));
+  EXPECT_EQ(parse_axis("a.b=1979-05-27T07:32:00Z,07:32:00,c:d"),
+            (std::vector<Settings>{{"a.b=1979-05-27T07:32:00Z"}, {"a.b=07:32:00"}, {"a.b=c:d"}}));
+  EXPECT_EQ(parse_axis(R"(a:b="x:y,z":[1,2], 1979-05-27 07:32:00.5-07:00 : 2 )"),
+            (std::vector<Settings>{{R"(a="x:y,z")", "b=[1,2]"}, {"a=1979-05-27 07:32:00.5-07:00", "b=2"}}));
+  EXPECT_EQ(parse_axis("a.b=it's.csv,x[1.csv"), (std::vector<Settings>{{"a.b=it's.csv"}, {"a.b=x[1.csv"}}))
+      << "quotes and brackets within a word";
+  EXPECT_EQ(parse_axis(" a.b = 1 , 2"), (std::vector<Settings>{{"a.b=1"}, {"a.b=2"}}));
+}
+
 TEST(StudyAxis, of_another_form_is_refused) {
-  for (const char* text :
-       {"", "tilt.step", "tilt.step=", "=1", "a.b=1,,2", "a.b:c.d=1", "a.b=1:2", "a.b:=1:2"})
+  for (const char* text : {"", "tilt.step", "tilt.step=", "=1", "a.b=1,,2", "a.b:c.d=1", "a.b:c.d=1:2:3",
+                           "a.b:=1:2", "a.b=\"1,2", "a.b=[1,2", "a.b=1,'x", "a.b={[}", "a.b=1,"})
     EXPECT_EQ(test::exit_code_of([&] { parse_axis(text); }), ExitCode::usage) << text;
 }
 
@@ -89,6 +109,11 @@ TEST_F(StudyPlanTest, words_are_values_too) {
   const StudyPlan study = plan({}, {"tilt.end_angle=repose"}, "1");
   EXPECT_EQ(study.variants[1].name, "tilt.end_angle=repose");
   EXPECT_FALSE(study.members[1].scenario.tilt.end_angle.has_value());
+}
+
+TEST_F(StudyPlanTest, takes_a_key_with_blanks_around_it_for_the_same) {
+  EXPECT_EQ(plan({" tilt.step = 0.004"}, {"tilt.step = 0.002"}, "1").members[1].name,
+            "tilt.step=0.002/seed-1");
 }
 
 TEST_F(StudyPlanTest, what_no_scenario_takes_is_refused) {
