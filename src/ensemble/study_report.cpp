@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/text.h"
+#include "core/visible_text.h"
 #include "ensemble/plus_minus.h"
 #include "scenario/text.h"
 
@@ -75,6 +76,20 @@ std::size_t width(const std::string& text) {
       std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
 }
 
+/// A text of a user in a line of Markdown, where it is no HTML, no link and no column of its own.
+std::string plain_markdown(const std::string& text) {
+  std::string plain;
+  for (const char c : visible(text)) {
+    if (c == '<' || c == '&')
+      plain += c == '<' ? "&lt;" : "&amp;";
+    else if (c == '\n')
+      plain += ' ';
+    else
+      plain += (std::string_view("[]|*`").find(c) == std::string_view::npos ? "" : "\\") + std::string(1, c);
+  }
+  return plain;
+}
+
 /// A Markdown table with its columns one below the other; the first row is the head.
 std::string table_text(const TextTable& table) {
   std::vector<std::size_t> widths(table.front().size(), 3);
@@ -102,7 +117,7 @@ std::string table_of(const StudyResult& result, const std::vector<StudyQuantity>
   TextTable table = {{"variation"}};
   for (const StudyQuantity quantity : known) table.front().push_back(field_of(quantity).title);
   for (std::size_t v = first; v < result.plan.variants.size(); ++v) {
-    table.push_back({result.plan.variants[v].name});
+    table.push_back({plain_markdown(result.plan.variants[v].name)});
     for (const StudyQuantity quantity : known) table.back().push_back(cell_text(v, quantity));
   }
   return table_text(table);
@@ -115,8 +130,9 @@ std::string introduction(const StudyResult& result) {
   std::string text = fmt::format(
       "# Study of {}\n\n{} of {} runs complete; seeds {}. Values are means over seeds ± standard error; "
       "worst residuals are the largest of all seeds.\n",
-      plan.scenario_file, result.outcomes.size(), plan.members.size(), joined(plan.seeds, ", "));
-  if (!plan.baseline.empty()) text += fmt::format("Baseline: {}.\n", plan.baseline);
+      plain_markdown(plan.scenario_file), result.outcomes.size(), plan.members.size(),
+      joined(plan.seeds, ", "));
+  if (!plan.baseline.empty()) text += fmt::format("Baseline: {}.\n", plain_markdown(plan.baseline));
   for (const std::string& version : versions) text += fmt::format("Computed by Talus {}.\n", version);
   if (versions.size() > 1)
     text += "**Runs of several versions stand side by side: differences may be theirs.**\n";

@@ -62,6 +62,17 @@ TEST(Study, leaves_tables_and_prints_them) {
   EXPECT_NE(rows.find(hash_of("study/baseline/seed-1.h5", folder)), std::string::npos);
 }
 
+TEST(Study, has_names_of_files_as_text_and_not_as_html) {
+  const TemporaryFolder folder;
+  const std::string name = "<img src=x>&[a](b)|`c`.toml";
+  write_file(folder, name, tiny_bed);
+  const Outcome study =
+      run_talus({"study", name, "--seeds", "1", "--set", "tilt.end_angle=0.5", "-o", "study"}, folder.path());
+  ASSERT_EQ(study.exit_code, 0) << study.err;
+  const std::string tables = text_of(folder.path("study/study.md"));
+  EXPECT_EQ(tables.find("# Study of &lt;img src=x>&amp;\\[a\\](b)\\|\\`c\\`.toml\n"), 0u) << tables;
+}
+
 TEST(Study, that_is_complete_is_only_read) {
   const TemporaryFolder folder;
   write_file(folder, "bed.toml", tiny_bed);
