@@ -57,8 +57,9 @@ std::string means_text(const EnsembleView& view) {
     std::string lines;
     for (const char* quantity : shown_quantities) lines += mean_line(view, v, quantity);
     if (lines.empty()) continue;
-    const std::string& name = view.plan.variants[v].name;
-    text += fmt::format("{}:\n{}", name.empty() ? "means, with their standard errors" : visible(name), lines);
+    const auto& [name, file, scenario, full_name, origin] = view.plan.variants[v];
+    text += fmt::format("{}{}:\n{}", name.empty() ? "means, with their standard errors" : visible(name),
+                        full_name.empty() ? "" : fmt::format(" ({})", full_name), lines);
   }
   return text;
 }

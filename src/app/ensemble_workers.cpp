@@ -22,7 +22,6 @@
 #include "ensemble/member_state.h"
 #include "ensemble/pool.h"
 #include "ensemble/worker.h"
-#include "session/estimate.h"
 
 namespace talus {
 namespace {
@@ -34,8 +33,7 @@ struct EnsemblePace {
 };
 
 double estimate_of(const EnsemblePlan& plan, const std::vector<MemberState>& states, MemberStage stage) {
-  std::vector<double> of_variant;
-  for (const Variant& variant : plan.variants) of_variant.push_back(estimate(variant.scenario).seconds);
+  const std::vector<double> of_variant = estimated_seconds(plan);
   double seconds = 0.0;
   for (std::size_t m = 0; m < plan.members.size(); ++m)
     if (states[m].stage == stage) seconds += of_variant[plan.members[m].variant];
@@ -153,14 +151,28 @@ void drop_old_runs(const std::string& folder) {
                  dropped, dropped == 1 ? "" : "s", visible_word(manifest.keep).c_str());
 }
 
+/// What a corrected command has taken out of an ensemble.
+static void tell_withdrawn(const std::vector<Variant>& before, const std::vector<Variant>& now) {
+  for (const Variant& variant : before)
+    if (std::ranges::find(now, variant.name, &Variant::name) == now.end())
+      std::fprintf(stderr,
+                   "talus: note: %s is withdrawn from the ensemble: no member of it could be computed\n",
+                   variant.name.empty() ? "the scenario as it was" : visible(variant.name).c_str());
+}
+
 void begin_ensemble(const std::string& folder, const EnsembleManifest& wanted,
                     const std::vector<std::string>& inputs) {
-  if (!is_ensemble(folder))
-    for (const Member& member : plan_of(wanted, folder).members) is_complete(member);
+  const bool is_new = !is_ensemble(folder);
+  EnsembleManifest asked = wanted;
+  take_earlier_names(asked.variants, folder);
+  hash_beds(asked.variants, folder);
+  if (is_new)
+    for (const Member& member : plan_of(asked, folder).members) is_complete(member);
+  const std::vector<Variant> before = is_new ? std::vector<Variant>() : read_ensemble(folder).variants;
   prepare_folder(folder);
   for (const char* name : {"members.csv", "averages.csv", "ensemble.h5"})
     output_target((std::filesystem::path(folder) / name).string(), {true, inputs});
-  extend_ensemble(folder, wanted);
+  tell_withdrawn(before, extend_ensemble(folder, asked).variants);
   drop_old_runs(folder);
 }
 

@@ -15,9 +15,15 @@
 #include "core/text.h"
 #include "core/text_stream.h"
 #include "core/version.h"
+#include "core/visible_text.h"
 #include "ensemble/axes.h"
+#include "ensemble/kept_runs.h"
+#include "ensemble/member_state.h"
+#include "ensemble/until.h"
 #include "io/durable_file.h"
 #include "io/mistaken_path.h"
+#include "io/run_store.h"
+#include "session/deposition.h"
 
 namespace talus {
 namespace {
@@ -25,6 +31,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* first_line = "talus ensemble 1";
+constexpr std::size_t most_variants = 10000;
+constexpr std::size_t longest_name = 255;  // bytes, of a folder
 
 std::string hash_of(const std::string& text) { return hash_text(hash_bytes(std::as_bytes(std::span(text)))); }
 
@@ -55,8 +63,11 @@ std::string text_of(const EnsembleManifest& manifest) {
   if (const std::string task = task_text(manifest.task); !task.empty())
     text += fmt::format("task {}\n", task);
   if (!manifest.keep.empty()) text += fmt::format("keep {}\n", manifest.keep);
-  for (const Variant& variant : manifest.variants)
+  for (const Variant& variant : manifest.variants) {
     text += fmt::format("variant {} {}\n", hash_of(read_text(variant.scenario_file)), variant.name);
+    if (!variant.full_name.empty()) text += fmt::format("full {}\n", variant.full_name);
+    if (!variant.origin.bed.empty()) text += fmt::format("bed {}\n", variant.origin.bed);
+  }
   return fmt::format("{}hash {}\n", text, hash_of(text));
 }
 
@@ -73,31 +84,62 @@ std::vector<std::uint64_t> sorted(std::vector<std::uint64_t> seeds) {
   return seeds;
 }
 
-/// The scenario of a variant, which must be the text of this hash.
-Variant read_variant(const std::string& folder, const std::string& name, const std::string& hash) {
-  const std::string path = scenario_path(folder, name);
-  const std::string text = read_text(path);
-  if (hash_of(text) != hash)
+/// Reads the scenario of a variant, which must be the text of its hash.
+void read_scenario_of(Variant& variant, const std::string& folder) {
+  variant.scenario_file = scenario_path(folder, variant.name);
+  const std::string text = read_text(variant.scenario_file);
+  if (hash_of(text) != variant.origin.scenario)
     throw Error(ExitCode::bad_data,
-                path +
+                variant.scenario_file +
                     " was changed since the ensemble began; expected the scenario that it was made with: "
                     "undo the change, or begin another ensemble with it");
-  return {name, path, parse_scenario(text, path)};
+  variant.scenario = parse_scenario(text, variant.scenario_file);
 }
 
-/// Adds what a line of the manifest says.
+/// Whether runs under this name are in the folder of the ensemble. Names of earlier versions have parts, as
+/// paths have.
+bool is_name_of_folder(const std::string& name) {
+  if (name.empty()) return true;  // the folder of the ensemble itself
+  const std::vector<std::string> parts = split(name, '/');
+  return visible(name) == name && name.find_first_of("\n\t") == std::string::npos &&
+         std::ranges::all_of(parts, [](const std::string& part) {
+           return !part.empty() && part != "." && part != ".." && part.size() <= longest_name;
+         });
+}
+
+/// Two variants would have one folder, or one scenario.
+bool is_there(const EnsembleManifest& manifest, const std::string& name) {
+  const std::string path = scenario_path("", name);
+  return std::ranges::any_of(manifest.variants, [&](const Variant& variant) {
+    return variant.name == name || scenario_path("", variant.name) == path;
+  });
+}
+
+void take_variant(EnsembleManifest& manifest, const std::string& rest) {
+  const std::size_t end = std::min(rest.find(' '), rest.size());
+  const std::string name = rest.substr(std::min(end + 1, rest.size()));
+  if (!is_name_of_folder(name))
+    throw Error(ExitCode::bad_data, "expected a variant whose name is that of a folder in this one");
+  if (is_there(manifest, name)) throw Error(ExitCode::bad_data, "expected each name once");
+  if (manifest.variants.size() == most_variants)
+    throw Error(ExitCode::bad_data, fmt::format("expected at most {} variants", most_variants));
+  manifest.variants.push_back({name, "", {}, "", {rest.substr(0, end), ""}});
+}
+
+/// Adds what a line of the manifest says. Throws Error where talus writes no such line.
 void take_line(EnsembleManifest& manifest, const std::string& folder, const std::string& line) {
   const std::size_t blank = std::min(line.find(' '), line.size());
   const std::string kind = line.substr(0, blank), rest = line.substr(std::min(blank + 1, line.size()));
   if (kind == "version") manifest.version = rest;
   if (kind == "seeds") manifest.seeds = parse_seeds(rest);
-  if (kind == "until") manifest.until = rest;
+  if (kind == "until") parse_precision(manifest.until = rest);
   if (kind == "task") manifest.task = parse_task(rest, manifest_path(folder));
-  if (kind == "keep") manifest.keep = rest;
-  if (kind != "variant") return;
-  const std::size_t end = std::min(rest.find(' '), rest.size());
-  const std::string name = rest.substr(std::min(end + 1, rest.size()));
-  manifest.variants.push_back(read_variant(folder, name, rest.substr(0, end)));
+  if (kind == "keep") check_keep(manifest.keep = rest);
+  if (kind == "variant") take_variant(manifest, rest);
+  if ((kind == "full" || kind == "bed") && manifest.variants.empty())
+    throw Error(ExitCode::bad_data, "expected a variant before it");
+  if (kind == "full") manifest.variants.back().full_name = visible(rest);
+  if (kind == "bed") manifest.variants.back().origin.bed = rest;
 }
 
 const Variant* variant_called(const EnsembleManifest& manifest, const std::string& name) {
@@ -132,6 +174,71 @@ void require_same(const EnsembleManifest& found, const EnsembleManifest& wanted,
                             folder,
                             found.variants.front().name.empty() ? "the scenario as it is"
                                                                 : found.variants.front().name));
+}
+
+/// Whether all that is known of a variant is that it fails.
+bool is_hopeless(const EnsembleManifest& found, const Variant& variant, const std::string& folder) {
+  const std::vector<MemberState> states = look_at_members(plan_ensemble(found.seeds, {variant}, folder));
+  const bool has_more = std::ranges::any_of(states, [](const MemberState& state) {
+    return state.has_run || state.stage == MemberStage::done || state.stage == MemberStage::claimed;
+  });
+  if (has_more) return false;
+  if (count_of(states, MemberStage::failed) > 0) return true;
+  try {
+    bed_hash(variant.scenario);
+  } catch (const Error&) {
+    return true;
+  }
+  return false;
+}
+
+/// Takes those out of a manifest that are not wanted, as a value had a mistake in it, and would keep the
+/// ensemble from ever being complete.
+std::vector<Variant> take_hopeless(EnsembleManifest& found, const EnsembleManifest& wanted,
+                                   const std::string& folder) {
+  std::vector<Variant> hopeless, others;
+  for (const Variant& variant : found.variants) {
+    const bool is_wanted = std::ranges::any_of(wanted.variants, [&](const Variant& other) {
+      return other.name == variant.name && other.scenario == variant.scenario;
+    });
+    (!is_wanted && is_hopeless(found, variant, folder) ? hopeless : others).push_back(variant);
+  }
+  found.variants = std::move(others);
+  return hopeless;
+}
+
+/// Makes the names of variants free that are no longer in the manifest, and removes what is left of their
+/// members but the logs.
+void withdraw(const EnsembleManifest& rest, const std::vector<Variant>& withdrawn,
+              const std::string& folder) {
+  if (rest.variants.empty())
+    remove_file(manifest_path(folder));
+  else
+    write_text(manifest_path(folder), text_of(rest));
+  for (const Variant& variant : withdrawn) {
+    for (const Member& member : plan_ensemble(rest.seeds, {variant}, folder).members) {
+      discard_folder(member.path);
+      remove_file(failure_path(member.path));
+    }
+    remove_file(variant.scenario_file);
+  }
+}
+
+/// A text that may be shown, as one line.
+std::string in_one_line(const std::string& text) { return joined(split(visible(text), '\n'), "\\x0a"); }
+
+/// Throws Error(usage) for a path that TOML cannot hold: from the command line it may have any bytes.
+void require_path_of_toml(const Scenario& scenario) {
+  try {
+    if (parse_scenario(resolved_toml(scenario), "scenario") == scenario) return;
+  } catch (const Error&) {
+    // below
+  }
+  throw Error(
+      ExitCode::usage,
+      fmt::format("deposition.file = {}: expected a path in UTF-8 of at most 4095 bytes, as a scenario "
+                  "file can hold it; rename the file or its folder",
+                  visible_word(scenario.deposition.file, 200)));
 }
 
 /// `base` with each value of an axis in turn.
@@ -175,8 +282,19 @@ EnsembleManifest read_ensemble(const std::string& folder) {
     refuse_damaged(path);
   EnsembleManifest manifest;
   std::istringstream lines = text_stream(text.substr(0, seal));
-  for (std::string line; std::getline(lines, line);) take_line(manifest, folder, line);
+  std::string line;
+  for (int number = 1; std::getline(lines, line); ++number) try {
+      take_line(manifest, folder, line);
+    } catch (const Error& error) {
+      throw LocatedError(
+          ExitCode::bad_data,
+          fmt::format("{}:{}:1: error: '{}' is no line that talus writes ({}); the runs of the "
+                      "ensemble are not affected: begin another one from its scenario, and "
+                      "move them there",
+                      path, number, visible_word(line), error.what()));
+    }
   if (manifest.seeds.empty() || manifest.variants.empty()) refuse_damaged(path);
+  for (Variant& variant : manifest.variants) read_scenario_of(variant, folder);
   return manifest;
 }
 
@@ -184,18 +302,60 @@ std::vector<Variant> plan_variants(const std::string& scenario_file, const std::
                                    const std::vector<std::string>& axes) {
   refuse_no_scenario(scenario_file);
   std::vector<std::vector<std::string>> combinations = {{}};
-  for (const std::string& axis : axes) combinations = combined(combinations, parse_axis(axis));
+  for (const std::string& axis : axes) {
+    const auto values = parse_axis(axis);
+    if (combinations.size() * values.size() > most_variants)
+      throw Error(ExitCode::usage, fmt::format("--vary: {} combinations of values; expected at most {}",
+                                               combinations.size() * values.size(), most_variants));
+    combinations = combined(combinations, values);
+  }
   std::vector<Variant> variants;
   for (const std::vector<std::string>& combination : combinations) {
     std::vector<std::string> all = settings_without(settings, combination);
     all.push_back("seed=1");
     Scenario scenario = read_scenario(scenario_file, all, nullptr, combination);
-    if (!scenario.deposition.file.empty())
+    if (!scenario.deposition.file.empty()) {
       scenario.deposition.file = fs::absolute(scenario.deposition.file).string();
+      require_path_of_toml(scenario);
+    }
     if (std::ranges::find(variants, scenario, &Variant::scenario) != variants.end()) continue;
-    variants.push_back({variation_name(combination, scenario), scenario_file, scenario});
+    variants.push_back({folder_name(combination, scenario), scenario_file, scenario});
+    if (const std::string name = variation_name(combination, scenario); name != variants.back().name)
+      variants.back().full_name = in_one_line(name);
   }
   return variants;
+}
+
+void take_earlier_names(std::vector<Variant>& variants, const std::string& folder) {
+  if (!is_ensemble(folder)) return;
+  const EnsembleManifest found = read_ensemble(folder);
+  for (const Variant& there : found.variants)
+    for (Variant& variant : variants)
+      if (there.name.find('/') != std::string::npos && there.scenario == variant.scenario) {
+        variant.name = there.name;
+        variant.full_name.clear();
+      }
+}
+
+void hash_beds(std::vector<Variant>& variants, const std::string& folder) {
+  const EnsembleManifest found = is_ensemble(folder) ? read_ensemble(folder) : EnsembleManifest();
+  for (Variant& variant : variants) {
+    const Variant* there = variant_called(found, variant.name);
+    const bool is_known = there != nullptr && there->scenario == variant.scenario;
+    try {
+      variant.origin.bed = bed_hash(variant.scenario);
+    } catch (const Error&) {
+      if (!is_known) throw;
+      continue;
+    }
+    if (is_known && !there->origin.bed.empty() && there->origin.bed != variant.origin.bed)
+      throw Error(
+          ExitCode::bad_data,
+          fmt::format("{} (deposition.file) holds another bed than when the ensemble in {} began with "
+                      "it; undo the change, give the changed bed another name, or the ensemble "
+                      "another folder",
+                      visible(variant.scenario.deposition.file), folder));
+  }
 }
 
 EnsembleManifest extend_ensemble(const std::string& folder, const EnsembleManifest& wanted) {
@@ -208,14 +368,19 @@ EnsembleManifest extend_ensemble(const std::string& folder, const EnsembleManife
   all.variants.clear();
   std::string before;
   if (is_ensemble(folder)) {
-    before = read_text(manifest_path(folder));
-    const EnsembleManifest found = read_ensemble(folder);
-    require_same(found, wanted, folder);
-    all.version = found.version;
-    all.seeds.insert(all.seeds.end(), found.seeds.begin(), found.seeds.end());
-    if (wanted.until.empty()) all.until = found.until;
-    if (wanted.keep.empty()) all.keep = found.keep;
-    all.variants = found.variants;
+    EnsembleManifest found = read_ensemble(folder);
+    const std::vector<Variant> hopeless = take_hopeless(found, wanted, folder);
+    const bool goes_on = !found.variants.empty();
+    if (goes_on) require_same(found, wanted, folder);
+    if (!hopeless.empty()) withdraw(found, hopeless, folder);
+    if (goes_on) {
+      before = read_text(manifest_path(folder));
+      all.version = found.version;
+      all.seeds.insert(all.seeds.end(), found.seeds.begin(), found.seeds.end());
+      if (wanted.until.empty()) all.until = found.until;
+      if (wanted.keep.empty()) all.keep = found.keep;
+      all.variants = found.variants;
+    }
   }
   all.seeds = parse_seeds(seeds_text(sorted(all.seeds)));  // refuses too many of them
   for (const Variant& variant : wanted.variants) {

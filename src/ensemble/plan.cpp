@@ -3,25 +3,29 @@
 #include <charconv>
 #include <filesystem>
 #include <fmt/core.h>
+#include <limits>
 #include <set>
 
 #include "core/errors.h"
 #include "core/visible_text.h"
+#include "session/estimate.h"
 
 namespace talus {
 namespace {
 
 constexpr std::size_t most_seeds = 10000;
+constexpr std::uint64_t largest_seed = std::numeric_limits<std::int64_t>::max();  // an integer of TOML
 
 [[noreturn]] void refuse_seeds(const std::string& text) {
-  throw Error(ExitCode::usage, fmt::format("--seeds {}: expected seeds such as 1-4, 7 or 1-3,8, at most {}",
-                                           visible_word(text), most_seeds));
+  throw Error(ExitCode::usage, fmt::format("--seeds {}: expected seeds such as 1-4, 7 or 1-3,8, at most {}, "
+                                           "none of them above {}",
+                                           visible_word(text), most_seeds, largest_seed));
 }
 
 std::uint64_t parse_seed(const std::string& part, const std::string& text) {
   std::uint64_t seed = 0;
   const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), seed);
-  if (error != std::errc() || end != part.data() + part.size()) refuse_seeds(text);
+  if (error != std::errc() || end != part.data() + part.size() || seed > largest_seed) refuse_seeds(text);
   return seed;
 }
 
@@ -45,8 +49,8 @@ std::vector<std::uint64_t> parse_seeds(const std::string& text) {
     const std::uint64_t last = dash == std::string::npos ? first : parse_seed(part.substr(dash + 1), text);
     if (last < first || last - first >= most_seeds) refuse_seeds(text);
     for (std::uint64_t k = 0; k <= last - first; ++k) seeds.insert(first + k);
+    if (seeds.size() > most_seeds) refuse_seeds(text);
   }
-  if (seeds.size() > most_seeds) refuse_seeds(text);
   return {seeds.begin(), seeds.end()};
 }
 
@@ -58,10 +62,23 @@ EnsemblePlan plan_ensemble(std::vector<std::uint64_t> seeds, std::vector<Variant
       const std::string& parent = plan.variants[v].name;
       const std::string name = fmt::format("{}seed-{}", parent.empty() ? "" : parent + "/", seed);
       const std::string path = (std::filesystem::path(folder) / (name + ".h5")).string();
-      plan.members.push_back({v, seed, name, path, plan.variants[v].scenario});
+      plan.members.push_back({v, seed, name, path, plan.variants[v].scenario, plan.variants[v].origin});
       plan.members.back().scenario.seed = seed;
     }
   return plan;
+}
+
+std::vector<double> estimated_seconds(const EnsemblePlan& plan) {
+  std::vector<double> seconds;
+  for (const Variant& variant : plan.variants) {
+    seconds.push_back(0.0);
+    try {
+      seconds.back() = estimate(variant.scenario).seconds;
+    } catch (const Error&) {
+      continue;  // a bed of a file that is not there, say, is no reason to stop the other members
+    }
+  }
+  return seconds;
 }
 
 std::string file_beside(const std::string& path, const char* ending) {

@@ -28,6 +28,7 @@ StudyPlan plan_study(const std::string& scenario_file, const std::vector<std::st
       if (std::ranges::find(variants, variant.scenario, &Variant::scenario) == variants.end())
         variants.push_back(std::move(variant));
   }
+  take_earlier_names(variants, folder);
   const std::string baseline = variation_name(varied, variants.front().scenario);
   return {plan_ensemble(parse_seeds(seeds), std::move(variants), folder), scenario_file, baseline};
 }

@@ -14,7 +14,6 @@
 #include "ensemble/until.h"
 #include "io/run_store.h"
 #include "io/writer_lock.h"
-#include "session/estimate.h"
 
 namespace talus {
 namespace {
@@ -31,8 +30,7 @@ struct Worker {
 
 /// Members by their estimates, the longest first; those that take the same time in the order of the plan.
 std::vector<std::size_t> longest_first(const EnsemblePlan& plan) {
-  std::vector<double> of_variant;
-  for (const Variant& variant : plan.variants) of_variant.push_back(estimate(variant.scenario).seconds);
+  const std::vector<double> of_variant = estimated_seconds(plan);
   std::vector<std::size_t> order(plan.members.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(order, std::greater<>(),

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/hash.h"
 #include "core/trigonometry.h"
 #include "dynamics/collapse.h"
 #include "dynamics/geometric.h"
@@ -42,6 +43,11 @@ World initial_bed(const Scenario& scenario) {
   if (deposition.method == DepositionMethod::file)
     return bed_of_file(deposition.file, static_cast<std::size_t>(deposition.frame), plan);
   return bed_without_grains(plan);
+}
+
+std::string bed_hash(const Scenario& scenario) {
+  const bool from_file = scenario.deposition.method == DepositionMethod::file;
+  return from_file ? hash_text(state_hash(initial_bed(scenario))) : std::string();
 }
 
 Boundary boundary_of(const Scenario& scenario) { return bed_without_grains(bed_plan(scenario)).boundary; }

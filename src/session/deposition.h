@@ -1,6 +1,7 @@
 #pragma once
 /// From a scenario to the bed before its first step, and what arrives in it afterwards.
 
+#include <string>
 #include <vector>
 
 #include "dynamics/pour.h"
@@ -11,6 +12,10 @@ namespace talus {
 /// The bed before its first step: all grains, or where they are poured none, above or on the floor. Throws as
 /// bed_of_file does where they are those of a file.
 World initial_bed(const Scenario& scenario);
+
+/// The hash of the bed that a scenario takes from a file, before its first step; empty for other methods.
+/// Throws as bed_of_file does.
+std::string bed_hash(const Scenario& scenario);
 
 /// Its walls and its smooth floor, which stay as they are.
 Boundary boundary_of(const Scenario& scenario);

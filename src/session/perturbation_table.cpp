@@ -81,7 +81,10 @@ std::optional<PerturbationPlan> parse_plan(const std::string& text) {
   const std::optional<SurfacePatch> found = parse_patch(patch);
   if (!found || !read_number(first, plan.first) || !read_number(every, plan.every)) return std::nullopt;
   plan.patch = *found;
-  if (plan_text(plan) != text) return std::nullopt;
+  const bool in_range = plan.first >= 0.0 && plan.first <= PerturbationPlan::highest &&
+                        plan.every >= PerturbationPlan::least_every &&
+                        plan.every <= PerturbationPlan::highest;
+  if (!in_range || plan_text(plan) != text) return std::nullopt;
   return plan;
 }
 

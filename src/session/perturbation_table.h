@@ -15,6 +15,8 @@ struct PerturbationPlan {
   double every = 0.5;   ///< deg, from one state to the next
   SurfacePatch patch;
 
+  static constexpr double highest = 60.0, least_every = 1e-3;  ///< deg, bounds of both
+
   bool operator==(const PerturbationPlan&) const = default;
 };
 

@@ -4,9 +4,17 @@
 
 #include <gtest/gtest.h>
 
+#include <cctype>
+#include <fmt/core.h>
 #include <fstream>
+#include <set>
+#include <span>
 #include <sstream>
 
+#include "core/hash.h"
+#include "ensemble/member_state.h"
+#include "io/durable_file.h"
+#include "scenario/text.h"
 #include "support/exit_code.h"
 #include "support/temporary_folder.h"
 
@@ -27,6 +35,23 @@ class EnsembleManifestTest : public testing::Test {
     std::stringstream text;
     text << std::ifstream(path).rdbuf();
     return text.str();
+  }
+
+  static std::string hash_of(const std::string& text) {
+    return hash_text(hash_bytes(std::as_bytes(std::span(text))));
+  }
+  /// Puts these lines in the place of the manifest, with a hash that fits.
+  void replace_manifest(const std::string& lines) const {
+    const std::string text = "talus ensemble 1\n" + lines;
+    std::ofstream(manifest_path(ensemble)) << text << "hash " << hash_of(text) << "\n";
+  }
+  std::string message_of_reading() const {
+    try {
+      read_ensemble(ensemble);
+    } catch (const Error& error) {
+      return error.code() == ExitCode::bad_data ? error.what() : "another exit code";
+    }
+    return "";
   }
 
   test::TemporaryFolder folder_;
@@ -133,6 +158,155 @@ TEST_F(EnsembleManifestTest, that_was_changed_is_refused) {
   }
   std::ofstream(path) << whole;
   EXPECT_EQ(read_ensemble(ensemble).seeds, Seeds{1});
+}
+
+TEST_F(EnsembleManifestTest, names_no_place_outside_of_its_folder) {
+  extend_ensemble(ensemble, wanted({1}));
+  const std::string hash = hash_of(text_of(ensemble + "/scenarios/scenario.toml"));
+  for (const std::string& name :
+       {std::string(".."), std::string("../victim"), std::string("a/../../victim"), folder_.path("outside"),
+        std::string("."), std::string("a//b"), std::string("a/"), std::string("a\tb"),
+        std::string("a\x1b[2J"), std::string("a\xff"), std::string(256, 'a')}) {
+    replace_manifest(fmt::format("seeds 1\nvariant {} {}\n", hash, name));
+    const std::string message = message_of_reading();
+    EXPECT_TRUE(message.starts_with(manifest_path(ensemble) + ":3:1: error: ")) << name << ": " << message;
+    EXPECT_NE(message.find("expected a variant whose name is that of a folder in this one"),
+              std::string::npos);
+  }
+  for (const char* twice : {"", "scenario"}) {
+    replace_manifest(fmt::format("seeds 1\nvariant {} \nvariant {} {}\n", hash, hash, twice));
+    EXPECT_TRUE(message_of_reading().starts_with(manifest_path(ensemble) + ":4:1: error: ")) << twice;
+  }
+}
+
+TEST_F(EnsembleManifestTest, that_is_broken_is_named_with_the_line) {
+  extend_ensemble(ensemble, wanted({1}));
+  const std::string hash = hash_of(text_of(ensemble + "/scenarios/scenario.toml"));
+  for (const char* line :
+       {"seeds 5-1", "seeds 1-1000000000000", "seeds 1-9000,10000-19000", "seeds 9223372036854775808",
+        "seeds x", "until theta_c", "until theta_c:-1", "keep some", "keep 99999999999999999999999",
+        "task dance", "task trials --from 12 --every 0 --patch 10x2",
+        "task trials --from nan --every 1 --patch 10x2", "full a", "bed a"}) {
+    replace_manifest(fmt::format("{}\nseeds 1\nvariant {} \n", line, hash));
+    EXPECT_TRUE(message_of_reading().starts_with(manifest_path(ensemble) + ":2:1: error: ")) << line;
+  }
+  replace_manifest(fmt::format("seeds 1\nvariant {} \n", hash));
+  EXPECT_EQ(message_of_reading(), "");
+}
+
+TEST_F(EnsembleManifestTest, has_short_names_that_differ_whatever_the_values_are) {
+  std::vector<std::string> files = {
+      "a.csv",    "A.csv",        "x/a.csv", "../a.csv", "../../../../../../../../../a.csv",
+      "a\nb.csv", "a\x1b[2J.csv", "..",      ".",        "\xc3\xa4.csv"};
+  for (const char c : {'1', '2'}) files.push_back(std::string(240, 'l') + c);
+  std::set<std::string> names;
+  for (const std::string& file : files) {
+    const auto variants =
+        plan_variants(scenario, {"deposition.method=file"}, {"deposition.file=" + toml_text(file)});
+    const std::string& name = variants.front().name;
+    EXPECT_TRUE(name.starts_with("deposition.file=")) << name;
+    EXPECT_LT(name.size(), 100u);
+    EXPECT_TRUE(std::ranges::all_of(name, [](char c) { return c > ' ' && c <= '~' && c != '/'; })) << name;
+    EXPECT_EQ(variants.front().full_name.find_first_of("\n\x1b"), std::string::npos);
+    std::string folded = name;
+    for (char& c : folded) c = static_cast<char>(std::tolower(c));
+    EXPECT_TRUE(names.insert(folded).second) << name;
+    extend_ensemble(folder_.path(name), {"", {1}, "", variants});
+    const Variant found = read_ensemble(folder_.path(name)).variants.front();
+    EXPECT_EQ(found.full_name, variants.front().full_name);
+    EXPECT_EQ(found.scenario, variants.front().scenario);
+  }
+  const auto sweep = plan_variants(scenario, {},
+                                   {"contact.friction:contact.wall_friction:contact.rolling_friction:contact."
+                                    "restitution:deposition.friction:"
+                                    "solver.tolerance:solver.allowed_overlap=0.5:0.5:0.01:0.1:0.5:3e-7:1e-4,"
+                                    "0.5:0.5:0.01:0.1:0.5:3e-7:2e-4"});
+  EXPECT_LT(sweep[0].name.size(), 100u);
+  EXPECT_NE(sweep[0].name, sweep[1].name);
+  EXPECT_TRUE(sweep[1].full_name.ends_with("solver.allowed_overlap=0.0002")) << sweep[1].full_name;
+  EXPECT_EQ(test::exit_code_of(
+                [&] { plan_variants(scenario, {"deposition.method=file"}, {"deposition.file=a\xff.csv"}); }),
+            ExitCode::usage)
+      << "no scenario file can hold it";
+  EXPECT_EQ(
+      test::exit_code_of([&] { plan_variants(scenario, {}, std::vector<std::string>(14, "seed=1,2")); }),
+      ExitCode::usage)
+      << "16384 variants";
+}
+
+TEST_F(EnsembleManifestTest, loses_a_variant_that_only_fails_to_a_command_without_it) {
+  extend_ensemble(ensemble, wanted({1, 2}, {"contact.friction=0.3,0.4,0.5"}));
+  const auto names = [&] {
+    std::string all;
+    for (const Variant& variant : read_ensemble(ensemble).variants) all += variant.name.substr(17) + " ";
+    return all;
+  };
+  const EnsemblePlan plan = plan_of(read_ensemble(ensemble), ensemble);
+  record_failure(plan.members[1].path, {65, "bad"});  // of 0.4
+  record_failure(plan.members[2].path, {65, "bad"});  // of 0.5
+  write_text(numbers_path(plan.members[5].path), "done");
+  extend_ensemble(ensemble, wanted({1}, {"contact.friction=0.3,0.4"}));
+  EXPECT_EQ(names(), "0.3 0.4 0.5 ") << "0.4 is wanted, and a member of 0.5 is done";
+  extend_ensemble(ensemble, wanted({1}, {"contact.friction=0.3,0.7"}));
+  EXPECT_EQ(names(), "0.3 0.5 0.7 ");
+  EXPECT_FALSE(std::filesystem::exists(failure_path(plan.members[1].path)));
+  EXPECT_FALSE(std::filesystem::exists(ensemble + "/scenarios/contact.friction=0.4.toml"));
+  EXPECT_EQ(test::exit_code_of([&] { extend_ensemble(ensemble, wanted({1}, {"contact.friction=0.9"})); }),
+            ExitCode::bad_data)
+      << "variants that wait are no mistake";
+}
+
+TEST_F(EnsembleManifestTest, of_which_all_fails_begins_anew_with_the_corrected_command) {
+  extend_ensemble(ensemble, wanted({1, 2}));
+  for (const Member& member : plan_of(read_ensemble(ensemble), ensemble).members)
+    record_failure(member.path, {71, "too large"});
+  extend_ensemble(ensemble, wanted({1}, {}, {"contact.friction=0.4"}));
+  const EnsembleManifest found = read_ensemble(ensemble);
+  EXPECT_EQ(found.seeds, Seeds{1});
+  EXPECT_EQ(found.variants.front().scenario.contact.friction, 0.4);
+  EXPECT_EQ(count_of(look_at_members(plan_of(found, ensemble)), MemberStage::waiting), 1u);
+}
+
+TEST_F(EnsembleManifestTest, of_an_earlier_version_keeps_names_that_are_paths) {
+  std::ofstream(folder_.path("a.csv")) << "x,y,radius\n10,0.5,0.5\n";
+  const std::string axis = "deposition.file=" + folder_.path("a.csv");
+  const auto variants = plan_variants(scenario, {"deposition.method=file"}, {axis});
+  EnsembleManifest before{"", {1}, "", variants};
+  before.variants.front().name = axis;
+  extend_ensemble(ensemble, before);
+  std::vector<Variant> now = variants;
+  take_earlier_names(now, ensemble);
+  EXPECT_EQ(now.front().name, axis);
+  EXPECT_EQ(read_ensemble(ensemble).variants.front().name, axis);
+}
+
+TEST_F(EnsembleManifestTest, knows_the_beds_that_it_began_with) {
+  const std::string file = folder_.path("a.csv");
+  std::ofstream(file) << "x,y,radius\n10,0.5,0.5\n";
+  const auto begin = [&] {
+    EnsembleManifest asked = wanted({1}, {}, {"deposition.method=file", "deposition.file=" + file});
+    hash_beds(asked.variants, ensemble);
+    extend_ensemble(ensemble, asked);
+  };
+  begin();
+  EXPECT_EQ(read_ensemble(ensemble).variants.front().origin.bed.size(), 16u);
+  std::ofstream(file) << "# the same grains\nx,y,radius\n10.0,0.5,0.5\n";
+  begin();
+  std::ofstream(file) << "x,y,radius\n10,0.6,0.5\n";
+  try {
+    begin();
+    FAIL() << "nothing was refused";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::bad_data);
+    EXPECT_TRUE(std::string(error.what()).starts_with(file + " (deposition.file) holds another bed"))
+        << error.what();
+  }
+  std::filesystem::remove(file);
+  begin();  // its members report it
+  EnsembleManifest other =
+      wanted({1}, {}, {"deposition.method=file", "deposition.file=" + folder_.path("none.csv")});
+  EXPECT_EQ(test::exit_code_of([&] { hash_beds(other.variants, folder_.path("new")); }),
+            ExitCode::missing_input);
 }
 
 TEST_F(EnsembleManifestTest, whose_scenario_was_changed_is_refused) {

@@ -21,7 +21,8 @@ TEST(Seeds, are_ranges_and_numbers) {
 
 TEST(Seeds, of_another_form_are_refused) {
   for (const char* text :
-       {"", "a", "1-", "-1", "3-1", "1,,2", "1 2", "1.5", "1-20000", "99999999999999999999"})
+       {"", "a", "1-", "-1", "3-1", "1,,2", "1 2", "1.5", "1-20000", "99999999999999999999",
+        "9223372036854775808", "9223372036854775807-9223372036854775808", "1-9000,20000-29000"})
     EXPECT_EQ(test::exit_code_of([&] { parse_seeds(text); }), ExitCode::usage) << text;
 }
 
