@@ -5,7 +5,7 @@ import tomllib
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, NoReturn
 
 import numpy as np
 
@@ -18,9 +18,12 @@ from talus.run import open as open_run
 from talus.units import Units, check_units
 
 FIRST_LINE = "talus ensemble 1"
-#: Seeds that an ensemble can have.
-MAX_SEEDS = 10000
 NUMBERS_HEADER = ["quantity", "unit", "value"]
+#: What a table says of a member besides its numbers, and hashes of the files beside it, whose names begin with a dot.
+FACTS = ("state_hash", "version", "seconds", "seed", "scenario", "bed")
+MOST_SEEDS = 10000
+MOST_VARIANTS = 10000
+LARGEST_SEED = 2**63 - 1
 
 
 class Mean(NamedTuple):
@@ -66,8 +69,9 @@ class Member:
         return open_run(self.path, units)
 
 
-def read_member(variant: str, seed: int, path: Path) -> Member:
-    """What the files beside the run of a member tell of it. Throws Error where its numbers are not what talus wrote."""
+def read_member(variant: str, seed: int, path: Path, origin: dict[str, str] | None = None) -> Member:
+    """What the files beside the run of a member tell of it. `origin`: hashes of its `scenario` and its `bed`, as far as
+    they are known. Throws Error where its numbers are not what talus wrote, or those of another member."""
     table = path.with_suffix(".csv")
     if not table.is_file():
         failed = path.with_suffix(".failed").is_file()
@@ -77,12 +81,18 @@ def read_member(variant: str, seed: int, path: Path) -> Member:
         rows = list(csv.reader(read_text(table).splitlines()))
         if rows[0] != NUMBERS_HEADER:
             raise ValueError
-        texts = {name: value for name, _, value in rows[1:4]}
-        numbers = {name: float(value) if value else np.nan for name, _, value in rows[4:]}
-        return Member(variant, seed, path, "done", texts["state_hash"], texts["version"], float(texts["seconds"]),
-                      numbers, {name: unit for name, unit, _ in rows[4:]})
+        texts = {name: value for name, _, value in rows[1:] if name in FACTS}
+        values = [row for row in rows[1:] if row[0] not in FACTS and not row[0].startswith(".")]
+        numbers = {name: float(value) if value else np.nan for name, _, value in values}
+        member = Member(variant, seed, path, "done", texts["state_hash"], texts["version"], float(texts["seconds"]),
+                        numbers, {name: unit for name, unit, _ in values})
     except (IndexError, KeyError, ValueError, OSError, csv.Error):
         raise Error(f"{table}: is not what talus wrote; remove it, and `talus ensemble` analyses the member again") from None
+    for name, expected in {"seed": str(seed), **(origin or {})}.items():
+        if texts.get(name, expected) != expected:
+            raise Error(f"{table}: is the table of another member ({name} {texts[name]!r}, expected {expected!r}); remove "
+                        "it, and `talus ensemble` analyses the member again")
+    return member
 
 
 class Ensemble:
@@ -102,10 +112,14 @@ class Ensemble:
         self.keep = "all"  #: which runs stay: "all", "analysis" (none of them), or those of so many seeds, the lowest
         self.seeds: list[int] = []
         self.variants: list[str] = []  #: names, as "contact.friction=0.3"; [""] where nothing varies
+        #: By the names of variants that were shortened: all of them, as "deposition.file=/beds/dense.csv".
+        self.full_names: dict[str, str] = {}
+        self._origins: list[dict[str, str]] = []  #: hashes of the scenario and the bed of each variant
         self._read_manifest()
         #: All of them, by seed, and of each seed by variant.
-        self.members = [read_member(variant, seed, folder / variant / f"seed-{seed}.h5")
-                        for seed in self.seeds for variant in self.variants]
+        self.members = [read_member(variant, seed, folder / variant / f"seed-{seed}.h5", origin)
+                        for seed in self.seeds for variant, origin in zip(self.variants, self._origins)]
+        self._refuse_copies()
 
     def _read_manifest(self) -> None:
         path = self.folder / "ensemble.manifest"
@@ -114,26 +128,48 @@ class Ensemble:
                         f"{self.folder}")
         try:
             text = read_text(path)
-            lines = text.split("\n")
-            if lines[0] != FIRST_LINE or not is_sealed(text):
-                raise ValueError
-            for line in lines[1:]:
-                kind, _, rest = line.partition(" ")
-                if kind == "version":
-                    self.version = rest
-                if kind == "until":
-                    self.until = rest
-                if kind == "keep":
-                    self.keep = rest
-                if kind == "seeds":
-                    self.seeds = parse_seeds(rest)
-                if kind == "variant":
-                    self.variants.append(rest.partition(" ")[2])
-            if not self.seeds or not self.variants:
-                raise ValueError
-        except (IndexError, ValueError, OSError):
-            raise Error(f"{path}: is not what talus wrote; the runs beside it are not affected: talus.open opens "
-                        "each") from None
+        except (ValueError, OSError):
+            refuse_manifest(path)
+        lines = text.split("\n")[:-1]
+        if not lines or lines[0] != FIRST_LINE or not is_sealed(text):
+            refuse_manifest(path)
+        for number, line in enumerate(lines[1:], 2):
+            kind, _, rest = line.partition(" ")
+            try:
+                self._take_line(kind, rest)
+            except (IndexError, ValueError) as error:
+                refuse_manifest(path, f", in line {number}: {line!r} ({error})")
+        if not self.seeds or not self.variants:
+            refuse_manifest(path)
+
+    def _take_line(self, kind: str, rest: str) -> None:
+        """Adds what a line of the manifest says. Throws ValueError where talus writes no such line."""
+        if kind == "version":
+            self.version = rest
+        elif kind == "until":
+            self.until = rest
+        elif kind == "keep":
+            self.keep = rest
+        elif kind == "seeds":
+            self.seeds = parse_seeds(rest)
+        elif kind == "variant":
+            scenario, _, name = rest.partition(" ")
+            check_name(name, self.variants)
+            self.variants.append(name)
+            self._origins.append({"scenario": scenario})
+        elif kind == "full":
+            self.full_names[self.variants[-1]] = rest
+        elif kind == "bed":
+            self._origins[-1]["bed"] = rest
+
+    def _refuse_copies(self) -> None:
+        """Throws Error where two seeds of a variant have one state hash, but for the bed of a file: nothing is random there."""
+        first: dict[tuple[str, str], Member] = {}
+        for member in self.done():
+            other = first.setdefault((member.variant, member.state_hash), member)
+            if other is not member and self.scenario(member.variant)["deposition"]["method"] != "file":
+                raise Error(f"{other.path.with_suffix('.csv')} and {member.path.with_suffix('.csv')} have the same "
+                            "state_hash, which two seeds never have: one is a copy")
 
     def __repr__(self) -> str:
         return f"<ensemble {self.folder}: {len(self.done())} of {len(self.members)} members done>"
@@ -206,12 +242,36 @@ class Ensemble:
 
 
 def parse_seeds(text: str) -> list[int]:
-    """ "1-3,8": 1, 2, 3, 8. Throws ValueError where the text has another form, or names more seeds than there can be."""
-    ranges = [part.partition("-") for part in text.split(",")]
-    bounds = [(int(first), int(last or first)) for first, _, last in ranges]
-    if sum(last - first + 1 for first, last in bounds) > MAX_SEEDS:
-        raise ValueError
-    return [seed for first, last in bounds for seed in range(first, last + 1)]
+    """ "1-3,8": 1, 2, 3, 8, each once. Throws ValueError where the text has another form, or too many seeds or too large
+    ones for an ensemble."""
+    seeds: set[int] = set()
+    for part in text.split(","):
+        first, dash, last = part.partition("-")
+        if not all(digits.isascii() and digits.isdigit() and len(digits) < 20 for digits in (first, last or first)):
+            raise ValueError("expected seeds as 1-3,8")
+        begin, end = int(first), int(last if dash else first)
+        if end < begin or end > LARGEST_SEED or end - begin >= MOST_SEEDS:
+            raise ValueError(f"expected seeds up to {LARGEST_SEED}, at most {MOST_SEEDS}")
+        seeds.update(range(begin, end + 1))
+        if len(seeds) > MOST_SEEDS:
+            raise ValueError(f"expected at most {MOST_SEEDS} seeds")
+    return sorted(seeds)
+
+
+def refuse_manifest(path: Path, reason: str = "") -> NoReturn:
+    raise Error(f"{path}: is not what talus wrote{reason}; the runs beside it are not affected: talus.open opens "
+                "each") from None
+
+
+def check_name(name: str, others: Sequence[str]) -> None:
+    """Throws ValueError where the name of a variant is not that of a folder in the one of the ensemble, or one of others."""
+    parts = name.split("/") if name else []
+    if not name.isprintable() or any(part in ("", ".", "..") for part in parts) or "\ufffd" in name:
+        raise ValueError("expected a variant whose name is that of a folder in this one")
+    if (name or "scenario") in [other or "scenario" for other in others]:
+        raise ValueError("expected each name once")
+    if len(others) == MOST_VARIANTS:
+        raise ValueError(f"expected at most {MOST_VARIANTS} variants")
 
 
 def open_ensemble(folder: str | Path) -> Ensemble:

@@ -2,12 +2,14 @@
 
 #include <filesystem>
 
+#include "app/perturbed_run.h"
 #include "core/descriptor.h"
 #include "core/locked_file.h"
 #include "ensemble/averages_file.h"
 #include "ensemble/kept_runs.h"
 #include "ensemble/member_lists.h"
 #include "ensemble/member_series.h"
+#include "ensemble/pool.h"
 #include "io/durable_file.h"
 #include "io/run_store.h"
 #include "scenario/text.h"
@@ -17,15 +19,19 @@ namespace talus {
 namespace {
 
 /// Makes the tables of a member that is done from its run and analysis where one of them is not there, as
-/// of an ensemble of an earlier Talus. Without the run there may be no lists.
-void complete_tables(const Member& member) {
+/// of an ensemble of an earlier Talus. Without the run there may be no lists. Returns its numbers then.
+MemberNumbers complete_tables(const Member& member, const MemberNumbers& known) {
   const bool series = std::filesystem::exists(series_path(member.path));
-  if (series && std::filesystem::exists(lists_path(member.path))) return;
-  if (run_presence(member.path) != RunPresence::none)
-    write_tables(member.path,
-                 analysed_run(member.path, parse_analysis_settings({}), {.threads = 1, .quiet = true}));
-  else if (!series)
-    refuse_missing_series(member);
+  if (series && std::filesystem::exists(lists_path(member.path))) return known;
+  if (run_presence(member.path) == RunPresence::none) {
+    if (!series) refuse_missing_series(member);
+    return known;
+  }
+  is_complete(member);  // its own run
+  const AnalysedRun analysed =
+      analysed_run(member.path, parse_analysis_settings({}), {.threads = 1, .quiet = true});
+  write_tables(member.path, analysed);
+  return write_numbers(member, analysed);
 }
 
 NamedAverages averages_of_variant(const EnsembleView& view, std::size_t variant) {
@@ -36,11 +42,13 @@ NamedAverages averages_of_variant(const EnsembleView& view, std::size_t variant)
   for (std::size_t m = 0; m < view.plan.members.size(); ++m) {
     const Member& member = view.plan.members[m];
     if (member.variant != variant || view.states[m].stage != MemberStage::done) continue;
-    complete_tables(member);
+    const MemberNumbers numbers = complete_tables(member, view.numbers[m]);
     const std::string series = series_path(member.path), file = lists_path(member.path);
-    members.push_back({member.seed, view.numbers[m], parse_series(read_text(series), series)});
-    if (std::filesystem::exists(file))
-      add_member(lists, read_lists(file), number_called(view.numbers[m], "theta_c"), spacing);
+    require_own_file(member, numbers, series_ending);
+    members.push_back({member.seed, numbers, parse_series(read_text(series), series)});
+    if (!std::filesystem::exists(file)) continue;
+    require_own_file(member, numbers, lists_ending);
+    add_member(lists, read_lists(file), number_called(numbers, "theta_c"), spacing);
   }
   return {found.name, read_text(found.scenario_file), averages_of(members, spacing), std::move(lists)};
 }
@@ -60,6 +68,13 @@ void write_tables(const std::string& run, const AnalysedRun& analysed) {
   const double mean_diameter = analysed.statics.mean_diameter;
   write_lists(lists_path(run), member_lists(analysed.analysis, mean_diameter));
   write_text(series_path(run), series_csv(member_series(analysed.analysis, mean_diameter)));
+}
+
+MemberNumbers write_numbers(const Member& member, const AnalysedRun& analysed) {
+  MemberNumbers numbers = member_numbers(RunFile::open(member.path), analysed.analysis);
+  sign(numbers, member, {series_ending, lists_ending, trials_ending});
+  write_text(numbers_path(member.path), numbers_csv(numbers));
+  return numbers;
 }
 
 EnsembleView write_averages(const std::string& folder) {

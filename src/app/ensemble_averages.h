@@ -12,6 +12,10 @@ namespace talus {
 /// it is.
 void write_tables(const std::string& run, const AnalysedRun& analysed);
 
+/// Writes the numbers of a member, signed with the tables that are beside them, and returns them. From then
+/// on the member is done.
+MemberNumbers write_numbers(const Member& member, const AnalysedRun& analysed);
+
 /// Writes members.csv, averages.csv and ensemble.h5 into the folder of an ensemble, of the members that are
 /// done by then, and returns how far it was; writes nothing where none is done. One process at a time does:
 /// the others wait, so that what is there is of the last look.

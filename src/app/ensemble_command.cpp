@@ -87,8 +87,13 @@ void compute_member(const EnsembleArguments& arguments) {
       if (push) push(progress);
     };
     if (!arguments.max_wall.empty()) control.max_wall = parse_wall_time("--max-wall", arguments.max_wall);
-    RunRequest request{
-        plan.variants[member->variant].scenario_file, member->path, {}, 1, false, command_line()};
+    RunRequest request{plan.variants[member->variant].scenario_file,
+                       member->path,
+                       {},
+                       1,
+                       false,
+                       command_line(),
+                       member->origin.bed};
     request.settings.push_back(fmt::format("seed={}", member->seed));
     OpenRun open =
         run_presence(member->path) == RunPresence::folder ? resume_run(request) : start_run(request);
@@ -102,8 +107,7 @@ void compute_member(const EnsembleArguments& arguments) {
       analysed_run(member->path, parse_analysis_settings({}), {.threads = 1, .quiet = true});
   write_tables(member->path, analysed);
   if (std::holds_alternative<ReadingsTask>(manifest.task)) make_readings(*member);
-  const MemberNumbers numbers = member_numbers(RunFile::open(member->path), analysed.analysis);
-  write_text(numbers_path(member->path), numbers_csv(numbers));
+  const MemberNumbers numbers = write_numbers(*member, analysed);
   // From here on the member is done. A kill leaves the run, and the next worker removes it.
   if (!keeps_run(manifest, member->seed)) drop_run(*member);
   std::printf("%s is done: state %s\n", member->name.c_str(), numbers.state_hash.c_str());

@@ -13,6 +13,7 @@
 #include "ensemble/kept_runs.h"
 #include "ensemble/member_lists.h"
 #include "ensemble/member_state.h"
+#include "ensemble/pool.h"
 #include "io/durable_file.h"
 #include "io/run_store.h"
 #include "session/analysis_parameters.h"
@@ -58,13 +59,15 @@ void add_tables(Reading& reading, const Member& member, const Variant& variant) 
   const std::string numbers = numbers_path(member.path), series = series_path(member.path);
   refuse_settings(reading, numbers);
   if (!fs::exists(series)) refuse_missing_series(member);
-  reading.input.runs.push_back(run_of_values(
-      numbers,
-      {member.seed, parse_numbers(read_text(numbers), numbers), parse_series(read_text(series), series)},
-      read_text(variant.scenario_file)));
+  const MemberNumbers found = read_numbers(member);
+  require_own_file(member, found, series_ending);
+  reading.input.runs.push_back(run_of_values(numbers,
+                                             {member.seed, found, parse_series(read_text(series), series)},
+                                             read_text(variant.scenario_file)));
   reading.input.files.insert(reading.input.files.end(), {numbers, series});
   const std::string lists = lists_path(member.path);
   if (!fs::exists(lists)) return;
+  require_own_file(member, found, lists_ending);
   FigureRun& run = reading.input.runs.back();
   set_lists(read_lists(lists), run.mean_diameter, run.analysis);
   reading.input.files.push_back(lists);
@@ -81,10 +84,12 @@ void add_ensemble(Reading& reading, const std::string& folder) {
   for (std::size_t m = 0; m < states.size(); ++m) {
     const Member& member = plan.members[m];
     if (states[m].stage != MemberStage::done) continue;
-    if (run_presence(member.path) == RunPresence::none)
+    if (run_presence(member.path) == RunPresence::none) {
       add_tables(reading, member, plan.variants[member.variant]);
-    else
+    } else {
+      is_complete(member);  // its own run
       add_run(reading, member.path);
+    }
   }
 }
 

@@ -6,6 +6,7 @@
 #include "app/output_files.h"
 #include "core/errors.h"
 #include "core/output_file.h"
+#include "core/visible_text.h"
 #include "session/estimate.h"
 #include "session/run_header.h"
 
@@ -16,7 +17,14 @@ OpenRun start_run(const RunRequest& request) {
   const Scenario scenario = read_scenario(request.scenario, request.settings, &text);
   require_memory(scenario);
   Session session(scenario);
-  RunHeader header = run_header(session, {text, request.scenario, request.command_line, request.threads});
+  const RunOrigin origin = with_bed({text, request.scenario, request.command_line, request.threads}, session);
+  if (!request.bed.empty() && request.bed != origin.bed)
+    throw Error(
+        ExitCode::bad_data,
+        fmt::format("{} (deposition.file) holds another bed than when the ensemble began with it; undo "
+                    "the change, and talus ensemble retry computes this member",
+                    visible(scenario.deposition.file)));
+  RunHeader header = run_header(session, origin);
   output_target(request.output, output_of_scenario(request.scenario, scenario));
   prepare_folder_of(request.output);
   RunStore store = RunStore::create(request.output, header, request.overwrite);

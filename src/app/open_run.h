@@ -16,6 +16,7 @@ struct RunRequest {
   int threads = 1;
   bool overwrite = false;
   std::string command_line;  ///< for the provenance
+  std::string bed = {};      ///< hash that a bed of deposition.file has to have; empty: any
 };
 
 struct OpenRun {
@@ -25,7 +26,7 @@ struct OpenRun {
 };
 
 /// A new run, its first state committed: from now on it can be resumed. Throws as read_scenario,
-/// RunStore::create and RunStore::commit do.
+/// RunStore::create and RunStore::commit do, and Error(bad_data) where its bed is not the one asked for.
 OpenRun start_run(const RunRequest& request);
 
 /// Throws Error(bad_data), with the keys that differ, where the file and the settings say another scenario

@@ -44,7 +44,7 @@ struct PerturbArguments {
 
 /// One variant without a name: its runs are in the folder itself.
 EnsembleManifest manifest_of(const PerturbArguments& arguments) {
-  return {.seeds = arguments.seed ? std::vector{*arguments.seed} : parse_seeds(arguments.seeds),
+  return {.seeds = parse_seeds(arguments.seed ? std::to_string(*arguments.seed) : arguments.seeds),
           .variants = plan_variants(arguments.scenario, arguments.settings, {}),
           .task = arguments.plan};
 }
@@ -82,8 +82,10 @@ void report(const PerturbArguments& arguments, const EnsemblePlan& plan) {
   std::vector<std::string> paths;
   std::vector<PerturbationTable> tables;
   for (const std::size_t m : done_members(plan)) {
-    paths.push_back(plan.members[m].path);
-    tables.push_back(read_trials(plan.members[m].path, arguments.plan));
+    const Member& member = plan.members[m];
+    paths.push_back(member.path);
+    require_own_file(member, read_numbers(member), trials_ending);
+    tables.push_back(read_trials(member.path, arguments.plan));
   }
   const std::vector<RunGroup> groups = group_runs(open_figure_runs(paths, parse_analysis_settings({}), {}));
   const std::filesystem::path folder = arguments.folder;
@@ -145,10 +147,10 @@ void add_perturb_command(CLI::App& app) {
       ->excludes(seeds);
   command->add_option("--from", arguments->plan.first, "First tilt at which copies are pushed, deg")
       ->capture_default_str()
-      ->check(in_range(0.0, 60.0));
+      ->check(in_range(0.0, PerturbationPlan::highest));
   command->add_option("--every", arguments->plan.every, "Tilt between these states, deg")
       ->capture_default_str()
-      ->check(in_range(1e-3, 60.0));
+      ->check(in_range(PerturbationPlan::least_every, PerturbationPlan::highest));
   command
       ->add_option("--patch", arguments->patch,
                    "Width and depth of the part of the surface that is pushed, D")

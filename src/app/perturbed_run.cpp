@@ -16,7 +16,7 @@
 namespace talus {
 namespace {
 
-std::string trials_path(const std::string& run) { return file_beside(run, ".trials.csv"); }
+std::string trials_path(const std::string& run) { return file_beside(run, trials_ending); }
 
 void write_trials(const std::string& run, const PerturbationTable& table) {
   write_text(trials_path(run), perturbation_csv(table));

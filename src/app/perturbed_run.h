@@ -10,6 +10,9 @@
 
 namespace talus {
 
+/// After the name of a member, of the table of its trials.
+inline constexpr const char* trials_ending = ".trials.csv";
+
 /// The trials of the run at this path, "seed-1.trials.csv" beside it. Throws Error(bad_data) where a run is
 /// there and no such table, and as parse_perturbation_csv does.
 PerturbationTable read_trials(const std::string& run, const PerturbationPlan& plan);

@@ -17,6 +17,7 @@
 #include "app/stop_signals.h"
 #include "core/errors.h"
 #include "core/hash.h"
+#include "core/visible_text.h"
 #include "io/run_file.h"
 #include "session/run_header.h"
 
@@ -62,9 +63,10 @@ std::optional<RunStore> begin_output(const ReplayArguments& arguments, const Ses
         fmt::format("{} exists already; replace it with --overwrite, or choose another output with -o",
                     arguments.output));
   prepare_folder_of(arguments.output);
-  RunHeader header =
-      run_header(session, {run.header().scenario_given, fact(run.header().provenance, "scenario_file"),
-                           command_line(), arguments.threads, run.header().branch});
+  RunHeader header = run_header(
+      session, with_bed({run.header().scenario_given, fact(run.header().provenance, "scenario_file"),
+                         command_line(), arguments.threads, run.header().branch},
+                        session));
   header.provenance.emplace_back("replay_of", arguments.run);
   header.provenance.emplace_back("replay_steps", std::to_string(run.checkpoint().world.step));
   return RunStore::create(arguments.output, header, arguments.overwrite);
@@ -75,10 +77,17 @@ void compare(const ReplayArguments& arguments, const RunFile& run, const World& 
   if (!arguments.quiet)
     std::printf("stored      %s\nrecomputed  %s\n", end_text(stored).c_str(), end_text(recomputed).c_str());
   if (state_hash(stored) == state_hash(recomputed)) return;
+  // Runs of earlier versions do not say which bed they began with.
+  const std::string file = stored_scenario(run.header(), arguments.run).deposition.file;
+  const bool may_be_bed = !file.empty() && !run.header().branch && bed_of(run.header().provenance).empty();
   throw Error(ExitCode::internal,
               fmt::format("{}: its scenario and commands give another end state than the stored one; it was "
-                          "computed by version {}, which may give other bits",
-                          arguments.run, version_of(run.header().provenance)));
+                          "computed by version {}, which may give other bits{}",
+                          arguments.run, version_of(run.header().provenance),
+                          may_be_bed ? fmt::format(", or {} was changed since, which holds its bed "
+                                                   "(deposition.file)",
+                                                   visible(file))
+                                     : ""));
 }
 
 void replay_run(const ReplayArguments& arguments) {

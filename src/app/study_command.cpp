@@ -10,6 +10,7 @@
 #include "app/ensemble_workers.h"
 #include "app/jobs_option.h"
 #include "core/output_file.h"
+#include "ensemble/pool.h"
 #include "ensemble/study_report.h"
 #include "io/durable_file.h"
 #include "scenario/json.h"
@@ -81,6 +82,7 @@ void study(const StudyArguments& arguments) {
     std::printf("%s", ensemble_text(view).c_str());  // others are to compute it
     return;
   }
+  for (const std::size_t m : done_members(plan)) is_complete(plan.members[m]);  // their own runs
   const StudyResult result = read_study(plan, arguments.reference);
   write_text(folder / "study.csv", study_csv(result));
   write_text(folder / "study.md", study_markdown(result));

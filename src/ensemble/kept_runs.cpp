@@ -10,6 +10,7 @@
 #include "core/visible_text.h"
 #include "ensemble/member_lists.h"
 #include "ensemble/member_series.h"
+#include "ensemble/pool.h"
 #include "io/durable_file.h"
 #include "io/run_store.h"
 
@@ -27,6 +28,15 @@ std::optional<std::size_t> number_kept(const std::string& keep) {
   throw Error(ExitCode::usage,
               fmt::format("--keep {}: expected all, analysis, or the number of seeds whose runs are kept",
                           visible_word(keep)));
+}
+
+/// Whether the run at the place of a member is complete and its own: no other is removed.
+bool has_own_run(const Member& member) {
+  try {
+    return is_complete(member);
+  } catch (const Error&) {
+    return false;
+  }
 }
 
 }  // namespace
@@ -65,6 +75,7 @@ std::size_t drop_runs(const EnsembleManifest& manifest, const EnsemblePlan& plan
     if (!std::filesystem::exists(series_path(member.path), unknown) ||
         !std::filesystem::exists(lists_path(member.path), unknown))
       continue;
+    if (!has_own_run(member)) continue;
     drop_run(member);
     ++dropped;
   }

@@ -108,6 +108,6 @@ MemberLists read_lists(const std::string& path) {
   return found;
 }
 
-std::string lists_path(const std::string& run) { return file_beside(run, ".lists.h5"); }
+std::string lists_path(const std::string& run) { return file_beside(run, lists_ending); }
 
 }  // namespace talus

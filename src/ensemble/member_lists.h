@@ -38,6 +38,7 @@ void set_lists(const MemberLists& lists, double mean_diameter, Analysis& analysi
 /// read_lists Error(bad_data) where the file is not what write_lists makes.
 void write_lists(const std::string& path, const MemberLists& lists);
 MemberLists read_lists(const std::string& path);
+inline constexpr const char* lists_ending = ".lists.h5";
 std::string lists_path(const std::string& run);
 
 }  // namespace talus

@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <fmt/core.h>
 #include <variant>
 
@@ -13,7 +14,9 @@
 #include "core/snapshot.h"
 #include "core/text_stream.h"
 #include "core/trigonometry.h"
-#include "ensemble/plan.h"
+#include "core/visible_text.h"
+#include "ensemble/member_state.h"
+#include "io/durable_file.h"
 #include "scenario/text.h"
 #include "session/run_header.h"
 
@@ -36,10 +39,31 @@ void add_numbers(std::vector<NamedNumber>& numbers, const Quantity& quantity, co
                        scaled(quantity, (*doubles)[k], mean_diameter)});
 }
 
+std::string hash_of_file(const std::string& path) { return hash_text(hash_bytes(read_file(path))); }
+
+/// "seed 3, scenario 8f62...": what a table says of its member.
+std::string owner_text(const std::optional<std::uint64_t>& seed, const MemberOrigin& origin) {
+  std::string text = seed ? fmt::format("seed {}", *seed) : std::string("a seed");
+  if (!origin.scenario.empty()) text += ", scenario " + visible_word(origin.scenario);
+  if (!origin.bed.empty()) text += ", bed " + visible_word(origin.bed);
+  return text;
+}
+
+bool may_be_same(const std::string& left, const std::string& right) {
+  return left.empty() || right.empty() || left == right;
+}
+
 double result(const Figures& figures, const std::string& name) {
   for (const auto& [key, value] : figures)
     if (key == name) return value;
   return not_known;
+}
+
+std::uint64_t parse_seed(const std::string& text, const std::string& path) {
+  std::uint64_t seed = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
+  if (error != std::errc() || end != text.data() + text.size()) refuse_table(path);
+  return seed;
 }
 
 }  // namespace
@@ -77,6 +101,41 @@ MemberNumbers member_numbers(const RunFile& run, const Analysis& analysis) {
   return found;
 }
 
+void sign(MemberNumbers& numbers, const Member& member, const std::vector<std::string>& endings) {
+  numbers.seed = member.seed;
+  numbers.origin = member.origin;
+  numbers.files.clear();
+  for (const std::string& ending : endings)
+    if (const std::string file = file_beside(member.path, ending.c_str()); std::filesystem::exists(file))
+      numbers.files.emplace_back(ending, hash_of_file(file));
+}
+
+MemberNumbers read_numbers(const Member& member) {
+  const std::string path = numbers_path(member.path);
+  MemberNumbers found = parse_numbers(read_text(path), path);
+  if (found.seed.value_or(member.seed) == member.seed &&
+      may_be_same(found.origin.scenario, member.origin.scenario) &&
+      may_be_same(found.origin.bed, member.origin.bed))
+    return found;
+  throw Error(
+      ExitCode::bad_data,
+      fmt::format("{} is the table of another member ({}), expected that of {}; remove it, and talus "
+                  "ensemble analyses the member again, or computes it again if its run is not there",
+                  path, owner_text(found.seed, found.origin), owner_text(member.seed, member.origin)));
+}
+
+void require_own_file(const Member& member, const MemberNumbers& numbers, const std::string& ending) {
+  const std::optional<std::string> hash = find_value(numbers.files, ending);
+  const std::string path = file_beside(member.path, ending.c_str());
+  if (!hash || *hash == hash_of_file(path)) return;
+  const std::string table = numbers_path(member.path);
+  throw Error(
+      ExitCode::bad_data,
+      fmt::format("{} is not the file that {} was written with; remove both, and talus ensemble analyses "
+                  "the member again, or computes it again if its run is not there",
+                  path, table));
+}
+
 std::vector<std::string> numbers_of_run() {
   std::vector<std::string> names;
   for (const Quantity& quantity : quantities())
@@ -94,6 +153,10 @@ bool is_number_of_run(const std::string& name) {
 std::string numbers_csv(const MemberNumbers& numbers) {
   std::string text = fmt::format("{}\nstate_hash,,{}\nversion,,{}\nseconds,s,{}\n", header,
                                  numbers.state_hash, numbers.version, short_text(numbers.seconds));
+  if (numbers.seed) text += fmt::format("seed,,{}\n", *numbers.seed);
+  if (!numbers.origin.scenario.empty()) text += fmt::format("scenario,,{}\n", numbers.origin.scenario);
+  if (!numbers.origin.bed.empty()) text += fmt::format("bed,,{}\n", numbers.origin.bed);
+  for (const auto& [ending, hash] : numbers.files) text += fmt::format("{},,{}\n", ending, hash);
   for (const NamedNumber& number : numbers.numbers)
     text += fmt::format("{},{},{}\n", number.name, number.unit,
                         std::isnan(number.value) ? "" : short_text(number.value));
@@ -114,6 +177,14 @@ MemberNumbers parse_numbers(const std::string& text, const std::string& path) {
       found.version = cells[2];
     else if (cells[0] == "seconds")
       found.seconds = parse_cell(cells[2], path);
+    else if (cells[0] == "seed")
+      found.seed = parse_seed(cells[2], path);
+    else if (cells[0] == "scenario")
+      found.origin.scenario = cells[2];
+    else if (cells[0] == "bed")
+      found.origin.bed = cells[2];
+    else if (cells[0].starts_with('.'))
+      found.files.emplace_back(cells[0], cells[2]);
     else
       found.numbers.push_back({cells[0], cells[1], parse_cell(cells[2], path)});
   }

@@ -88,6 +88,6 @@ MemberSeries parse_series(const std::string& text, const std::string& path) {
   return found;
 }
 
-std::string series_path(const std::string& run) { return file_beside(run, ".series.csv"); }
+std::string series_path(const std::string& run) { return file_beside(run, series_ending); }
 
 }  // namespace talus

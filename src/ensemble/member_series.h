@@ -34,6 +34,7 @@ std::string series_csv(const MemberSeries& series);
 MemberSeries parse_series(const std::string& text, const std::string& path);
 
 /// The file of it beside a run.
+inline constexpr const char* series_ending = ".series.csv";
 std::string series_path(const std::string& run);
 
 }  // namespace talus

@@ -78,7 +78,7 @@ ReproducedOutcome measure_member(const ReproductionPlan& plan, std::size_t m) {
   if (!values)
     throw Error(ExitCode::bad_data, member.path + " lacks analyses of this version of Talus; remove " +
                                         numbers + ", and the member is analysed again");
-  const MemberNumbers found = parse_numbers(read_text(numbers), numbers);
+  const MemberNumbers found = read_numbers(member);
   const RunStatics& statics = run.header().statics;
   return {m, found.version, found.seconds, std::move(*values),
           wall_point({run.frame_tilts(), statics.mean_diameter, *stored}, statics.length)};

@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <charconv>
 #include <fmt/core.h>
+#include <map>
+#include <utility>
 
 #include "core/errors.h"
 #include "core/statistics.h"
 #include "core/text.h"
 #include "core/visible_text.h"
-#include "io/durable_file.h"
 
 namespace talus {
 
@@ -34,10 +35,20 @@ Precision parse_precision(const std::string& text) {
 
 std::vector<MemberNumbers> numbers_of(const EnsemblePlan& plan, const std::vector<MemberState>& states) {
   std::vector<MemberNumbers> numbers(plan.members.size());
+  std::map<std::pair<std::size_t, std::string>, const Member*> ends;
   for (std::size_t m = 0; m < plan.members.size(); ++m) {
     if (states[m].stage != MemberStage::done) continue;
-    const std::string path = numbers_path(plan.members[m].path);
-    numbers[m] = parse_numbers(read_text(path), path);
+    const Member& member = plan.members[m];
+    numbers[m] = read_numbers(member);
+    // Nothing is random in the bed of a file, so there it may be the same for all seeds.
+    if (member.scenario.deposition.method == DepositionMethod::file) continue;
+    const auto [first, is_new] = ends.emplace(std::pair(member.variant, numbers[m].state_hash), &member);
+    if (!is_new)
+      throw Error(
+          ExitCode::bad_data,
+          fmt::format("{} and {} have the same state_hash, which two seeds never have: one is a copy; "
+                      "remove it with its run, and talus ensemble computes that member again",
+                      numbers_path(first->second->path), numbers_path(member.path)));
   }
   return numbers;
 }

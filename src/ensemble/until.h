@@ -24,7 +24,7 @@ inline constexpr int least_members = 5;
 Precision parse_precision(const std::string& text);
 
 /// The numbers of the members that are done, in the order of the plan; of the others nothing. Throws as
-/// parse_numbers does.
+/// read_numbers does, and Error(bad_data) where two seeds of a variant have the same state hash.
 std::vector<MemberNumbers> numbers_of(const EnsemblePlan& plan, const std::vector<MemberState>& states);
 
 /// Whether the mean of each variant is known that well, each from `least_members` values or more. `numbers`

@@ -5,12 +5,22 @@
 #include <ctime>
 #include <fmt/core.h>
 
+#include "core/errors.h"
+#include "core/hash.h"
 #include "core/version.h"
+#include "core/visible_text.h"
 #include "session/branch_start.h"
 #include "session/frame_state.h"
 
 namespace talus {
 namespace {
+
+constexpr const char* bed_fact = "bed_hash";
+
+std::string bed_of(const Session& at_start) {
+  const bool from_file = at_start.scenario().deposition.method == DepositionMethod::file;
+  return from_file ? hash_text(state_hash(at_start.world())) : std::string();
+}
 
 std::string utc_now() {
   const std::time_t now = std::time(nullptr);
@@ -29,6 +39,13 @@ std::string host_name() {
 
 }  // namespace
 
+RunOrigin with_bed(RunOrigin origin, const Session& at_start) {
+  if (!origin.branch) origin.bed = bed_of(at_start);
+  return origin;
+}
+
+std::string bed_of(const Facts& provenance) { return find_value(provenance, bed_fact).value_or(""); }
+
 RunHeader run_header(const Session& session, const RunOrigin& origin) {
   RunHeader header;
   header.statics = run_statics(session.scenario(), session.world());
@@ -44,13 +61,23 @@ RunHeader run_header(const Session& session, const RunOrigin& origin) {
                        {"start", utc_now()},
                        {"command", origin.command_line},
                        {"scenario_file", origin.scenario_file}};
+  if (!origin.bed.empty()) header.provenance.emplace_back(bed_fact, origin.bed);
   header.branch = origin.branch;
   return header;
 }
 
 Session session_at_start(const RunHeader& header, const std::string& name) {
   const Scenario scenario = stored_scenario(header, name + ":/parameters");
-  if (!header.branch) return Session(scenario);
+  if (!header.branch) {
+    Session session(scenario);
+    const std::string bed = bed_of(header.provenance);
+    if (bed.empty() || bed == bed_of(session)) return session;
+    throw Error(
+        ExitCode::bad_data,
+        fmt::format("{} (deposition.file) holds another bed than when {} was computed from it; undo the "
+                    "change",
+                    visible(scenario.deposition.file), name));
+  }
   check_branch_start(*header.branch, scenario, name);
   Session session(scenario, start_of(*header.branch), name, "/branch");
   session.record_start();

@@ -15,7 +15,15 @@ struct RunOrigin {
   std::string command_line;
   int threads = 1;
   std::optional<BranchOrigin> branch{};
+  std::string bed{};  ///< hash of a bed that came from a file (with_bed)
 };
+
+/// The origin of a run whose session stands at its start, with the hash of its bed where deposition.file
+/// holds that: a file may be changed while the scenario stays.
+RunOrigin with_bed(RunOrigin origin, const Session& at_start);
+
+/// The hash that with_bed noted, from the provenance of a run; empty where there is none.
+std::string bed_of(const Facts& provenance);
 
 /// The header of a run that this program begins now, on this host.
 RunHeader run_header(const Session& session, const RunOrigin& origin);
@@ -24,7 +32,8 @@ RunHeader run_header(const Session& session, const RunOrigin& origin);
 Scenario stored_scenario(const RunHeader& header, const std::string& name);
 
 /// The session of a stored run before its first step; of a branch, with what it records of its start. `name`
-/// is what messages call the file. Throws Error(bad_data) as stored_scenario and check_branch_start do.
+/// is what messages call the file. Throws Error(bad_data) as stored_scenario and check_branch_start do, and
+/// where deposition.file now holds another bed.
 Session session_at_start(const RunHeader& header, const std::string& name);
 
 /// The version that computed a run, with its git hash, from its provenance: "0.1.0 (abc)".

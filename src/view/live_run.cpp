@@ -101,7 +101,7 @@ struct LiveRun::State {
   State(const Scenario& scenario, RunOrigin from)
       : session(from.branch ? Session(scenario, from.branch->start) : Session(scenario)),
         statics(run_statics(scenario, session.world())),
-        origin(std::move(from)) {
+        origin(with_bed(std::move(from), session)) {
     if (origin.branch) session.record_start();
   }
 

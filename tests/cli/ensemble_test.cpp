@@ -164,6 +164,7 @@ TEST(Ensemble, that_keeps_less_goes_on_from_what_is_there) {
   const auto has_run = [&](int seed) {
     return std::filesystem::exists(folder.path("e/seed-" + std::to_string(seed) + ".h5"));
   };
+  std::filesystem::copy_file(folder.path("e/seed-2.h5"), folder.path("of-seed-2.h5"));
   std::vector<std::string> words = ensemble_of("e", "1-3");
   words.insert(words.end(), {"--keep", "1"});
   const Outcome less = run_talus(words, folder.path());
@@ -173,9 +174,13 @@ TEST(Ensemble, that_keeps_less_goes_on_from_what_is_there) {
   EXPECT_TRUE(has_run(1) && !has_run(2) && !has_run(3));
   EXPECT_EQ(text_of(folder.path("e/averages.csv")), before);
   // As where a worker was killed after the tables of a member, and before its run went.
-  std::filesystem::copy_file(folder.path("e/seed-1.h5"), folder.path("e/seed-2.h5"));
+  std::filesystem::rename(folder.path("of-seed-2.h5"), folder.path("e/seed-2.h5"));
   EXPECT_EQ(run_talus({"ensemble", "work", "e"}, folder.path()).exit_code, 0);
   EXPECT_FALSE(has_run(2));
+  std::filesystem::copy_file(folder.path("e/seed-1.h5"), folder.path("e/seed-2.h5"));
+  EXPECT_EQ(run_talus({"ensemble", "work", "e"}, folder.path()).exit_code, 0);
+  EXPECT_TRUE(has_run(2)) << "a run of somebody else is not removed";
+  std::filesystem::remove(folder.path("e/seed-2.h5"));
   EXPECT_EQ(run_talus(ensemble_of("e", "4"), folder.path()).exit_code, 0)
       << "the folder remembers what it keeps";
   EXPECT_FALSE(has_run(4));

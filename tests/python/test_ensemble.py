@@ -125,6 +125,50 @@ def test_damaged_manifests(tmp_path, text):
         talus.open_ensemble(tmp_path)
 
 
+@pytest.mark.parametrize("name", ["..", "../victim", "a/../../victim", "/tmp/victim", ".", "a//b", "a/", "a\x1b[2J",
+                                  "a\tb", "a\rb", "twice\nvariant 0 twice"])
+def test_names_of_a_manifest_stay_in_its_folder(tmp_path, name):
+    (tmp_path / "ensemble.manifest").write_text(f"talus ensemble 1\nseeds 1-3\nvariant 0 {name}\nhash 0\n", newline="")
+    with pytest.raises(talus.Error, match=r"ensemble.manifest: is not what talus wrote, in line [34]: "):
+        talus.open_ensemble(tmp_path)
+
+
+@pytest.mark.parametrize("seeds", ["1-1000000000000", "5-1", "1-9000,10000-19000", str(2**63), "1" * 5000, "-1", "1-", "+1",
+                                   "1_0", " 1"])
+def test_seeds_of_a_manifest_have_bounds(tmp_path, seeds):
+    (tmp_path / "ensemble.manifest").write_text(f"talus ensemble 1\nseeds {seeds}\nvariant 0 \nhash 0\n")
+    with pytest.raises(talus.Error, match="ensemble.manifest: is not what talus wrote, in line 2: "):
+        talus.open_ensemble(tmp_path)
+
+
+def test_tables_of_other_members_are_refused(folder_of, tmp_path):
+    copy = tmp_path / "copy"
+    shutil.copytree(folder_of, copy, ignore=shutil.ignore_patterns("*.h5"))
+    here, there = copy / VARIANTS[0], copy / VARIANTS[1]
+    whole = (here / "seed-1.csv").read_text()
+    for other, fact in ((there / "seed-1.csv", "scenario"), (here / "seed-2.csv", "seed")):
+        shutil.copy(other, here / "seed-1.csv")
+        with pytest.raises(talus.Error, match=f"seed-1.csv: is the table of another member .{fact} "):
+            talus.open_ensemble(copy)
+    old = "".join(line for line in whole.splitlines(True) if not line.startswith(("seed,", "scenario,", ".")))
+    for seed in (1, 2):
+        (here / f"seed-{seed}.csv").write_text(old)
+    with pytest.raises(talus.Error, match="seed-1.csv and .*seed-2.csv have the same state_hash"):
+        talus.open_ensemble(copy)
+
+
+def test_names_that_were_shortened_are_told_in_full(tmp_path):
+    (tmp_path / "bed.toml").write_text("[bed]\nlength = 20\ndepth = 1\nfloor = \"smooth\"\n[tilt]\nend_angle = 0.01\n")
+    (tmp_path / "a, b.csv").write_text("x,y,radius\n10.55,0.5,0.5\n9.45,0.5,0.5\n10,1.3351646544245033,0.5\n")
+    run_talus("ensemble", "bed.toml", "--seeds", "1-2", "--set", "deposition.method=file", "--vary",
+              'deposition.file="a, b.csv"', "-o", "e", folder=tmp_path)
+    ensemble = talus.open_ensemble(tmp_path / "e")
+    [name] = ensemble.variants
+    assert name.startswith("deposition.file=a, b.csv~")
+    assert ensemble.full_names == {name: f"deposition.file={tmp_path}/a, b.csv"}
+    assert len({member.state_hash for member in ensemble.done()}) == 1, "nothing is random in the bed of a file"
+
+
 def test_damaged_numbers(folder_of, tmp_path):
     copy = tmp_path / "copy"
     shutil.copytree(folder_of, copy, ignore=shutil.ignore_patterns("*.h5"))

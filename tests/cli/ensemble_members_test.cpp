@@ -1,0 +1,140 @@
+/// Members of an ensemble that are not what they seem: values with mistakes, tables of others, changed beds,
+/// and names that lead elsewhere.
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <span>
+#include <sstream>
+
+#include "core/hash.h"
+#include "support/process.h"
+
+namespace talus::test {
+namespace {
+
+/// A bed of 32 grains that is deposited and tilted to its end in a fraction of a second.
+const char* const tiny_bed =
+    "[bed]\nlength = 10\ndepth = 4\n[tilt]\nend_angle = 1.5\n[output]\nframe_every = 0.5\n";
+
+std::vector<std::string> ensemble_of(const std::string& folder, const std::string& seeds) {
+  return {"ensemble", "bed.toml", "--seeds", seeds, "-o", folder};
+}
+
+/// Two grains side by side on a smooth floor, and one upon them; or the other way round.
+const char* const three_grains = "x,y,radius\n10.55,0.5,0.5\n9.45,0.5,0.5\n10,1.3351646544245033,0.5\n";
+const char* const other_grains = "x,y,radius\n0.55,0.5,0.5\n19.45,0.5,0.5\n0,1.3351646544245033,0.5\n";
+const char* const bed_of_file =
+    "[bed]\nlength = 20\ndepth = 1\nfloor = \"smooth\"\n[tilt]\nend_angle = 0.01\n[deposition]\nmethod = "
+    "\"file\"\n";
+
+TEST(EnsembleMembers, is_not_stopped_by_a_value_with_a_mistake_in_it) {
+  const TemporaryFolder folder;
+  write_file(folder, "bed.toml", bed_of_file);
+  write_file(folder, "a.csv", three_grains);
+  write_file(folder, "b.csv", other_grains);
+  const auto ensemble = [&](const std::string& files, const std::string& jobs = "1") {
+    return run_talus({"ensemble", "bed.toml", "--seeds", "1-2", "--vary", "deposition.file=" + files,
+                      "--jobs", jobs, "-o", "e"},
+                     folder.path());
+  };
+  EXPECT_EQ(ensemble("a.csv,typo.csv").exit_code, 66);
+  EXPECT_FALSE(std::filesystem::exists(folder.path("e"))) << "refused before anything is made";
+  EXPECT_EQ(ensemble("a.csv").exit_code, 0);
+  EXPECT_EQ(ensemble("a.csv,typo.csv").exit_code, 66);
+  EXPECT_EQ(ensemble("a.csv,b.csv", "0").exit_code, 0);
+  // What is missing later fails, and the others go on.
+  std::filesystem::rename(folder.path("b.csv"), folder.path("c.csv"));
+  EXPECT_EQ(ensemble("a.csv,c.csv", "0").exit_code, 0) << "b.csv, which cannot be had, is withdrawn";
+  EXPECT_EQ(ensemble("c.csv").out.find("e: 4 of 4 done"), 0u);
+  std::filesystem::rename(folder.path("c.csv"), folder.path("b.csv"));
+  const Outcome more = run_talus(
+      {"ensemble", "bed.toml", "--seeds", "3", "--vary", "deposition.file=a.csv", "-o", "e"}, folder.path());
+  EXPECT_EQ(more.exit_code, 66) << more.err;
+  EXPECT_EQ(more.out.find("e: 5 of 6 done, 0 under way, 1 failed"), 0u) << more.out;
+}
+
+TEST(EnsembleMembers, knows_whose_a_table_is) {
+  const TemporaryFolder folder;
+  write_file(folder, "bed.toml", tiny_bed);
+  std::vector<std::string> words = ensemble_of("e", "1-2");
+  words.insert(words.end(), {"--vary", "contact.friction=0.3,0.5"});
+  ASSERT_EQ(run_talus(words, folder.path()).exit_code, 0);
+  const std::string here = folder.path("e/contact.friction=0.3/seed-"),
+                    there = folder.path("e/contact.friction=0.5/seed-");
+  const auto refused_with = [&](const std::string& from, const std::string& to) {
+    const std::string whole = text_of(to);
+    std::ofstream(to) << text_of(from);
+    const Outcome average = run_talus({"ensemble", "average", "e"}, folder.path());
+    std::ofstream(to) << whole;
+    return average.exit_code == 65 &&
+           average.err.find(std::filesystem::path(to).filename().string()) != std::string::npos;
+  };
+  EXPECT_TRUE(refused_with(there + "1.csv", here + "1.csv")) << "another scenario";
+  EXPECT_TRUE(refused_with(here + "1.csv", here + "2.csv")) << "another seed";
+  EXPECT_TRUE(refused_with(there + "1.series.csv", here + "1.series.csv"));
+  EXPECT_TRUE(refused_with(there + "1.lists.h5", here + "1.lists.h5"));
+  EXPECT_EQ(run_talus({"ensemble", "average", "e"}, folder.path()).exit_code, 0) << "all is as it was";
+  // Tables of earlier versions do not say whose they are.
+  std::string old;
+  std::istringstream lines(text_of(here + "1.csv"));
+  for (std::string line; std::getline(lines, line);)
+    if (!line.starts_with("seed,") && !line.starts_with("scenario,") && !line.starts_with("."))
+      old += line + "\n";
+  for (const char* seed : {"1.csv", "2.csv"}) std::ofstream(here + seed) << old;
+  const Outcome twice = run_talus({"ensemble", "status", "e"}, folder.path());
+  EXPECT_EQ(twice.exit_code, 65);
+  EXPECT_NE(twice.err.find("have the same state_hash"), std::string::npos) << twice.err;
+}
+
+TEST(EnsembleMembers, knows_the_bed_that_its_members_begin_with) {
+  const TemporaryFolder folder;
+  write_file(folder, "bed.toml", bed_of_file);
+  write_file(folder, "a.csv", three_grains);
+  const auto ensemble = [&](const std::string& frictions, const std::string& seeds, const std::string& jobs) {
+    return run_talus({"ensemble", "bed.toml", "--set", "deposition.file=a.csv", "--vary",
+                      "contact.friction=" + frictions, "--seeds", seeds, "--jobs", jobs, "-o", "e"},
+                     folder.path());
+  };
+  ASSERT_EQ(ensemble("0.3", "1", "1").exit_code, 0);
+  ASSERT_EQ(ensemble("0.3", "1-2", "0").exit_code, 0);
+  write_file(folder, "a.csv", other_grains);
+  const Outcome more = ensemble("0.3,0.5", "1", "1");
+  EXPECT_EQ(more.exit_code, 65);
+  EXPECT_NE(more.err.find("/a.csv (deposition.file) holds another bed"), std::string::npos) << more.err;
+  EXPECT_EQ(run_talus({"ensemble", "work", "e"}, folder.path()).exit_code, 0);
+  EXPECT_NE(text_of(folder.path("e/contact.friction=0.3/seed-2.failed"))
+                .find("/a.csv (deposition.file) holds another bed"),
+            std::string::npos);
+  const Outcome replay = run_talus({"replay", "e/contact.friction=0.3/seed-1.h5"}, folder.path());
+  EXPECT_EQ(replay.exit_code, 65);
+  EXPECT_NE(replay.err.find("/a.csv (deposition.file) holds another bed"), std::string::npos) << replay.err;
+  write_file(folder, "a.csv", three_grains);
+  EXPECT_EQ(run_talus({"replay", "e/contact.friction=0.3/seed-1.h5"}, folder.path()).exit_code, 0);
+  EXPECT_EQ(run_talus({"ensemble", "retry", "e"}, folder.path()).exit_code, 0);
+  EXPECT_EQ(ensemble("0.3,0.5", "1", "1").out.find("e: 4 of 4 done"), 0u);
+}
+
+TEST(EnsembleMembers, removes_no_run_outside_of_its_folder) {
+  const TemporaryFolder folder;
+  write_file(folder, "bed.toml", tiny_bed);
+  std::vector<std::string> words = ensemble_of("e", "1");
+  words.insert(words.end(), {"--vary", "contact.friction=0.5", "--keep", "all"});
+  ASSERT_EQ(run_talus(words, folder.path()).exit_code, 0);
+  std::filesystem::rename(folder.path("e/contact.friction=0.5"), folder.path("victim"));
+  std::filesystem::rename(folder.path("e/scenarios/contact.friction=0.5.toml"), folder.path("e/victim.toml"));
+  std::string manifest = text_of(folder.path("e/ensemble.manifest"));
+  manifest.replace(manifest.find("contact.friction=0.5"), 20, "../victim");
+  manifest.replace(manifest.find("keep all"), 8, "keep analysis");
+  manifest.resize(manifest.rfind("hash "));
+  manifest += "hash " + hash_text(hash_bytes(std::as_bytes(std::span(manifest)))) + "\n";
+  write_file(folder, "e/ensemble.manifest", manifest);
+  const Outcome work = run_talus({"ensemble", "work", "e"}, folder.path());
+  EXPECT_EQ(work.exit_code, 65);
+  EXPECT_TRUE(work.err.starts_with("e/ensemble.manifest:5:1: error: ")) << work.err;
+  EXPECT_TRUE(std::filesystem::exists(folder.path("victim/seed-1.h5")));
+}
+
+}  // namespace
+}  // namespace talus::test
