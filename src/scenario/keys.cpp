@@ -101,9 +101,13 @@ Keys deposition_keys() {
             "geometric: number of places tried for each grain, of which the lowest is kept"},
            &P::sites},
           {{"file", "", TextRange{"the path of a file", 4095},
-            "file: a run, or a table with x, y and radius of one grain in each line, in D; relative to the "
-            "working directory"},
+            "file: a run, or a table with x, y and radius of one grain in each line; relative to the working "
+            "directory"},
            &P::file},
+          {{"file_unit", "", Choices{{"D", "m", "cm", "mm", "um"}},
+            "file: unit of the lengths in a table; one that its columns name, as in \"x [mm]\", goes before "
+            "D"},
+           &P::file_unit},
           {{"frame", "", IntegerRange{0, 1'000'000'000}, "file: number of the frame of a run, from 0"},
            &P::frame},
           {{"initial_solid_fraction", "", from_to(0.1, 0.7),

@@ -13,6 +13,7 @@ namespace talus {
 enum class BedBoundary { periodic, walls };
 enum class BedFloor { rough, smooth };
 enum class DepositionMethod { pour, geometric, collapse, file };
+enum class LengthUnit { mean_diameter, metre, centimetre, millimetre, micrometre };
 enum class AfterFailure { stop, lower, hold };
 enum class SolverMethod { accelerated, gauss_seidel };
 enum class GuardAction { stop, warn };
@@ -54,7 +55,8 @@ struct Scenario {
     double critical_angle = 0.0;  ///< geometric: deg, up to which a grain stays where it has fallen
     int sites = 1;                ///< geometric: places tried for a grain, of which the lowest is kept
     std::string file;             ///< file: path of a run or of a table; empty for other methods
-    int frame = 0;                ///< file: frame of the run
+    LengthUnit file_unit = LengthUnit::mean_diameter;  ///< file: of a table, where it names none itself
+    int frame = 0;                                     ///< file: frame of the run
     double initial_solid_fraction = 0.5;  ///< collapse: of the loose arrangement the grains fall from
     /// Between grains, and with side walls, while the bed is deposited and comes to rest; without a value
     /// ("contact"): as in the tilt.

@@ -79,7 +79,9 @@ RunFile open_run(const std::string& path) {
   }
 }
 
-FileGrains read_run(const std::string& path, std::size_t frame, const BedPlan& plan) {
+FileGrains read_run(const std::string& path, std::size_t frame, LengthUnit unit, const BedPlan& plan) {
+  if (unit != LengthUnit::mean_diameter)
+    refuse(path, "a run has units of its own: expected no deposition.file_unit, or \"D\"");
   const RunFile run = open_run(path);
   const RunStatics& statics = run.header().statics;
   if (statics.periodic != plan.periodic)
@@ -112,20 +114,21 @@ std::string table_text(const std::string& path) {
   const std::filesystem::file_status status = std::filesystem::status(path, error);
   if (error || !std::filesystem::exists(status)) refuse_missing(path + ": there is no such file");
   if (!std::filesystem::is_regular_file(status)) refuse_missing(path + ": this is not a file");
-  if (std::filesystem::file_size(path) > largest_table)
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  if (!error && size > largest_table)
     refuse(path, fmt::format("the table is too large: expected at most {} bytes", largest_table));
   const std::vector<std::byte> bytes = read_file(path);
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-FileGrains read_table(const std::string& path, std::size_t frame, const BedPlan& plan) {
+FileGrains read_table(const std::string& path, std::size_t frame, LengthUnit unit, const BedPlan& plan) {
   const std::string text = table_text(path);
   if (frame > 0) refuse(path, "a table has no frames: expected deposition.frame = 0");
   FileGrains grains{.path = path, .frame = 0, .lines = {}, .centres = {}, .radii = {}};
-  for (const TableGrain& grain : parse_bed_table(text, path)) {
+  for (const TableGrain& grain : parse_bed_table(text, path, unit, plan.mean_diameter)) {
     grains.lines.push_back(grain.line);
-    grains.centres.push_back({grain.x * plan.mean_diameter, grain.y * plan.mean_diameter});
-    grains.radii.push_back(grain.radius * plan.mean_diameter);
+    grains.centres.push_back({grain.x, grain.y});
+    grains.radii.push_back(grain.radius);
   }
   return grains;
 }
@@ -143,7 +146,9 @@ void check_sizes(const FileGrains& grains, const BedPlan& plan) {
                "the mean diameter of its grains is {:.6g} D: expected 1 D within {:.6g} %, with D = {:.6g} m "
                "(grains.mean_diameter){}",
                mean, 100.0 * mean_diameter_tolerance, plan.mean_diameter,
-               grains.is_table() ? "; all lengths of a table are in D" : ""));
+               grains.is_table() ? "; a table with lengths in mm has deposition.file_unit = \"mm\" or names "
+                                   "its columns as in x [mm]"
+                                 : ""));
 }
 
 void check_places(const FileGrains& grains, const BedPlan& plan) {
@@ -188,8 +193,9 @@ void check_overlaps(const FileGrains& grains, const BedPlan& plan, const World& 
 
 }  // namespace
 
-World bed_of_file(const std::string& path, std::size_t frame, const BedPlan& plan) {
-  const FileGrains grains = is_run(path) ? read_run(path, frame, plan) : read_table(path, frame, plan);
+World bed_of_file(const std::string& path, std::size_t frame, const BedPlan& plan, LengthUnit unit) {
+  const FileGrains grains =
+      is_run(path) ? read_run(path, frame, unit, plan) : read_table(path, frame, unit, plan);
   check_sizes(grains, plan);
   check_places(grains, plan);
   World world = empty_bed(plan);

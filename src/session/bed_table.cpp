@@ -1,8 +1,6 @@
 #include "session/bed_table.h"
 
 #include <algorithm>
-#include <array>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <fmt/core.h>
@@ -12,102 +10,123 @@
 #include "core/errors.h"
 #include "core/visible_text.h"
 #include "scenario/text.h"
+#include "session/table_columns.h"
 
 namespace talus {
 namespace {
 
-constexpr std::array<std::string_view, 3> column_names = {"x", "y", "radius"};
-
-struct TableCell {
-  std::string_view text;
-  std::size_t column = 0;  ///< of its first character, from 1
-};
-
-struct TableLine {
-  const std::string& table;
-  std::size_t number = 0;  ///< from 1
-
-  [[noreturn]] void refuse(std::size_t column, const std::string& message) const {
-    throw LocatedError(ExitCode::bad_data,
-                       fmt::format("{}:{}:{}: error: {}", table, number, column, message));
-  }
-};
-
-bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r'; }
-
-TableCell trimmed(TableCell field) {
-  while (!field.text.empty() && is_space(field.text.front())) {
-    field.text.remove_prefix(1);
-    ++field.column;
-  }
-  while (!field.text.empty() && is_space(field.text.back())) field.text.remove_suffix(1);
-  return field;
+/// The text after its byte-order mark.
+std::string_view unmarked(std::string_view text, const std::string& name) {
+  constexpr std::string_view utf8 = "\xef\xbb\xbf", low_first = "\xff\xfe", high_first = "\xfe\xff";
+  if (text.starts_with(low_first) || text.starts_with(high_first) ||
+      text.find('\0') != std::string_view::npos)
+    throw Error(ExitCode::bad_data,
+                name + ": this is not a table in UTF-8, but in UTF-16 or no text: save it as UTF-8 text");
+  return text.starts_with(utf8) ? text.substr(utf8.size()) : text;
 }
 
-/// The fields of a line without its comment; none of an empty one.
-std::vector<TableCell> fields_of(std::string_view line) {
-  TableCell rest = trimmed({line.substr(0, line.find('#')), 1});
-  const bool has_commas = rest.text.find(',') != std::string_view::npos;
-  std::vector<TableCell> fields;
-  while (!rest.text.empty()) {
-    const auto end = has_commas ? rest.text.find(',') : rest.text.find_first_of(" \t");
-    fields.push_back(trimmed({rest.text.substr(0, end), rest.column}));
-    if (end == std::string_view::npos) break;
-    rest = {rest.text.substr(end + 1), rest.column + end + 1};
-    if (!has_commas) rest = trimmed(rest);
-    if (has_commas && rest.text.empty()) fields.push_back(rest);
-  }
-  return fields;
+/// Takes the first line off a text; it ends with LF, CR LF or CR.
+std::string_view take_line(std::string_view& rest) {
+  const auto end = rest.find_first_of("\r\n");
+  const std::string_view line = rest.substr(0, end);
+  const bool is_pair = end != std::string_view::npos && rest.substr(end).starts_with("\r\n");
+  rest = end == std::string_view::npos ? std::string_view() : rest.substr(end + (is_pair ? 2 : 1));
+  return line;
 }
 
+/// How a number is written; NaN and infinities are written as numbers too.
 std::optional<double> number_in(std::string_view text) {
   if (text.starts_with('+')) text.remove_prefix(1);
   double value = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool whole = error == std::errc() && end == text.data() + text.size();
-  return whole && std::isfinite(value) ? std::optional(value) : std::nullopt;
+  if (error == std::errc::result_out_of_range && end == text.data() + text.size()) return HUGE_VAL;
+  const bool whole = error == std::errc() && end == text.data() + text.size() && !text.empty();
+  return whole ? std::optional(value) : std::nullopt;
 }
 
-bool are_column_names(const std::vector<TableCell>& fields) {
-  const auto is_same = [](const TableCell& field, std::string_view name) {
-    return std::ranges::equal(field.text, name, {}, [](unsigned char c) { return std::tolower(c); });
+bool are_names(std::string_view line) {
+  const auto is_number = [](const TableCell& cell) { return number_in(cell.text).has_value(); };
+  return !is_number(cells_of(line, false).front()) && std::ranges::none_of(cells_of(line, true), is_number);
+}
+
+/// The value of a column, in its unit.
+double value_in(const TablePlace& place, const TableColumn& column, const TableCell& cell) {
+  const std::optional<double> value = number_in(cell.text);
+  if (value && std::isfinite(*value)) return *value;
+  const bool decimal_comma = cell.text.find(',') != std::string_view::npos;
+  place.refuse(cell.column, fmt::format("{} = \"{}\": expected a finite number{}, in {}", column.name,
+                                        visible_word(cell.text), decimal_comma ? " with a decimal point" : "",
+                                        unit_text(column.unit)));
+}
+
+void require_columns(const TablePlace& place, const TableColumns& columns,
+                     const std::vector<TableCell>& cells) {
+  if (cells.size() == columns.count) return;
+  const std::string expected =
+      columns.line == 0
+          ? "three, x, y and radius, or a first line that names the columns"
+          : fmt::format("{}, one for each column that line {} names", columns.count, columns.line);
+  place.refuse(cells.front().column,
+               fmt::format("the line has {} values: expected {}", cells.size(), expected));
+}
+
+TableGrain grain_of(const TablePlace& place, const TableColumns& columns, const std::vector<TableCell>& cells,
+                    double mean_diameter) {
+  require_columns(place, columns, cells);
+  const auto length_in = [&](const TableColumn& column) {
+    return in_metres(value_in(place, column, cells[column.at]), column.unit, mean_diameter);
   };
-  return std::ranges::equal(fields, column_names, is_same);
-}
-
-TableGrain grain_of(const TableLine& line, const std::vector<TableCell>& fields) {
-  if (fields.size() != column_names.size())
-    line.refuse(fields.front().column,
-                fmt::format("the line has {} values: expected three, x, y and radius", fields.size()));
-  std::array<double, 3> values{};
-  for (std::size_t k = 0; k < values.size(); ++k) {
-    const std::optional<double> value = number_in(fields[k].text);
-    if (!value)
-      line.refuse(fields[k].column, fmt::format("{} = \"{}\": expected a finite number, in mean diameters D",
-                                                column_names[k], visible_word(fields[k].text)));
-    values[k] = *value;
-  }
-  if (values[2] <= 0.0)
-    line.refuse(
-        fields[2].column,
-        fmt::format("radius = {}: expected a finite number > 0, in mean diameters D", short_text(values[2])));
-  return {values[0], values[1], values[2], line.number};
+  const double x = length_in(columns.x), y = length_in(columns.height), size = length_in(columns.size);
+  if (size <= 0.0)
+    place.refuse(cells[columns.size.at].column,
+                 fmt::format("{} = {}: expected a finite number > 0, in {}", columns.size.name,
+                             short_text(value_in(place, columns.size, cells[columns.size.at])),
+                             unit_text(columns.size.unit)));
+  if (columns.depth && length_in(*columns.depth) != 0.0)
+    place.refuse(cells[columns.depth->at].column,
+                 fmt::format("z = {}: expected 0, because y is the height; leave the column y out if it is z",
+                             visible_word(cells[columns.depth->at].text)));
+  return {x, y, columns.is_diameter ? 0.5 * size : size, place.line};
 }
 
 }  // namespace
 
-std::vector<TableGrain> parse_bed_table(const std::string& text, const std::string& name) {
+double in_metres(double length, LengthUnit unit, double mean_diameter) {
+  switch (unit) {
+    case LengthUnit::mean_diameter:
+      return length * mean_diameter;
+    case LengthUnit::metre:
+      return length;
+    case LengthUnit::centimetre:
+      return length / 1e2;
+    case LengthUnit::millimetre:
+      return length / 1e3;
+    case LengthUnit::micrometre:
+      break;
+  }
+  return length / 1e6;
+}
+
+std::vector<TableGrain> parse_bed_table(const std::string& text, const std::string& name, LengthUnit unit,
+                                        double mean_diameter) {
   std::vector<TableGrain> grains;
-  bool has_begun = false;
-  TableLine line{name};
-  for (std::string_view rest = text; !rest.empty();) {
-    ++line.number;
-    const auto end = rest.find('\n');
-    const std::vector<TableCell> fields = fields_of(rest.substr(0, end));
-    rest = end == std::string_view::npos ? std::string_view() : rest.substr(end + 1);
-    if (fields.empty()) continue;
-    if (has_begun || !are_column_names(fields)) grains.push_back(grain_of(line, fields));
-    has_begun = true;
+  TablePlace place{name, 0}, comment_place{name, 0};
+  std::string_view comment;
+  std::optional<TableColumns> columns;
+  for (std::string_view rest = unmarked(text, name); !rest.empty();) {
+    ++place.line;
+    const std::string_view line = take_line(rest);
+    if (cells_of(line, false).empty()) {
+      if (const std::string_view words = comment_of(line); !words.empty()) {
+        comment = words;
+        comment_place.line = place.line;
+      }
+    } else if (!columns && are_names(line)) {
+      columns = named_columns(place, line, unit);
+    } else {
+      if (!columns) columns = columns_of_comment(comment_place, comment, unit, cells_of(line, false).size());
+      grains.push_back(grain_of(place, *columns, cells_of(line, columns->tabs), mean_diameter));
+    }
   }
   return grains;
 }

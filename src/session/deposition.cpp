@@ -41,7 +41,8 @@ World initial_bed(const Scenario& scenario) {
     return make_geometric_bed(
         plan, {.critical_angle = radians(deposition.critical_angle), .sites = deposition.sites});
   if (deposition.method == DepositionMethod::file)
-    return bed_of_file(deposition.file, static_cast<std::size_t>(deposition.frame), plan);
+    return bed_of_file(deposition.file, static_cast<std::size_t>(deposition.frame), plan,
+                       deposition.file_unit);
   return bed_without_grains(plan);
 }
 

@@ -68,14 +68,15 @@ Scenario all_fields_changed() {
   length = 123456.7 / 1e2;
   depth = 17.0;
   floor = BedFloor::smooth;
-  auto& [method, arrival_speed, deposition_rate, critical_angle, sites, file, deposition_frame, fraction,
-         deposition_friction, deposition_wall_friction, rest_velocity, max_time] = deposition;
+  auto& [method, arrival_speed, deposition_rate, critical_angle, sites, file, file_unit, deposition_frame,
+         fraction, deposition_friction, deposition_wall_friction, rest_velocity, max_time] = deposition;
   method = DepositionMethod::file;
   arrival_speed = 0.1;
   deposition_rate = 10.0 / 3.0;
   critical_angle = std::nextafter(90.0, 0.0);
   sites = 1000;
   file = "a \"quoted\" name\\with\ttab, \n line, \x1b and \x7f, \xc3\xa9 # [x] = 'y'";
+  file_unit = LengthUnit::micrometre;
   deposition_frame = 1'000'000'000;
   fraction = 0.123456789012345678;
   deposition_friction = -0.0;

@@ -110,9 +110,13 @@ TEST(BedOfTable, stays_within_the_period) {
 TEST(BedOfTable, is_in_mean_diameters) {
   EXPECT_EQ(message_of("3,2,0.54\n"), "accepted");
   EXPECT_EQ(message_of("3,2,0.46\n"), "accepted");
-  EXPECT_EQ(message_of("3,2,0.25\n"),
-            "bed.csv: the mean diameter of its grains is 0.5 D: expected 1 D within 10 %, with D = 0.01 m "
-            "(grains.mean_diameter); all lengths of a table are in D");
+  EXPECT_EQ(
+      message_of("3,2,0.25\n"),
+      "bed.csv: the mean diameter of its grains is 0.5 D: expected 1 D within 10 %, with D = 0.01 m "
+      "(grains.mean_diameter); a table with lengths in mm has deposition.file_unit = \"mm\" or names its "
+      "columns as in x [mm]");
+  EXPECT_EQ(bed_of_file(Table("30 20 5.4\n").path, 0, plan_of(), LengthUnit::millimetre).grains.radius[0],
+            0.0054);
   EXPECT_NE(message_of("3,2,1e308\n3,2,1e308\n"), "accepted");
 }
 
@@ -184,6 +188,7 @@ TEST(BedOfRun, fits_the_plan) {
   const StoredRun run;
   EXPECT_EQ(message_of(run.path, 3, plan_of(), ExitCode::bad_data),
             "run.h5: there is no frame 3: expected deposition.frame below 3, the number of its frames");
+  EXPECT_THROW(bed_of_file(run.path, 0, plan_of(), LengthUnit::metre), Error);
   EXPECT_EQ(message_of(run.path, 0, plan_of(false), ExitCode::bad_data),
             "run.h5: the run has a periodic bed: expected bed.boundary = \"periodic\"");
   BedPlan longer = plan_of();

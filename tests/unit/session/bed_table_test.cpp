@@ -7,8 +7,9 @@
 namespace talus {
 namespace {
 
-void expect_two_grains(const std::string& text, std::size_t first_line = 1, std::size_t second_line = 2) {
-  const std::vector<TableGrain> grains = parse_bed_table(text, "bed.csv");
+void expect_two_grains(const std::string& text, std::size_t first_line = 1, std::size_t second_line = 2,
+                       LengthUnit unit = LengthUnit::mean_diameter) {
+  const std::vector<TableGrain> grains = parse_bed_table(text, "bed.csv", unit, 1.0);
   ASSERT_EQ(grains.size(), 2u) << text;
   EXPECT_EQ(grains[0].x, 0.5);
   EXPECT_EQ(grains[0].y, 1.25);
@@ -18,6 +19,16 @@ void expect_two_grains(const std::string& text, std::size_t first_line = 1, std:
   EXPECT_EQ(grains[1].y, -0.125);
   EXPECT_EQ(grains[1].radius, 0.6);
   EXPECT_EQ(grains[1].line, second_line);
+}
+
+std::string message_of(const std::string& text) {
+  try {
+    parse_bed_table(text, "bed.csv", LengthUnit::mean_diameter, 1.0);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::bad_data);
+    return error.what();
+  }
+  return "accepted";
 }
 
 TEST(BedTable, has_commas_or_white_space_between_its_numbers) {
@@ -33,19 +44,81 @@ TEST(BedTable, may_have_names_comments_and_empty_lines) {
   expect_two_grains("# a bed\n\nx,y,radius # in D\n0.5,1.25,0.4# first\n\n#\n3,-0.125,0.6", 4, 7);
 }
 
-TEST(BedTable, without_lines_has_no_grain) {
-  for (const char* text : {"", "\n\n", "# nothing", "x,y,radius\n"})
-    EXPECT_TRUE(parse_bed_table(text, "bed.csv").empty()) << text;
+TEST(BedTable, has_any_ends_of_lines_and_a_byte_order_mark) {
+  expect_two_grains("\xef\xbb\xbfx,y,radius\r\n0.5,1.25,0.4 \t\r\n3,-0.125,0.6\r\n", 2, 3);
+  expect_two_grains(
+      "\xef\xbb\xbf"
+      "0.5 1.25 0.4\n3 -0.125 0.6");
+  expect_two_grains("x,y,radius\r0.5,1.25,0.4\r\r3,-0.125,0.6\r", 2, 4);
+  for (const std::string mark : {"\xff\xfe", "\xfe\xff"})
+    EXPECT_EQ(message_of(mark + "1,2,0.5\n"),
+              "bed.csv: this is not a table in UTF-8, but in UTF-16 or no text: save it as UTF-8 text");
+  EXPECT_EQ(message_of(std::string("1\0,\0002\0", 6)),
+            "bed.csv: this is not a table in UTF-8, but in UTF-16 or no text: save it as UTF-8 text");
 }
 
-std::string message_of(const std::string& text) {
+TEST(BedTable, has_its_columns_in_the_order_of_their_names) {
+  expect_two_grains("x,y,r\n0.5,1.25,0.4\n3,-0.125,0.6\n", 2, 3);
+  expect_two_grains("Diameter;Y;X\n0.8;1.25;0.5\n1.2;-0.125;3\n", 2, 3);
+  expect_two_grains("\"x\",\"z\",'D'\n\"0.5\",\"1.25\",\"0.8\"\n3,-0.125,1.2\n", 2, 3);
+  expect_two_grains("radius x z\n0.4 0.5 1.25\n0.6 3 -0.125\n", 2, 3);
+  expect_two_grains("x,y,z,d\n0.5,1.25,0,0.8\n3,-0.125,0.0,1.2\n", 2, 3);
+  expect_two_grains("# d y x\n0.8 1.25 0.5\n1.2 -0.125 3\n", 2, 3);
+  expect_two_grains("# x and y of the grains\n0.5 1.25 0.4\n3 -0.125 0.6\n", 2, 3);
+}
+
+TEST(BedTable, skips_columns_that_are_no_part_of_a_grain) {
+  expect_two_grains(",id,x,y,vx,r\n0,a,0.5,1.25,-,0.4\n1,b,3,-0.125,,0.6\n,,,,,\n", 2, 3);
+  expect_two_grains("grain id\tx\ty\tr\tnote\n1\t0.5\t1.25\t0.4\t\n2\t3\t-0.125\t0.6\tlast one\n", 2, 3);
+  expect_two_grains("ID Type X Y x_old R # as of today\n7 1 0.5 1.25 4 0.4\n8 1 3 -0.125 4 0.6\n", 2, 3);
+}
+
+TEST(BedTable, has_lengths_in_the_unit_that_is_named) {
+  const std::string mm = "\n500,1250,400\n3000,-125,600\n";
+  for (const char* names : {"x [mm],y [mm],radius [mm]", "x (mm),y(mm),r_mm", "x,y,r"})
+    expect_two_grains(names + mm, 2, 3, LengthUnit::millimetre);
+  for (const char* names : {"x [mm],y [mm],radius [mm]", "X/mm,Y mm,r_MM"})
+    expect_two_grains(names + mm, 2, 3);
+  expect_two_grains("x [m] z [cm] d [\xc2\xb5m]\n0.5 125 8e5\n3 -12.5 1.2e6\n", 2, 3);
+  expect_two_grains("500 1250 400\n3000 -125 600\n", 1, 2, LengthUnit::millimetre);
+  EXPECT_EQ(message_of("x [in],y,r\n1,2,1\n"),
+            "bed.csv:1:1: error: the column \"x [in]\" has an unknown unit: expected D, m, cm, mm or um");
   try {
-    parse_bed_table(text, "bed.csv");
+    parse_bed_table("x,y [m],r\n1,2,0.5\n", "bed.csv", LengthUnit::millimetre, 1.0);
+    ADD_FAILURE() << "two units";
   } catch (const LocatedError& error) {
-    EXPECT_EQ(error.code(), ExitCode::bad_data);
-    return error.what();
+    EXPECT_STREQ(error.what(),
+                 "bed.csv:1:3: error: the column \"y [m]\" names another unit than deposition.file_unit: "
+                 "leave one of them out");
   }
-  return "accepted";
+  EXPECT_EQ(in_metres(2.0, LengthUnit::mean_diameter, 0.01), 0.02);
+}
+
+TEST(BedTable, refuses_names_with_a_sentence_about_names) {
+  const auto refused = [](const std::string& names, const std::string& fault) {
+    return "bed.csv:1:1: error: the columns are named " + names + ", " + fault +
+           ": expected x, y (or z) for the height, and r, radius, d or diameter, in any order; each may have "
+           "a unit, as in x [mm]";
+  };
+  EXPECT_EQ(message_of("x,y,size\n1,2,0.5\n"), refused("\"x\", \"y\", \"size\"", "no column for the size"));
+  EXPECT_EQ(message_of("a b c\n1 2 3\n"), refused("\"a\", \"b\", \"c\"", "no column for x"));
+  EXPECT_EQ(message_of("x,\x1b[1m,r\n"), refused(R"("x", "\x1b[1m", "r")", "no column for the height"));
+  EXPECT_EQ(message_of("x,y,r,d\n"),
+            refused("\"x\", \"y\", \"r\", \"d\"", "more than one column for the size"));
+  EXPECT_EQ(message_of("x,y,x,d\n"), refused("\"x\", \"y\", \"x\", \"d\"", "more than one column for x"));
+  EXPECT_EQ(
+      message_of("x,y,z,r\n1,2,3,0.5\n"),
+      "bed.csv:2:5: error: z = 3: expected 0, because y is the height; leave the column y out if it is z");
+  EXPECT_EQ(message_of("x,y,r,id\n1,2,0.5\n"),
+            "bed.csv:2:1: error: the line has 3 values: expected 4, one for each column that line 1 names");
+  EXPECT_EQ(
+      message_of("x;y;r\n1,5;2;0,5\n"),
+      "bed.csv:2:1: error: x = \"1,5\": expected a finite number with a decimal point, in mean diameters D");
+}
+
+TEST(BedTable, without_lines_has_no_grain) {
+  for (const char* text : {"", "\n\n", "# nothing", "x,y,radius\n"})
+    EXPECT_TRUE(parse_bed_table(text, "bed.csv", LengthUnit::mean_diameter, 1.0).empty()) << text;
 }
 
 TEST(BedTable, tells_where_it_cannot_be_read) {
@@ -53,7 +126,6 @@ TEST(BedTable, tells_where_it_cannot_be_read) {
   EXPECT_EQ(message_of("1,2,0.5\n1, two,0.5\n"), "bed.csv:2:4: error: y = \"two\"" + number);
   EXPECT_EQ(message_of("1,2,0.5\nx,y,radius\n"), "bed.csv:2:1: error: x = \"x\"" + number)
       << "names come first";
-  EXPECT_EQ(message_of("radius,x,y\n"), "bed.csv:1:1: error: x = \"radius\"" + number) << "in another order";
   EXPECT_EQ(message_of("1 2 nan\n"), "bed.csv:1:5: error: radius = \"nan\"" + number);
   EXPECT_EQ(message_of("inf,2,1\n"), "bed.csv:1:1: error: x = \"inf\"" + number);
   EXPECT_EQ(message_of("1,1e999,1\n"), "bed.csv:1:3: error: y = \"1e999\"" + number);
@@ -64,7 +136,9 @@ TEST(BedTable, tells_where_it_cannot_be_read) {
 
 TEST(BedTable, has_three_values_in_a_line) {
   const auto has = [](const std::string& count) {
-    return "error: the line has " + count + " values: expected three, x, y and radius";
+    return "error: the line has " + count +
+           " values: expected three, x, y and radius, or a first line that "
+           "names the columns";
   };
   EXPECT_EQ(message_of("# one\n  1,2\n"), "bed.csv:2:3: " + has("2"));
   EXPECT_EQ(message_of("1 2 3 4\n"), "bed.csv:1:1: " + has("4"));

@@ -1,0 +1,235 @@
+#include "session/table_columns.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <fmt/core.h>
+#include <utility>
+
+#include "core/errors.h"
+#include "core/text.h"
+#include "core/visible_text.h"
+
+namespace talus {
+namespace {
+
+bool is_space(char c) { return c == ' ' || c == '\t'; }
+
+TableCell trimmed(TableCell cell) {
+  while (!cell.text.empty() && is_space(cell.text.front())) {
+    cell.text.remove_prefix(1);
+    ++cell.column;
+  }
+  while (!cell.text.empty() && is_space(cell.text.back())) cell.text.remove_suffix(1);
+  return cell;
+}
+
+TableCell unquoted(TableCell cell) {
+  cell = trimmed(cell);
+  const std::string_view text = cell.text;
+  if (text.size() < 2 || text.front() != text.back() || (text.front() != '"' && text.front() != '\''))
+    return cell;
+  return trimmed({text.substr(1, text.size() - 2), cell.column + 1});
+}
+
+/// The first of some characters that is not between double quotes.
+std::size_t find_outside_quotes(std::string_view text, std::string_view wanted) {
+  bool quoted = false;
+  for (std::size_t k = 0; k < text.size(); ++k) {
+    if (text[k] == '"') quoted = !quoted;
+    if (!quoted && wanted.find(text[k]) != std::string_view::npos) return k;
+  }
+  return std::string_view::npos;
+}
+
+/// The line without its comment.
+TableCell values_of(std::string_view line) { return {line.substr(0, find_outside_quotes(line, "#")), 1}; }
+
+std::string_view separator_of(std::string_view line, bool tabs) {
+  const std::string_view text = trimmed(values_of(line)).text;
+  for (const std::string_view separator : {";", ",", tabs ? "\t" : ","})
+    if (find_outside_quotes(text, separator) != std::string_view::npos) return separator;
+  return " \t";
+}
+
+/// "x [mm]" in a line with blanks between its names has the unit as a cell of its own.
+void join_units(std::string_view line, std::vector<TableCell>& cells) {
+  std::vector<TableCell> joined;
+  for (const TableCell& cell : cells) {
+    const bool is_unit = cell.text.starts_with('[') || cell.text.starts_with('(');
+    if (is_unit && !joined.empty()) {
+      TableCell& name = joined.back();
+      name.text = line.substr(name.column - 1, cell.column - name.column + cell.text.size());
+    } else {
+      joined.push_back(cell);
+    }
+  }
+  cells = std::move(joined);
+}
+
+std::string lower(std::string_view text) {
+  std::string low(text);
+  std::ranges::transform(low, low.begin(), [](unsigned char c) { return std::tolower(c); });
+  return low;
+}
+
+constexpr std::array units = {
+    std::pair<std::string_view, LengthUnit>{"d", LengthUnit::mean_diameter},
+    std::pair<std::string_view, LengthUnit>{"m", LengthUnit::metre},
+    std::pair<std::string_view, LengthUnit>{"cm", LengthUnit::centimetre},
+    std::pair<std::string_view, LengthUnit>{"mm", LengthUnit::millimetre},
+    std::pair<std::string_view, LengthUnit>{"um", LengthUnit::micrometre},
+    std::pair<std::string_view, LengthUnit>{"\xc2\xb5m", LengthUnit::micrometre},  // the micro sign
+    std::pair<std::string_view, LengthUnit>{"\xce\xbcm", LengthUnit::micrometre},  // the Greek letter
+};
+
+std::optional<LengthUnit> unit_of(std::string_view word) {
+  const auto found = std::ranges::find(units, word, &std::pair<std::string_view, LengthUnit>::first);
+  return found == units.end() ? std::nullopt : std::optional(found->second);
+}
+
+enum class Role { x, y, z, radius, diameter };
+
+constexpr std::array roles = {
+    std::pair<std::string_view, Role>{"x", Role::x},
+    std::pair<std::string_view, Role>{"y", Role::y},
+    std::pair<std::string_view, Role>{"z", Role::z},
+    std::pair<std::string_view, Role>{"r", Role::radius},
+    std::pair<std::string_view, Role>{"radius", Role::radius},
+    std::pair<std::string_view, Role>{"d", Role::diameter},
+    std::pair<std::string_view, Role>{"diameter", Role::diameter},
+};
+
+/// A name of a column as it is meant.
+struct NamedColumn {
+  Role role = Role::x;
+  TableColumn column;
+};
+
+/// Nothing for a name that has no meaning here: "id", "x_velocity".
+std::optional<NamedColumn> meaning_of(const TablePlace& place, const TableCell& cell, std::size_t at,
+                                      LengthUnit unit) {
+  const std::string name = lower(cell.text);
+  const auto end = std::min(name.find_first_of(" \t_/[("), name.size());
+  const auto role = std::ranges::find(roles, std::string_view(name).substr(0, end),
+                                      &std::pair<std::string_view, Role>::first);
+  if (role == roles.end()) return std::nullopt;
+  NamedColumn named{role->second, {at, name.substr(0, end), unit}};
+  if (end == name.size()) return named;
+  std::string_view word = trimmed({std::string_view(name).substr(end), 1}).text;
+  const bool bracketed = word.size() >= 2 && ((word.front() == '[' && word.back() == ']') ||
+                                              (word.front() == '(' && word.back() == ')'));
+  if (bracketed)
+    word = trimmed({word.substr(1, word.size() - 2), 1}).text;
+  else if (word.starts_with('_') || word.starts_with('/'))
+    word.remove_prefix(1);
+  const std::optional<LengthUnit> own = unit_of(word);
+  if (!own && !bracketed) return std::nullopt;
+  const std::string shown = visible_word(cell.text);
+  if (!own)
+    place.refuse(cell.column,
+                 fmt::format("the column \"{}\" has an unknown unit: expected D, m, cm, mm or um", shown));
+  if (unit != LengthUnit::mean_diameter && *own != unit)
+    place.refuse(cell.column, fmt::format("the column \"{}\" names another unit than deposition.file_unit: "
+                                          "leave one of them out",
+                                          shown));
+  named.column.unit = *own;
+  return named;
+}
+
+/// Finds the columns among the cells; a message about what is missing, or nothing.
+std::string find_columns(const TablePlace& place, const std::vector<TableCell>& cells, LengthUnit unit,
+                         TableColumns& columns) {
+  std::array<std::optional<TableColumn>, roles.size()> found;
+  std::string twice;
+  for (std::size_t at = 0; at < cells.size(); ++at) {
+    const std::optional<NamedColumn> named = meaning_of(place, cells[at], at, unit);
+    if (!named) continue;
+    std::optional<TableColumn>& column = found[static_cast<std::size_t>(named->role)];
+    if (column && twice.empty()) twice = named->column.name;
+    column = named->column;
+  }
+  const auto of = [&](Role role) { return found[static_cast<std::size_t>(role)]; };
+  if (of(Role::radius) && of(Role::diameter)) twice = "the size";
+  if (!twice.empty()) return fmt::format("more than one column for {}", twice);
+  columns.is_diameter = of(Role::diameter).has_value();
+  const auto height = of(Role::y) ? of(Role::y) : of(Role::z);
+  const auto size = columns.is_diameter ? of(Role::diameter) : of(Role::radius);
+  if (!of(Role::x) || !height || !size)
+    return fmt::format("no column for {}", !of(Role::x) ? "x" : !height ? "the height" : "the size");
+  columns.x = *of(Role::x);
+  columns.height = *height;
+  columns.size = *size;
+  if (of(Role::y)) columns.depth = of(Role::z);
+  return "";
+}
+
+TableColumns columns_in(const TablePlace& place, std::string_view line, std::vector<TableCell>& cells) {
+  cells = cells_of(line, true);
+  const std::string_view separator = separator_of(line, true);
+  if (separator == " \t") join_units(line, cells);
+  TableColumns columns;
+  columns.count = cells.size();
+  columns.line = place.line;
+  columns.tabs = separator == "\t";
+  return columns;
+}
+
+}  // namespace
+
+void TablePlace::refuse(std::size_t column, const std::string& message) const {
+  throw LocatedError(ExitCode::bad_data, fmt::format("{}:{}:{}: error: {}", table, line, column, message));
+}
+
+std::string_view comment_of(std::string_view line) {
+  const auto begin = find_outside_quotes(line, "#");
+  return begin == std::string_view::npos ? std::string_view() : line.substr(begin + 1);
+}
+
+std::vector<TableCell> cells_of(std::string_view line, bool tabs) {
+  const std::string_view separator = separator_of(line, tabs);
+  const bool white = separator == " \t";
+  // An empty cell at an end is one between tabs.
+  TableCell rest = separator == "\t" ? values_of(line) : trimmed(values_of(line));
+  std::vector<TableCell> cells;
+  while (!rest.text.empty()) {
+    const auto end = find_outside_quotes(rest.text, separator);
+    cells.push_back(unquoted({rest.text.substr(0, end), rest.column}));
+    if (end == std::string_view::npos) break;
+    rest = {rest.text.substr(end + 1), rest.column + end + 1};
+    if (white) rest = trimmed(rest);
+    if (rest.text.empty()) cells.push_back(rest);
+  }
+  const bool any = std::ranges::any_of(cells, [](const TableCell& cell) { return !cell.text.empty(); });
+  return any ? cells : std::vector<TableCell>();
+}
+
+std::string unit_text(LengthUnit unit) {
+  if (unit == LengthUnit::mean_diameter) return "mean diameters D";
+  return std::string(std::ranges::find(units, unit, &std::pair<std::string_view, LengthUnit>::second)->first);
+}
+
+TableColumns named_columns(const TablePlace& place, std::string_view line, LengthUnit unit) {
+  std::vector<TableCell> cells;
+  TableColumns columns = columns_in(place, line, cells);
+  const std::string fault = find_columns(place, cells, unit, columns);
+  if (!fault.empty()) {
+    const std::string names =
+        joined(cells, ", ", [](const TableCell& cell) { return "\"" + visible_word(cell.text) + "\""; });
+    place.refuse(cells.front().column,
+                 fmt::format("the columns are named {}, {}: expected x, y (or z) for the height, and r, "
+                             "radius, d or diameter, in any order; each may have a unit, as in x [mm]",
+                             names, fault));
+  }
+  return columns;
+}
+
+TableColumns columns_of_comment(const TablePlace& place, std::string_view comment, LengthUnit unit,
+                                std::size_t count) {
+  std::vector<TableCell> cells;
+  TableColumns columns = columns_in(place, comment, cells);
+  if (cells.size() == count && find_columns(place, cells, unit, columns).empty()) return columns;
+  return {{0, "x", unit}, {1, "y", unit}, {2, "radius", unit}};
+}
+
+}  // namespace talus

@@ -1,0 +1,61 @@
+#pragma once
+/// The cells of a line of a table of grains, and which column of it is what. Private to bed_table.h.
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scenario/scenario.h"
+
+namespace talus {
+
+/// A value or a name, without its quotes.
+struct TableCell {
+  std::string_view text;
+  std::size_t column = 0;  ///< of its first character in the line, from 1
+};
+
+struct TablePlace {
+  const std::string& table;
+  std::size_t line = 0;  ///< from 1
+
+  [[noreturn]] void refuse(std::size_t column, const std::string& message) const;
+};
+
+/// The cells of a line without its comment, separated by semicolons, commas, `tabs` or else by any white
+/// space; none if all are empty.
+std::vector<TableCell> cells_of(std::string_view line, bool tabs);
+
+/// What follows a # that is not in quotes.
+std::string_view comment_of(std::string_view line);
+
+struct TableColumn {
+  std::size_t at = 0;  ///< among the cells of a line
+  std::string name;
+  LengthUnit unit = LengthUnit::mean_diameter;
+};
+
+struct TableColumns {
+  TableColumn x, height, size;
+  std::optional<TableColumn> depth{};  ///< a z beside y
+  bool is_diameter = false;            ///< the size
+  std::size_t count = 3;               ///< of all columns
+  std::size_t line = 0;                ///< that names them; 0: none does
+  bool tabs = false;                   ///< separate the names, which may hold blanks
+};
+
+/// "mean diameters D", or the name of another unit.
+std::string unit_text(LengthUnit unit);
+
+/// The columns that a line names. Throws LocatedError(bad_data) where x, the height or the size is missing or
+/// there twice, or has a unit that is unknown or contradicts `unit` (bed_table.h).
+TableColumns named_columns(const TablePlace& place, std::string_view line, LengthUnit unit);
+
+/// The columns that a comment names if it has a name for each of `count`, with x, height and size among them;
+/// else x, y and radius.
+TableColumns columns_of_comment(const TablePlace& place, std::string_view comment, LengthUnit unit,
+                                std::size_t count);
+
+}  // namespace talus
