@@ -24,8 +24,11 @@ def unit_in(units: Units, unit: str) -> str:
 
 def values_in(units: Units, unit: str, values: Any, mean_diameter: float) -> Any:
     """Values in `unit` of the file, converted; `mean_diameter` in m."""
-    if units == "SI":
+    if units == "SI" or unit not in ("m", "rad"):
         return values
+    if isinstance(values, np.ndarray):
+        # The quotient of floats in single precision may round up to L.
+        values = values.astype(np.float64)
     if unit == "m":
         return values / mean_diameter
-    return np.degrees(values) if unit == "rad" else values
+    return np.degrees(values)

@@ -1,5 +1,7 @@
 #include "session/measure.h"
 
+#include <cmath>
+
 #include "stress/bed.h"
 #include "stress/free_surface.h"
 #include "stress/internal_moment.h"
@@ -44,6 +46,13 @@ void append_contact(const World& world, const ContactLawParameters& law, Index c
   out.ft.push_back(contacts.ft[c]);
   out.status.push_back(status_of(world, law, c));
   if (!contacts.moment.empty()) out.moment.push_back(contacts.moment[c]);
+}
+
+/// Files store places in single precision, in which one just below the period may be the period itself, and
+/// texts have as many digits: it becomes the place before.
+double within_period(double x, double period) {
+  const auto end = static_cast<float>(period);
+  return static_cast<float>(x) >= end ? std::nextafter(end, 0.0F) : x;
 }
 
 }  // namespace
@@ -100,6 +109,8 @@ Frame make_frame(const World& world, const ContactLawParameters& law) {
   frame.time = world.time;
   frame.tilt = world.tilt;
   frame.x = grains.x;
+  if (world.boundary.periodic)
+    for (double& x : frame.x) x = within_period(x, world.boundary.length);
   frame.y = grains.y;
   frame.angle = grains.angle;
   frame.vx = grains.vx;

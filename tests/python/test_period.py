@@ -1,0 +1,102 @@
+"""A grain just below the end of the period stays below it, whoever reads it: in the file and in every export."""
+
+import csv
+import re
+
+import numpy as np
+import pytest
+
+import talus
+from conftest import run_talus
+
+BED = """
+[bed]
+length = {length}
+depth = 1
+floor = "smooth"
+[tilt]
+end_angle = 0.001
+[deposition]
+method = "file"
+file = "{table}"
+"""
+
+
+# 0.2 m and 0.5 m are above and at the float next to them, 0.7 m is below it: "0.7" is the shortest text of that float.
+@pytest.fixture(scope="module", params=[20, 50, 70])
+def near_end(request, tmp_path_factory):
+    """The path of a run with the first grain just below L, and L in D."""
+    folder, length = tmp_path_factory.mktemp("period"), request.param
+    (folder / "bed.csv").write_text(f"{length - 1e-8!r},0.5,0.5\n3,0.5,0.5\n")
+    (folder / "bed.toml").write_text(BED.format(length=length, table=folder / "bed.csv"))
+    run_talus("run", folder / "bed.toml", "-o", folder / "run.h5")
+    return folder / "run.h5", length
+
+
+def exported(path, kind, output):
+    run_talus("export", path, "--to", kind, "--frames", 0, "-o", output)
+    return output
+
+
+def xyz(path, folder):
+    lines = exported(path, "xyz", folder / "bed.xyz").read_text().splitlines()
+    return float(lines[2].split()[1]), float(re.search(r'Lattice="(\S+)', lines[1])[1])
+
+
+def lammps(path, folder):
+    lines = exported(path, "lammps", folder / "bed.dump").read_text().splitlines()
+    bounds = lines[next(i for i, line in enumerate(lines) if "BOX BOUNDS" in line) + 1]
+    atoms = next(i for i, line in enumerate(lines) if "ITEM: ATOMS" in line)
+    return float(lines[atoms + 1].split()[lines[atoms].split().index("x") - 2]), float(bounds.split()[1])
+
+
+def csv_table(path, folder):
+    with open(exported(path, "csv", folder / "csv") / "grains.csv") as file:
+        return float(next(csv.DictReader(file))["x (m)"]), None
+
+
+def graphml(path, folder):
+    text = exported(path, "graphml", folder / "bed.graphml").read_text()
+    return float(re.search(r'"node.x">([^<]+)', text)[1]), float(re.search(r'"graph.period">([^<]+)', text)[1])
+
+
+def paraview(path, folder):
+    vtk = pytest.importorskip("vtkmodules.vtkIOXML", reason="VTK is not installed: python3-vtk9")
+    reader = vtk.vtkXMLPolyDataReader()
+    reader.SetFileName(str(next(exported(path, "paraview", folder / "vtk").glob("**/grains*.vtp"))))
+    reader.Update()
+    return reader.GetOutput().GetPoint(0)[0], None
+
+
+@pytest.mark.parametrize("read", [xyz, lammps, csv_table, graphml, paraview])
+def test_export_has_places_below_the_period(read, near_end, tmp_path):
+    path, length = near_end
+    x, end = read(path, tmp_path)
+    assert 0 < x < (end or 0.01 * length)
+
+
+def test_file_has_places_below_the_period(near_end):
+    path, length = near_end
+    for units in ("SI", "D"):
+        with talus.open(path, units=units) as run:
+            x = run.frames[0].position[0, 0]
+            assert 0 < x < run.length and x < np.float32(run.length)
+    h5py = pytest.importorskip("h5py")
+    with h5py.File(path) as file:
+        assert file["particles/grains/position/value"][0, 0, 0] < np.float32(file["particles/grains/box/edges"][0])
+
+
+def test_export_is_read_back_as_a_bed(near_end, tmp_path):
+    path, length = near_end
+    lines = [line.split() for line in exported(path, "xyz", tmp_path / "bed.xyz").read_text().splitlines()]
+    names = re.search(r"Properties=(\S+)", " ".join(lines[1]))[1].split(":")
+    columns = {}
+    at = 0
+    for name, width in zip(names[::3], names[2::3]):
+        columns[name] = at
+        at += int(width)
+    rows = [f"{line[columns['pos']]} {line[columns['pos'] + 1]} {line[columns['radius']]}" for line in lines[2:]]
+    assert len(rows) == 2
+    (tmp_path / "bed.csv").write_text("\n".join(rows))
+    (tmp_path / "bed.toml").write_text(BED.format(length=length, table=tmp_path / "bed.csv"))
+    run_talus("run", tmp_path / "bed.toml", "-o", tmp_path / "again.h5")
