@@ -12,15 +12,17 @@ inline constexpr int critical_layers = 10;
 
 /// Forces and equations of some grains.
 struct ForceCount {
-  double grains = 0.0;    ///< N, free grains that carry force: three equations of equilibrium each
+  double grains = 0.0;  ///< N, free grains that carry force: two equations of equilibrium each
+  double turning =
+      0.0;  ///< N_mu, those with a contact that has friction: one more, as a torque has to vanish
   double contacts = 0.0;  ///< M, their contacts: two components of the force each
   double critical = 0.0;  ///< those with fully mobilised friction, |f_t| = mu f_n: one component less
 
   /// nu; NaN without contacts.
   double share() const { return critical / contacts; }
-  /// nu_max = 2 - 3 N / M: in equilibrium 2 M - M_critical >= 3 N (McNamara and Herrmann 2004, Phys. Rev. E
-  /// 70, 061303). NaN without contacts.
-  double bound() const { return 2.0 - 3.0 * grains / contacts; }
+  /// nu_max = 2 - (2 N + N_mu) / M: in equilibrium 2 M - M_critical >= 2 N + N_mu (McNamara and Herrmann
+  /// 2004, Phys. Rev. E 70, 061303, where N_mu = N). NaN without contacts.
+  double bound() const { return 2.0 - (2.0 * grains + turning) / contacts; }
   /// nu / nu_max; NaN where the bound is not above 0.
   double share_of_bound() const { return bound() > 0.0 ? share() / bound() : not_known; }
 };

@@ -25,11 +25,14 @@ const std::string clusters = overload + " joining";
 QuantityRows general_rows() {
   return {
       {&Analysis::theta_c, "theta_c", "", "rad",
-       "angle of repose, as in /results; NaN if the slope has not failed", "",
-       curve("θ_c", "Angle of repose θ_c")},
+       "angle of repose, as in /results: the tilt at which the flow began that did not stop; NaN if the "
+       "slope "
+       "has not failed",
+       "", curve("θ_c", "Angle of repose θ_c")},
       {&Analysis::first_slide, "first_slide", "", "rad",
-       "first tilt after which the surface layer moves downslope by 0.5 D within 0.5 deg: it may stop again; "
-       "NaN if it never does",
+       "first tilt after which the surface layer moves downslope by 0.5 D within 0.5 deg: it may stop again, "
+       "and comes after theta_c if the tilt is so fast that the flow takes longer to gather speed; NaN if it "
+       "never does",
        ""},
       {&Analysis::gamma_c, "gamma_c", "", "1",
        "Gamma_c, the threshold of the packing: sin(theta_c), or as given; NaN where there is neither",
@@ -212,14 +215,16 @@ QuantityRows contact_rows() {
        "nu: share of the force-carrying contacts whose friction is fully mobilised (critical contacts)", "",
        percent("ν", "ν, share of critical contacts")},
       {&FrameRecord::critical_bound, "contacts/critical_bound", "T", "1",
-       "largest nu at which N grains can be in equilibrium with M contacts, 2 - 3 N / M: of the 2 M "
-       "components of forces each critical contact takes one away, and 3 N equations are to be met. N: free "
-       "grains that carry force; M: force-carrying contacts, those with the floor and walls included "
-       "(McNamara and Herrmann 2004)",
+       "largest nu at which N grains can be in equilibrium with M contacts, 2 - (2 N + N_mu) / M: of the 2"
+       " M components of forces each critical contact takes one away, and each grain needs two equations "
+       "of forces, and one of torques if it has a contact with friction; 2 - 3 N / M with friction, 2 - 2 "
+       "N / M without. N: free grains that carry force; N_mu: those with a contact with friction; M: "
+       "force-carrying contacts, those with the floor and walls included (after McNamara and Herrmann "
+       "2004)",
        ""},
       {&FrameRecord::critical_share_of_bound, "contacts/critical_share_of_bound", "T", "1",
        "nu over that bound; NaN where the bound is not above 0: there are too few contacts for equilibrium",
-       "", curve("ν/ν_max", "ν over its bound 2 − 3N/M")},
+       "", curve("ν/ν_max", "ν over its bound")},
       {&FrameRecord::critical_clusters, "contacts/critical_clusters", "T", "1",
        "clusters of critical contacts, joined where they share a free grain", ""},
       {&FrameRecord::critical_mean, "contacts/critical_mean", "T", "1",
@@ -341,7 +346,9 @@ QuantityRows rigidity_rows() {
       {&FrameRecord::rigid_clusters, "rigid/clusters", "T", "1",
        "rigid clusters: sets of two bodies or more that can only move as one, where a sticking contact is a "
        "pin (two constraints) and a sliding one a bar (one), counted by the double-bond pebble game (Henkes, "
-       "Quint, Fily and Schwarz 2016); floor and walls are one body",
+       "Quint, Fily and Schwarz 2016); floor and walls are one body. Not counted in beds whose grains have "
+       "no "
+       "friction, which turn freely: -1, and NaN for the next four",
        ""},
       {&FrameRecord::rigid_largest_share, "rigid/largest_share", "T", "1",
        "share of the free grains that carry force in the largest rigid cluster", "",

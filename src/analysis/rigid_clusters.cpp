@@ -141,6 +141,10 @@ std::vector<Bond> bonds_of(const BedFrame& bed) {
 }
 
 void take_rigid_clusters(const BedFrame& bed, FrameRecord& record) {
+  if (bed.statics.friction == 0.0) {  // rotations that nothing hinders would count as motions
+    record.rigid_clusters = -1;
+    return;
+  }
   const Index fixed = bed.statics.free_count;
   const std::vector<Bond> bonds = bonds_of(bed);
   const RigidClusters clusters = find_rigid_clusters(fixed + 1, bonds);

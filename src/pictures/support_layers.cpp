@@ -39,6 +39,12 @@ MapLayer mobilised_layer(const MapFrame& of, const ScaleChoice& choice) {
 
 MapLayer rigid_layer(const MapFrame& of, bool over_grains) {
   const Index fixed = of.statics.free_count;
+  if (of.statics.friction == 0.0) {
+    MapLayer none;
+    none.looks.assign(static_cast<std::size_t>(fixed), outline_look());
+    none.title = "Rigid clusters are not counted without friction";
+    return none;
+  }
   const std::vector<Index> label = find_rigid_clusters(fixed + 1, bonds_of(of)).label;
   std::vector<Index> bodies(label.size(), 0), grains(label.size(), 0);
   for (Index body = 0; body <= fixed; ++body) {

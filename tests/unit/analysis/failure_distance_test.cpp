@@ -36,6 +36,22 @@ TEST(FailureDistance, bound_is_where_unknown_forces_are_as_many_as_equations) {
   EXPECT_NEAR(record.critical_share_of_bound, 2.0, 1e-14);  // two are: this is no equilibrium
 }
 
+// 10 components less 5 of the contacts, which all are critical, and 6 equations: none of torques.
+TEST(FailureDistance, without_friction_has_no_torques_to_balance) {
+  Packing packing = two_layers();
+  packing.statics.friction = packing.statics.wall_friction = 0.0;
+  FrameRecord record;
+  take_failure_distance(packing, 2.0, record);
+  EXPECT_NEAR(record.critical_bound, 2.0 - 6.0 / 5.0, 1e-15);
+  packing.statics.wall_friction = 0.5;
+  packing.frame.contacts.nx.back() = 0.0;  // with the floor
+  take_failure_distance(packing, 2.0, record);
+  EXPECT_NEAR(record.critical_bound, 2.0 - 6.0 / 5.0, 1e-15);
+  packing.frame.contacts.nx.back() = 1.0;  // with a wall
+  take_failure_distance(packing, 2.0, record);
+  EXPECT_NEAR(record.critical_bound, 2.0 - 7.0 / 5.0, 1e-15) << "the torque on one grain";
+}
+
 // Of the lower layer: the contact of its two grains, halves of two with the top, the floor and the wall.
 TEST(FailureDistance, counts_of_layers_add_up) {
   const std::vector<ForceCount> counts = count_forces(two_layers(), 2.0, 2);

@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <cmath>
 
 #include "core/random.h"
 #include "unit/analysis/packings.h"
@@ -96,6 +97,20 @@ TEST(RigidClusters, do_not_depend_on_the_order_of_the_bonds) {
   const std::vector<Index> label = labels(200, bonds);
   EXPECT_EQ(labels(200, reversed), label);
   EXPECT_GT(std::ranges::count(label, label[bonds[0].a]), 0);
+}
+
+TEST(RigidClusters, are_not_counted_without_friction) {
+  Packing packing = test::empty_packing(10.0, false);
+  for (Index i = 0; i < 3; ++i) test::add_grain(packing, static_cast<double>(i), 0.5);
+  test::add_contact(packing, 0, 1, 1.0);
+  test::add_contact(packing, 1, 2, 1.0);
+  packing.statics.friction = 0.0;
+  FrameRecord record;
+  take_rigid_clusters(packing, record);
+  EXPECT_EQ(record.rigid_clusters, -1);
+  for (const double value : {record.rigid_largest_share, record.rigid_contact_share,
+                             record.rigid_floppy_modes, record.rigid_redundant})
+    EXPECT_TRUE(std::isnan(value));
 }
 
 // Two grains side by side on the floor are a triangle with it; a third sits on them and slides at one; a
