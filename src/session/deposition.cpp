@@ -1,6 +1,7 @@
 #include "session/deposition.h"
 
 #include <cmath>
+#include <fmt/core.h>
 
 #include "core/hash.h"
 #include "core/trigonometry.h"
@@ -10,6 +11,9 @@
 
 namespace talus {
 namespace {
+
+/// Beyond this coefficient of restitution a bed comes to rest late, and never at 1.
+constexpr double elastic = 0.9;
 
 BedPlan bed_plan(const Scenario& scenario) {
   BedPlan plan;
@@ -68,6 +72,27 @@ PourRule pour_rule(const Scenario& scenario) {
   return {.speed = scenario.deposition.arrival_speed * std::sqrt(gravity * diameter),
           .interval = std::sqrt(diameter / gravity) / (scenario.deposition.rate * scenario.bed.length),
           .density = scenario.grains.density};
+}
+
+std::string advice_for_rest(const Scenario& scenario, double velocity) {
+  const Scenario::ContactLaw& law = scenario.contact;
+  const double rest = scenario.deposition.rest_velocity, usual = Scenario::Deposition().rest_velocity;
+  const auto keeps = [](const char* key, double value) {
+    const bool whole = std::fabs(value) == 1.0;
+    return fmt::format("with {} = {:g} impacts take {} energy{}: set it nearer to 0{}", key, value,
+                       whole ? "no" : "little",
+                       whole ? ", so that neither more time nor a tolerance helps" : "",
+                       whole ? "" : ", or allow more time (deposition.max_time)");
+  };
+  if (law.restitution > elastic) return keeps("contact.restitution", law.restitution);
+  if (std::fabs(law.tangential_restitution) > elastic)
+    return keeps("contact.tangential_restitution", law.tangential_restitution);
+  if (velocity < rest)
+    return "it has only just come below that, or the solver misses its tolerance: allow more time "
+           "(deposition.max_time), or more solver.max_iterations";
+  if (velocity < usual)
+    return fmt::format("set deposition.rest_velocity higher: beds are at rest by the default of {:g}", usual);
+  return "allow more time (deposition.max_time), or set solver.moving_tolerance or solver.tolerance lower";
 }
 
 double end_of_arrivals(const Scenario& scenario) {

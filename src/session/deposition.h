@@ -32,4 +32,8 @@ PourRule pour_rule(const Scenario& scenario);
 /// When the last grain arrives, s; 0 where all are there from the beginning.
 double end_of_arrivals(const Scenario& scenario);
 
+/// What to do about a bed that did not come to rest in time, with the key that keeps it from it; `velocity`
+/// in g h.
+std::string advice_for_rest(const Scenario& scenario, double velocity);
+
 }  // namespace talus

@@ -204,17 +204,16 @@ void Session::advance_deposition() {
     let_arrive(arrivals_, pour_rule(scenario_), time_step(scenario_), world_);
     return;
   }
-  if (is_at_rest() && report_.solver.converged)
+  if (is_at_rest() && report_.solver.converged) {
     begin_tilt();
-  else if (world_.time >= end_of_arrivals(scenario_) + scenario_.deposition.max_time)
-    throw Error(
-        ExitCode::bad_data,
-        fmt::format("the bed did not come to rest within deposition.max_time = {:g} s: its rms "
-                    "velocity is {:.3g} g h, rest requires deposition.rest_velocity = {:g} g h; allow "
-                    "more time, or set solver.moving_tolerance or solver.tolerance lower",
-                    scenario_.deposition.max_time,
-                    report_.motion.rms_velocity / (world_.gravity * time_step(scenario_)),
-                    scenario_.deposition.rest_velocity));
+  } else if (world_.time >= end_of_arrivals(scenario_) + scenario_.deposition.max_time) {
+    const double velocity = report_.motion.rms_velocity / (world_.gravity * time_step(scenario_));
+    throw Error(ExitCode::bad_data,
+                fmt::format("the bed did not come to rest within deposition.max_time = {:g} s: its rms "
+                            "velocity is {:.3g} g h, rest requires deposition.rest_velocity = {:g} g h; {}",
+                            scenario_.deposition.max_time, velocity, scenario_.deposition.rest_velocity,
+                            advice_for_rest(scenario_, velocity)));
+  }
 }
 
 void Session::begin_tilt() {

@@ -23,6 +23,45 @@ Scenario poured_bed(BedBoundary boundary = BedBoundary::periodic) {
   return scenario;
 }
 
+TEST(AdviceForRest, names_the_key_that_keeps_a_bed_from_rest) {
+  const auto advice = [](auto change, double velocity) {
+    Scenario scenario = poured_bed();
+    change(scenario);
+    return advice_for_rest(scenario, velocity);
+  };
+  EXPECT_EQ(advice([](Scenario& s) { s.contact.restitution = 1.0; }, 1.0),
+            "with contact.restitution = 1 impacts take no energy, so that neither more time nor a tolerance "
+            "helps: set it nearer to 0");
+  EXPECT_EQ(
+      advice([](Scenario& s) { s.contact.restitution = 0.97; }, 1.0),
+      "with contact.restitution = 0.97 impacts take little energy: set it nearer to 0, or allow more time "
+      "(deposition.max_time)");
+  for (const double e_t : {-1.0, 1.0})
+    EXPECT_TRUE(
+        advice([e_t](Scenario& s) { s.contact.tangential_restitution = e_t; }, 1.0)
+            .starts_with("with contact.tangential_restitution = " + std::string(e_t < 0 ? "-1" : "1")));
+  EXPECT_EQ(advice([](Scenario& s) { s.deposition.rest_velocity = 1e-9; }, 1e-4),
+            "set deposition.rest_velocity higher: beds are at rest by the default of 0.005");
+  EXPECT_TRUE(
+      advice([](Scenario&) {}, 1e-4).starts_with("it has only just come below that, or the solver misses"));
+  EXPECT_TRUE(advice([](Scenario&) {}, 1.0).starts_with("allow more time (deposition.max_time), or set"));
+}
+
+TEST(AdviceForRest, ends_the_message_about_a_bed_that_is_not_at_rest) {
+  Scenario scenario = poured_bed();
+  scenario.contact.restitution = 1.0;
+  scenario.deposition.max_time = 0.05;
+  Session session(scenario);
+  try {
+    while (session.phase() == Phase::deposition) session.advance();
+    ADD_FAILURE() << "at rest";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::bad_data);
+    EXPECT_NE(std::string(error.what()).find("g h; with contact.restitution = 1 impacts"), std::string::npos)
+        << error.what();
+  }
+}
+
 void advance_to_tilt(Session& session) {
   while (session.phase() == Phase::deposition) session.advance();
 }
