@@ -109,7 +109,11 @@ std::string dilation_text(const Analysis& analysis, std::size_t s) {
 
 std::string first_slide_text(const Analysis& analysis) {
   const double angle = analysis.first_slide;
-  return std::isnan(angle) ? "none" : degree_text(angle) + " deg";
+  if (std::isnan(angle)) return "none";
+  const bool late = angle > analysis.theta_c;
+  return degree_text(angle) + " deg" +
+         (late ? ", after theta_c: the bed was tilted on while the flow that began there gathered speed"
+               : "");
 }
 
 std::string transition_table(const AnalysedRun& run) {
@@ -127,6 +131,14 @@ std::string transition_table(const AnalysedRun& run) {
 }
 
 }  // namespace
+
+std::string beyond_repose(double theta_c, double tilt) {
+  if (!(degrees(tilt - theta_c) > 1.0)) return "";
+  return fmt::format(
+      "; the bed was tilted on to {} deg while this flow gathered speed, so the first slide may come after "
+      "theta_c (slower: tilt.rate)",
+      degree_text(tilt));
+}
 
 std::string analysis_text(const AnalysedRun& run) {
   return fmt::format(

@@ -13,6 +13,10 @@ namespace talus {
 /// mean diameters, angles in degrees.
 std::string analysis_text(const AnalysedRun& run);
 
+/// What follows theta_c in a sentence where the bed was tilted on by more than a degree, to `tilt`, before
+/// the flow that began there had failed the slope; else nothing. rad.
+std::string beyond_repose(double theta_c, double tilt);
+
 /// All scalars and series of the table under their names, in SI units, but not the values of single
 /// grains; arrays in the shape of the table.
 std::string analysis_json(const AnalysedRun& run, std::span<const Quantity> table = quantities());

@@ -88,7 +88,8 @@ std::optional<Figure> angle_distributions(std::span<const RunGroup> groups) {
   figure.title = "Distribution of theta_c, theta_d and theta_r over the runs";
   figure.caption =
       "Histograms of the angles at which something happens in a run: theta_c, the first slide of the surface "
-      "layer, the angle at rest theta_r where a flow was followed, and theta_d by each estimator: jump of "
+      "layer (after theta_c where a fast tilt goes on while the flow gathers speed), the angle at rest "
+      "theta_r where a flow was followed, and theta_d by each estimator: jump of "
       "the "
       "largest l_c, first cluster that spans from floor to surface, for each threshold, and onset of "
       "dilation by "
