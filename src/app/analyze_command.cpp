@@ -7,6 +7,7 @@
 #include "app/choices.h"
 #include "app/commands.h"
 #include "app/given_runs.h"
+#include "app/terminal.h"
 #include "session/analysis_parameters.h"
 
 namespace talus {
@@ -22,16 +23,16 @@ struct AnalyzeArguments {
 void analyze(const AnalyzeArguments& arguments) {
   const AnalysisParameters parameters = parse_analysis_settings(arguments.settings);
   const std::vector<std::string> runs = runs_among(arguments.runs);
-  if (arguments.json) std::printf("[");
+  if (arguments.json) print("[");
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const AnalysedRun run = analysed_run(runs[r], parameters, arguments.options);
     if (arguments.json)
-      std::printf("%s%s", r > 0 ? ",\n" : "", analysis_json(run).c_str());
+      print("%s%s", r > 0 ? ",\n" : "", analysis_json(run).c_str());
     else
-      std::printf("%s%s", r > 0 ? "\n" : "", analysis_text(run).c_str());
+      print("%s%s", r > 0 ? "\n" : "", analysis_text(run).c_str());
     std::fflush(stdout);
   }
-  if (arguments.json) std::printf("]\n");
+  if (arguments.json) print("]\n");
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "app/map_options.h"
 #include "app/output_files.h"
 #include "app/stop_signals.h"
+#include "app/terminal.h"
 #include "core/errors.h"
 #include "pictures/run_movie.h"
 
@@ -48,8 +49,8 @@ void animate(const AnimateArguments& arguments) {
   const std::size_t count = draw_movie(run, arguments.timing, arguments.output,
                                        {count_shown("animating", arguments.quiet), asked_to_stop});
   if (!arguments.quiet)
-    std::printf("%s: %zu frames, %.3g s\n", arguments.output.c_str(), count,
-                static_cast<double>(count) / arguments.timing.fps);
+    print("%s: %zu frames, %.3g s\n", arguments.output.c_str(), count,
+          static_cast<double>(count) / arguments.timing.fps);
 }
 
 }  // namespace

@@ -8,8 +8,8 @@
 
 #include "app/commands.h"
 #include "app/count_progress.h"
+#include "app/terminal.h"
 #include "core/errors.h"
-#include "core/visible_text.h"
 #include "io/run_repair.h"
 #include "scenario/json.h"
 #include "scenario/keys.h"
@@ -74,7 +74,7 @@ void print_json(const CheckArguments& arguments, const Scenario& scenario, const
       {"scenario", scenario_json(scenario)},
       {"estimate", json::object(estimates, 1)},
   };
-  std::printf("%s\n", json::object(members).c_str());
+  print("%s\n", json::object(members).c_str());
 }
 
 std::string duration(double seconds) {
@@ -84,14 +84,12 @@ std::string duration(double seconds) {
   return fmt::format("{:.0f} days", seconds / 86400.0);
 }
 
-void print_line(const char* name, const std::string& text) {
-  std::printf("#   %-11s %s\n", name, text.c_str());
-}
+void print_line(const char* name, const std::string& text) { print("#   %-11s %s\n", name, text.c_str()); }
 
 /// All of it is a scenario again: what is not TOML stands in comments.
-void print_text(const CheckArguments& arguments, const Scenario& scenario, const Estimate& expected) {
-  std::printf("# %s is valid\n\n%s\n", arguments.scenario.c_str(), resolved_toml(scenario).c_str());
-  std::printf("# Estimates\n");
+void print_report(const CheckArguments& arguments, const Scenario& scenario, const Estimate& expected) {
+  print("# %s is valid\n\n%s\n", arguments.scenario.c_str(), resolved_toml(scenario).c_str());
+  print("# Estimates\n");
   print_line("grains", fmt::format("{} free, {} on the floor", expected.grains, expected.floor_grains));
   print_line("contacts", fmt::format("about {} at rest", expected.contacts));
   print_line("time step", short_text(expected.time_step) + " s (tilt.step / tilt.rate)");
@@ -125,11 +123,11 @@ void print_text(const CheckArguments& arguments, const Scenario& scenario, const
     const json::Members members = {{"path", json::quoted(arguments.scenario)},
                                    {"whole", json::truth(false)},
                                    {"faults", json::array(pieces)}};
-    std::printf("%s\n", json::object(members).c_str());
+    print("%s\n", json::object(members).c_str());
   } else {
-    std::printf("%s: damaged\n", arguments.scenario.c_str());
-    for (const std::string& piece : pieces) std::printf("  fault: %s\n", visible(piece).c_str());
-    if (pieces.empty()) std::printf("  every piece of the run itself is whole\n");
+    print("%s: damaged\n", arguments.scenario.c_str());
+    for (const std::string& piece : pieces) print("  fault: %s\n", piece.c_str());
+    if (pieces.empty()) print("  every piece of the run itself is whole\n");
   }
   throw Error(refusal);
 }
@@ -161,27 +159,26 @@ void print_run_json(const std::string& path, const RunFile& run, const RunCheck&
       {"largest_moment_error", json::number(check.largest_moment_error)},
       {"faults", json::array(check.faults)},
   };
-  std::printf("%s\n", json::object(members).c_str());
+  print("%s\n", json::object(members).c_str());
 }
 
 void print_run(const std::string& path, const RunFile& run, const RunCheck& check) {
-  std::printf("%s: %s, %s\n", path.c_str(), check.faults.empty() ? "whole" : "damaged",
-              run.complete() ? "complete" : "not complete");
-  if (!run.lost().empty())
-    std::printf("  lost        %s (before it was repaired)\n", visible(run.lost()).c_str());
+  print("%s: %s, %s\n", path.c_str(), check.faults.empty() ? "whole" : "damaged",
+        run.complete() ? "complete" : "not complete");
+  if (!run.lost().empty()) print("  lost        %s (before it was repaired)\n", run.lost().c_str());
   if (check.changed == 0)
-    std::printf("  hashes      as they were written\n");
+    print("  hashes      as they were written\n");
   else
-    std::printf("  hashes      wrong for %zu of the data sets and frames\n", check.changed);
-  std::printf("  series      %zu frames, %zu rows of observables, %zu steps, %zu commands\n", check.frames,
-              check.rows, check.steps, check.commands);
-  std::printf("  overlap     at most %.2g D\n", check.largest_overlap);
-  std::printf("  friction    at most %.6f of what Coulomb's law allows\n", check.largest_mobilisation);
-  std::printf("  balance     forces and weight differ by at most %.2g m g (rms) in %zu frames at rest\n",
-              check.largest_imbalance, check.frames_at_rest);
-  std::printf("  moments     differ from those of the contacts by at most %.2g of the largest\n",
-              check.largest_moment_error);
-  for (const std::string& fault : check.faults) std::printf("  fault: %s\n", visible(fault).c_str());
+    print("  hashes      wrong for %zu of the data sets and frames\n", check.changed);
+  print("  series      %zu frames, %zu rows of observables, %zu steps, %zu commands\n", check.frames,
+        check.rows, check.steps, check.commands);
+  print("  overlap     at most %.2g D\n", check.largest_overlap);
+  print("  friction    at most %.6f of what Coulomb's law allows\n", check.largest_mobilisation);
+  print("  balance     forces and weight differ by at most %.2g m g (rms) in %zu frames at rest\n",
+        check.largest_imbalance, check.frames_at_rest);
+  print("  moments     differ from those of the contacts by at most %.2g of the largest\n",
+        check.largest_moment_error);
+  for (const std::string& fault : check.faults) print("  fault: %s\n", fault.c_str());
 }
 
 /// Throws Error(bad_data) where the run is damaged, after it has said how.
@@ -225,7 +222,7 @@ void add_check_command(CLI::App& app) {
     if (arguments->json)
       print_json(*arguments, scenario, expected);
     else
-      print_text(*arguments, scenario, expected);
+      print_report(*arguments, scenario, expected);
   });
 }
 

@@ -8,6 +8,7 @@
 
 #include "app/commands.h"
 #include "app/output_files.h"
+#include "app/terminal.h"
 #include "core/errors.h"
 #include "core/trigonometry.h"
 #include "pictures/frame_choice.h"
@@ -58,9 +59,9 @@ void dump(const DumpArguments& arguments) {
   prepare_folder_of(arguments.output);
   write_problem(arguments.output, step,
                 fmt::format("Talus, {} of a run with seed {}", from, run.header().seed));
-  std::printf("%s: %s, after frame %zu: %d contacts of %d bodies%s\n", arguments.output.c_str(), from.c_str(),
-              k, step.problem.contact_count(), step.problem.body_count(),
-              number == run.checkpoint().world.step + 1 ? ", to the last bit" : ", from single precision");
+  print("%s: %s, after frame %zu: %d contacts of %d bodies%s\n", arguments.output.c_str(), from.c_str(), k,
+        step.problem.contact_count(), step.problem.body_count(),
+        number == run.checkpoint().world.step + 1 ? ", to the last bit" : ", from single precision");
 }
 
 }  // namespace

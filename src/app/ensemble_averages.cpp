@@ -5,6 +5,7 @@
 #include "app/perturbed_run.h"
 #include "core/descriptor.h"
 #include "core/locked_file.h"
+#include "core/paths.h"
 #include "ensemble/averages_file.h"
 #include "ensemble/kept_runs.h"
 #include "ensemble/member_lists.h"
@@ -21,8 +22,8 @@ namespace {
 /// Makes the tables of a member that is done from its run and analysis where one of them is not there, as
 /// of an ensemble of an earlier Talus. Without the run there may be no lists. Returns its numbers then.
 MemberNumbers complete_tables(const Member& member, const MemberNumbers& known) {
-  const bool series = std::filesystem::exists(series_path(member.path));
-  if (series && std::filesystem::exists(lists_path(member.path))) return known;
+  const bool series = is_there(series_path(member.path));
+  if (series && is_there(lists_path(member.path))) return known;
   if (run_presence(member.path) == RunPresence::none) {
     if (!series) refuse_missing_series(member);
     return known;
@@ -46,7 +47,7 @@ NamedAverages averages_of_variant(const EnsembleView& view, std::size_t variant)
     const std::string series = series_path(member.path), file = lists_path(member.path);
     require_own_file(member, numbers, series_ending);
     members.push_back({member.seed, numbers, parse_series(read_text(series), series)});
-    if (!std::filesystem::exists(file)) continue;
+    if (!is_there(file)) continue;
     require_own_file(member, numbers, lists_ending);
     add_member(lists, read_lists(file), number_called(numbers, "theta_c"), spacing);
   }

@@ -19,6 +19,7 @@
 #include "app/perturbed_run.h"
 #include "app/progress.h"
 #include "app/stop_signals.h"
+#include "app/terminal.h"
 #include "app/wall_time.h"
 #include "core/errors.h"
 #include "core/text.h"
@@ -63,7 +64,7 @@ void run_ensemble(const EnsembleArguments& arguments) {
                                 arguments.keep};
   const EnsembleView view = compute_ensemble(
       wanted, {arguments.folder, arguments.times, arguments.max_wall, arguments.jobs}, {arguments.scenario});
-  std::printf("%s", (arguments.json ? ensemble_json(view) + "\n" : ensemble_text(view)).c_str());
+  print_text(arguments.json ? ensemble_json(view) + "\n" : ensemble_text(view));
   refuse_failures(view.plan, "left out of the means");
 }
 
@@ -110,26 +111,26 @@ void compute_member(const EnsembleArguments& arguments) {
   const MemberNumbers numbers = write_numbers(*member, analysed);
   // From here on the member is done. A kill leaves the run, and the next worker removes it.
   if (!keeps_run(manifest, member->seed)) drop_run(*member);
-  std::printf("%s is done: state %s\n", member->name.c_str(), numbers.state_hash.c_str());
+  print("%s is done: state %s\n", member->name.c_str(), numbers.state_hash.c_str());
 }
 
 void work(const EnsembleArguments& arguments) {
   WorkerOptions options{arguments.folder, arguments.times, {}, [](const std::string& member, int code) {
-                          std::printf("%s %s\n", member.c_str(),
-                                      code < 0    ? "begun"
-                                      : code == 0 ? "done"
-                                                  : fmt::format("ended with exit code {}", code).c_str());
+                          print("%s %s\n", member.c_str(),
+                                code < 0    ? "begun"
+                                : code == 0 ? "done"
+                                            : fmt::format("ended with exit code {}", code).c_str());
                           std::fflush(stdout);
                         }};
   if (!arguments.max_wall.empty()) options.max_wall = parse_wall_time("--max-wall", arguments.max_wall);
   drop_old_runs(arguments.folder);
   const WorkerEnd end = work_on_ensemble(options);
-  std::printf("%zu done and %zu failed here; %zu are under way elsewhere%s\n", end.done, end.failed,
-              end.elsewhere, end.enough ? "; the precision that was asked for is reached" : "");
+  print("%zu done and %zu failed here; %zu are under way elsewhere%s\n", end.done, end.failed, end.elsewhere,
+        end.enough ? "; the precision that was asked for is reached" : "");
 }
 
 void average(const EnsembleArguments& arguments) {
-  std::printf("%s", ensemble_text(write_averages(arguments.folder)).c_str());
+  print_text(ensemble_text(write_averages(arguments.folder)));
 }
 
 void retry(const EnsembleArguments& arguments) {
@@ -140,8 +141,8 @@ void retry(const EnsembleArguments& arguments) {
     remove_file(failure_path(view.plan.members[m].path));
     ++count;
   }
-  std::printf("%zu members wait again; talus ensemble work %s computes them\n", count,
-              shell_quoted(arguments.folder).c_str());
+  print("%zu members wait again; talus ensemble work %s computes them\n", count,
+        shell_quoted(arguments.folder).c_str());
 }
 
 /// `ensemble NAME FOLDER`.
@@ -175,8 +176,7 @@ void add_subcommands(CLI::App& command, const std::shared_ptr<EnsembleArguments>
   status->callback([arguments] {
     const EnsembleView view = view_of_ensemble(arguments->folder);
     const EnsembleJobs jobs = jobs_of_ensemble(arguments->folder);
-    std::printf("%s",
-                (arguments->json ? ensemble_json(view, jobs) + "\n" : ensemble_text(view, jobs)).c_str());
+    print("%s", (arguments->json ? ensemble_json(view, jobs) + "\n" : ensemble_text(view, jobs)).c_str());
   });
   add_folder_command(command, arguments, "average",
                      "Write members.csv, averages.csv and ensemble.h5 of the members that are done")

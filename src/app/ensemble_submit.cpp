@@ -12,9 +12,11 @@
 #include "app/ensemble_report.h"
 #include "app/program_output.h"
 #include "app/stop_signals.h"
+#include "app/terminal.h"
 #include "app/wall_time.h"
 #include "core/errors.h"
 #include "core/output_file.h"
+#include "core/paths.h"
 #include "core/text.h"
 #include "core/visible_text.h"
 #include "ensemble/claim.h"
@@ -39,9 +41,11 @@ struct SubmitArguments {
 
 SlurmArray array_of(const SubmitArguments& arguments, std::size_t tasks) {
   SlurmArray array;
-  array.program = fs::read_symlink("/proc/self/exe").string();
+  std::error_code error;
+  array.program = fs::read_symlink("/proc/self/exe", error).string();
+  if (error) throw system_error(ExitCode::unavailable, "read the link", "/proc/self/exe", error.value());
   // Not resolved: where links lead may differ from machine to machine.
-  array.folder = fs::absolute(arguments.folder).lexically_normal().string();
+  array.folder = fs::path(absolute_path(arguments.folder)).lexically_normal().string();
   if (array.folder.size() > 1 && array.folder.ends_with('/')) array.folder.pop_back();
   array.tasks = tasks;
   if (!arguments.time.empty()) array.time = parse_wall_time("--time", arguments.time);
@@ -64,7 +68,7 @@ void print_commands(const SubmitArguments& arguments, std::size_t missing) {
     throw Error(ExitCode::usage, "options of sbatch mean nothing to --engine print; leave them out");
   const std::size_t tasks = arguments.tasks > 0 ? arguments.tasks : std::min(missing, usual_tasks);
   const std::string command = worker_command(array_of(arguments, tasks));
-  for (std::size_t task = 0; task < tasks; ++task) std::printf("%s\n", command.c_str());
+  for (std::size_t task = 0; task < tasks; ++task) print("%s\n", command.c_str());
 }
 
 /// The whole of it happens or nothing: a signal is heard when the job has been recorded.
@@ -89,7 +93,7 @@ SlurmJob submit_array(const SubmitArguments& arguments, std::size_t tasks) {
   }
   job->tasks = tasks;
   record_job(arguments.folder, *job);
-  if (!output.err.empty()) std::fprintf(stderr, "%s\n", visible(output.err).c_str());
+  if (!output.err.empty()) print_error("%s\n", output.err.c_str());
   return *job;
 }
 
@@ -97,7 +101,11 @@ void submit(const SubmitArguments& arguments) {
   const EnsembleView view = view_of_ensemble(arguments.folder);
   const std::size_t missing = view.states.size() - count_ended(view);
   if (missing == 0) {
-    std::fprintf(arguments.engine == "print" ? stderr : stdout, "%s", nothing_text(view).c_str());
+    const std::string text = nothing_text(view);
+    if (arguments.engine == "print")
+      print_error("%s", text.c_str());
+    else
+      print_text(text);
     return;
   }
   if (arguments.engine == "print") return print_commands(arguments, missing);
@@ -105,8 +113,8 @@ void submit(const SubmitArguments& arguments) {
   const std::size_t queued = count_queued(jobs);
   const std::string folder = shell_quoted(path_word(arguments.folder));
   if (arguments.tasks == 0 && queued >= missing) {
-    std::printf("%s: %zu members are missing, and %zu tasks are in the queue for them; --tasks adds more\n%s",
-                visible(arguments.folder).c_str(), missing, queued, jobs_text(jobs).c_str());
+    print("%s: %zu members are missing, and %zu tasks are in the queue for them; --tasks adds more\n%s",
+          arguments.folder.c_str(), missing, queued, jobs_text(jobs).c_str());
     return;
   }
   const std::size_t tasks = arguments.tasks > 0 ? arguments.tasks : std::min(missing - queued, usual_tasks);
@@ -114,17 +122,16 @@ void submit(const SubmitArguments& arguments) {
   if (jobs.unknown.empty())
     for (const SlurmJob& before : jobs.recorded)
       if (!jobs.is_queued(before) && before.id != job.id) forget_job(arguments.folder, before);
-  std::printf(
+  print(
       "job %s: %zu task%s for %zu missing members; talus ensemble status %s shows them, talus ensemble "
       "cancel %s ends them\n",
-      job.id.c_str(), tasks, tasks == 1 ? "" : "s", missing, visible(folder).c_str(),
-      visible(folder).c_str());
+      job.id.c_str(), tasks, tasks == 1 ? "" : "s", missing, folder.c_str(), folder.c_str());
 }
 
 void cancel(const std::string& folder) {
   const std::vector<SlurmJob> recorded = recorded_jobs(folder);
   if (recorded.empty()) {
-    std::printf("%s: no job of this ensemble is known\n", visible(folder).c_str());
+    print("%s: no job of this ensemble is known\n", folder.c_str());
     return;
   }
   for (const auto& [cluster, jobs] : by_cluster(recorded)) {
@@ -136,11 +143,11 @@ void cancel(const std::string& folder) {
       throw Error(ExitCode::unavailable, fmt::format("scancel failed; it says:\n{}", output.err));
     for (const SlurmJob& job : jobs) {
       forget_job(folder, job);
-      std::printf("job %s is cancelled\n", job.id.c_str());
+      print("job %s is cancelled\n", job.id.c_str());
     }
   }
-  std::printf("what is computed stays; talus ensemble submit %s goes on\n",
-              visible(shell_quoted(path_word(folder))).c_str());
+  print("what is computed stays; talus ensemble submit %s goes on\n",
+        shell_quoted(path_word(folder)).c_str());
 }
 
 /// A number that Slurm gives to each task in its environment.
@@ -158,7 +165,7 @@ void requeue(const std::string& folder) {
   const std::string job = slurm_number("SLURM_ARRAY_JOB_ID"), task = slurm_number("SLURM_ARRAY_TASK_ID");
   const EnsembleView view = view_of_ensemble(folder);
   if (count_ended(view) == view.states.size()) {
-    std::printf("nothing is missing\n");
+    print("nothing is missing\n");
     return;
   }
   const TaskMemory memory = after_start(read_memory(folder, job, task), mark_of(view.plan));
@@ -169,7 +176,7 @@ void requeue(const std::string& folder) {
         fmt::format("the task is not queued again: after {} starts in a row no member had come further; "
                     "give more --time or memory, and submit again",
                     most_idle_starts));
-  std::printf("queued again\n");
+  print("queued again\n");
   std::fflush(stdout);  // Slurm ends this process too
   const ProgramOutput output = output_of(requeue_words(job, task), ".", ProgramEnvironment::whole,
                                          "scontrol is not on PATH, so the task cannot be queued again");

@@ -14,6 +14,7 @@
 #include "app/ensemble_report.h"
 #include "app/progress_text.h"
 #include "app/status_line.h"
+#include "app/terminal.h"
 #include "core/errors.h"
 #include "core/output_file.h"
 #include "core/visible_text.h"
@@ -146,9 +147,8 @@ void compute_members(const EnsembleWorkers& workers) {
 void drop_old_runs(const std::string& folder) {
   const EnsembleManifest manifest = read_ensemble(folder);
   if (const std::size_t dropped = drop_runs(manifest, plan_of(manifest, folder)); dropped > 0)
-    std::fprintf(stderr,
-                 "talus: note: %zu run%s of members that are done removed (--keep %s); their tables stay\n",
-                 dropped, dropped == 1 ? "" : "s", visible_word(manifest.keep).c_str());
+    print_error("talus: note: %zu run%s of members that are done removed (--keep %s); their tables stay\n",
+                dropped, dropped == 1 ? "" : "s", visible_word(manifest.keep).c_str());
 }
 
 /// What a corrected command has taken out of an ensemble.

@@ -7,6 +7,7 @@
 #include "app/commands.h"
 #include "app/event_report.h"
 #include "app/given_runs.h"
+#include "app/terminal.h"
 #include "session/analysis_parameters.h"
 
 namespace talus {
@@ -31,11 +32,11 @@ void list_events(const EventsArguments& arguments) {
   bool first = true;
   for (const std::string& path : runs_among(arguments.runs)) {
     const AnalysedRun run = analysed_run(path, parameters, arguments.options);
-    std::printf("%s", text_of(arguments, run, first).c_str());
+    print_text(text_of(arguments, run, first));
     std::fflush(stdout);
     first = false;
   }
-  if (arguments.json) std::printf("]\n");
+  if (arguments.json) print("]\n");
 }
 
 }  // namespace

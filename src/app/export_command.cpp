@@ -15,6 +15,7 @@
 #include "app/frame_options.h"
 #include "app/output_files.h"
 #include "app/stop_signals.h"
+#include "app/terminal.h"
 #include "core/errors.h"
 #include "core/nearest_word.h"
 #include "core/text.h"
@@ -48,7 +49,7 @@ ExportFormat format_of(const std::string& name) {
 void tell_what_is_left_out(const RunFile& run, const ExportPlan& plan) {
   const double theta_c = find_value(run.checkpoint().results, "theta_c").value_or(not_known);
   if (!std::isnan(theta_c) || plan.parameters.gamma_c || plan.format == ExportFormat::vti) return;
-  std::printf(
+  print(
       "Overloaded grains, their lengths and clusters are left out: the slope has not failed in this run, so "
       "its "
       "angle of repose is not known; --set gamma_c=0.3 gives a threshold.\n");
@@ -94,8 +95,8 @@ void export_run(const ExportArguments& arguments) {
       export_files(run, plan, {count_shown("exporting", arguments.quiet), asked_to_stop});
   if (arguments.quiet) return;
   if (format.has_frames) tell_what_is_left_out(run, plan);
-  std::printf("%s: %zu %s%s for %s\n", arguments.output.c_str(), count, format.has_frames ? "frame" : "row",
-              count == 1 ? "" : "s", std::string(format.program).c_str());
+  print("%s: %zu %s%s for %s\n", arguments.output.c_str(), count, format.has_frames ? "frame" : "row",
+        count == 1 ? "" : "s", std::string(format.program).c_str());
 }
 
 }  // namespace

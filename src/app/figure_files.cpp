@@ -11,6 +11,7 @@
 #include "core/errors.h"
 #include "core/locked_file.h"
 #include "core/output_file.h"
+#include "core/visible_text.h"
 #include "render/png.h"
 #include "render/renderer.h"
 #include "render/whole_file.h"
@@ -43,8 +44,9 @@ struct Workshop {
 };
 
 void write_text(const fs::path& path, const std::string& text) {
+  const std::string valid = utf8(text);
   OutputFile file(path.string());
-  file.write({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+  file.write(std::as_bytes(std::span(valid)));
   file.commit();
 }
 

@@ -6,7 +6,9 @@
 
 #include "app/given_runs.h"
 #include "app/output_files.h"
+#include "app/terminal.h"
 #include "core/errors.h"
+#include "core/paths.h"
 #include "core/visible_text.h"
 #include "ensemble/averages_reader.h"
 #include "ensemble/ensemble_manifest.h"
@@ -35,8 +37,7 @@ FigureRun open_run(const std::string& path, const AnalysisParameters& parameters
                    const AnalysisOptions& options) {
   // The analysis comes first: storing it replaces the file.
   AnalysedRun run = analysed_run(path, parameters, options);
-  if (!run.is_kept && !options.quiet)
-    std::fprintf(stderr, "talus: note: %s: %s\n", path.c_str(), visible(run.state).c_str());
+  if (!run.is_kept && !options.quiet) print_error("talus: note: %s: %s\n", path.c_str(), run.state.c_str());
   return run_of_file(path, RunFile::open(path), std::move(run.analysis));
 }
 
@@ -58,7 +59,7 @@ void refuse_settings(const Reading& reading, const std::string& path) {
 void add_tables(Reading& reading, const Member& member, const Variant& variant) {
   const std::string numbers = numbers_path(member.path), series = series_path(member.path);
   refuse_settings(reading, numbers);
-  if (!fs::exists(series)) refuse_missing_series(member);
+  if (!is_there(series)) refuse_missing_series(member);
   const MemberNumbers found = read_numbers(member);
   require_own_file(member, found, series_ending);
   reading.input.runs.push_back(run_of_values(numbers,
@@ -66,7 +67,7 @@ void add_tables(Reading& reading, const Member& member, const Variant& variant) 
                                              read_text(variant.scenario_file)));
   reading.input.files.insert(reading.input.files.end(), {numbers, series});
   const std::string lists = lists_path(member.path);
-  if (!fs::exists(lists)) return;
+  if (!is_there(lists)) return;
   require_own_file(member, found, lists_ending);
   FigureRun& run = reading.input.runs.back();
   set_lists(read_lists(lists), run.mean_diameter, run.analysis);

@@ -15,6 +15,7 @@
 #include "app/figure_runs.h"
 #include "app/gnuplot.h"
 #include "app/stop_signals.h"
+#include "app/terminal.h"
 #include "core/errors.h"
 #include "core/nearest_word.h"
 #include "core/output_file.h"
@@ -90,11 +91,12 @@ std::vector<Figure> make_figures(const std::vector<FigureRecipe>& recipes, std::
   for (const FigureRecipe& recipe : recipes)
     if (auto figure = recipe.make(groups))
       figures.push_back(std::move(*figure));
-    else if (!is_there(recipe.material, groups))
-      fmt::print(stderr, "left out: {} needs {}; given are only values of members, without their runs\n",
-                 recipe.name, recipe.needs);
     else
-      fmt::print(stderr, "left out: {} needs {}\n", recipe.name, recipe.needs);
+      print_error("%s", fmt::format("left out: {} needs {}{}\n", recipe.name, recipe.needs,
+                                    is_there(recipe.material, groups)
+                                        ? ""
+                                        : "; given are only values of members, without their runs")
+                            .c_str());
   if (figures.empty()) throw Error(ExitCode::bad_data, "no figure can be made of these runs");
   return figures;
 }
@@ -116,9 +118,9 @@ void make(const FiguresArguments& arguments) {
     write_figure(figures[k], groups, arguments.folder, {arguments.columns, command_line()});
     progress.show(k + 1);
   }
-  for (const Figure& figure : figures) std::printf("%-34s %s\n", figure.name.c_str(), figure.title.c_str());
-  std::printf("%zu figure%s in %s: .pdf, .svg, .png; data in .csv, provenance in .json, script in .gp\n",
-              figures.size(), figures.size() == 1 ? "" : "s", arguments.folder.c_str());
+  for (const Figure& figure : figures) print("%-34s %s\n", figure.name.c_str(), figure.title.c_str());
+  print("%zu figure%s in %s: .pdf, .svg, .png; data in .csv, provenance in .json, script in .gp\n",
+        figures.size(), figures.size() == 1 ? "" : "s", arguments.folder.c_str());
 }
 
 /// All figures, one a line, for the help.

@@ -7,6 +7,7 @@
 
 #include "app/choices.h"
 #include "app/commands.h"
+#include "app/terminal.h"
 #include "core/errors.h"
 #include "core/trigonometry.h"
 #include "pictures/frame_choice.h"
@@ -96,34 +97,32 @@ const char* verdict_of(const ForceSet& set) {
 }
 
 void print_sets(const FrameForces& forces) {
-  std::printf("  %-28s %10s %9s %9s %10s %9s %8s %8s %8s\n", "start", "iterations", "eta", "momentum",
-              "unbalanced", "distance", "Gamma", "p_o", "lc_mean");
+  print("  %-28s %10s %9s %9s %10s %9s %8s %8s %8s\n", "start", "iterations", "eta", "momentum", "unbalanced",
+        "distance", "Gamma", "p_o", "lc_mean");
   for (const ForceSet& set : forces.sets)
-    std::printf("  %-28s %10d %9.1e %9.1e %10d %9.3f %8.4f %8.4f %8.3f%s\n", name_of(set.attempt).c_str(),
-                set.report.iterations, set.report.residual.eta, set.momentum_left, set.unbalanced,
-                set.distance, set.values[0], set.values[2], set.values[3], verdict_of(set));
+    print("  %-28s %10d %9.1e %9.1e %10d %9.3f %8.4f %8.4f %8.3f%s\n", name_of(set.attempt).c_str(),
+          set.report.iterations, set.report.residual.eta, set.momentum_left, set.unbalanced, set.distance,
+          set.values[0], set.values[2], set.values[3], verdict_of(set));
 }
 
 void print_spreads(const FrameForces& forces) {
-  std::printf("  %-30s %10s %10s %10s %10s %10s\n", "quantity", "stored", "mean", "deviation", "least",
-              "largest");
+  print("  %-30s %10s %10s %10s %10s %10s\n", "quantity", "stored", "mean", "deviation", "least", "largest");
   for (std::size_t q = 0; q < forces.quantities.size(); ++q) {
     const ForceSpread& spread = forces.spreads[q];
     if (spread.count == 0) {
-      std::printf("  %-30s %10.5f       none\n", title(forces.quantities[q]).c_str(), forces.stored[q]);
+      print("  %-30s %10.5f       none\n", title(forces.quantities[q]).c_str(), forces.stored[q]);
       continue;
     }
-    std::printf("  %-30s %10.5f %10.5f %10.5f %10.5f %10.5f\n", title(forces.quantities[q]).c_str(),
-                forces.stored[q], spread.mean, spread.deviation, spread.least, spread.largest);
+    print("  %-30s %10.5f %10.5f %10.5f %10.5f %10.5f\n", title(forces.quantities[q]).c_str(),
+          forces.stored[q], spread.mean, spread.deviation, spread.least, spread.largest);
   }
 }
 
 void print_frame(const FrameForces& forces, std::size_t k, const ForceSearch& search) {
-  std::printf("frame %zu at %.3f deg, %d contacts: %d of %d other sets of forces are admissible (eta %.1e)\n",
-              k, degrees(forces.tilt), forces.contacts, forces.admissible(), search.solutions,
-              search.tolerance);
+  print("frame %zu at %.3f deg, %d contacts: %d of %d other sets of forces are admissible (eta %.1e)\n", k,
+        degrees(forces.tilt), forces.contacts, forces.admissible(), search.solutions, search.tolerance);
   print_sets(forces);
-  std::printf("\n");
+  print("\n");
   print_spreads(forces);
 }
 
@@ -131,17 +130,17 @@ void compare(const ForcesArguments& arguments) {
   const AnalysisParameters parameters = parse_analysis_settings(arguments.settings);
   const RunFile run = RunFile::open(arguments.run);
   const FrameChoice frames = choose_frames(arguments, run);
-  if (arguments.json) std::printf("[");
+  if (arguments.json) print("[");
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const FrameForces forces = admissible_forces(run, frames[i], parameters, arguments.search);
-    if (i > 0) std::printf(arguments.json ? ",\n" : "\n");
+    if (i > 0) print(arguments.json ? ",\n" : "\n");
     if (arguments.json)
-      std::printf("%s", json_frame(forces, frames[i]).c_str());
+      print_text(json_frame(forces, frames[i]));
     else
       print_frame(forces, frames[i], arguments.search);
     std::fflush(stdout);
   }
-  if (arguments.json) std::printf("]\n");
+  if (arguments.json) print("]\n");
 }
 
 void add_search(CLI::App& command, ForceSearch& search) {

@@ -1,11 +1,9 @@
 #include "app/given_runs.h"
 
-#include <cstdio>
 #include <filesystem>
-#include <fmt/core.h>
 
+#include "app/terminal.h"
 #include "core/errors.h"
-#include "core/visible_text.h"
 #include "io/run_signature.h"
 
 namespace talus {
@@ -19,7 +17,7 @@ std::vector<std::string> runs_among(const std::vector<std::string>& paths,
     const bool is_other = std::filesystem::is_regular_file(path, unknown) && !begins_as_run(path) &&
                           (is_wanted_too == nullptr || !is_wanted_too(path));
     if (is_other)
-      fmt::print(stderr, "left out: {} is no run\n", visible(path));
+      print_error("left out: %s is no run\n", path.c_str());
     else
       runs.push_back(path);
   }

@@ -8,11 +8,12 @@
 #include <memory>
 #include <optional>
 
+#include "app/analysis_report.h"
 #include "app/commands.h"
+#include "app/terminal.h"
 #include "core/errors.h"
 #include "core/hash.h"
 #include "core/trigonometry.h"
-#include "core/visible_text.h"
 #include "io/run_file.h"
 #include "scenario/json.h"
 #include "scenario/scenario.h"
@@ -163,13 +164,11 @@ void print_json(const RunInfo& info) {
       {"timing", json::object(as_json(info.timing), 1)},
       {"provenance", json::object(as_json(info.provenance), 1)},
   });
-  std::printf("%s\n", text.c_str());
+  print("%s\n", text.c_str());
 }
 
 /// What it says may come from the file.
-void print_line(const char* name, const std::string& value) {
-  std::printf("%-20s%s\n", name, visible(value).c_str());
-}
+void print_line(const char* name, const std::string& value) { print("%-20s%s\n", name, value.c_str()); }
 
 std::string in_degrees(double angle) { return fmt::format("{:.3f} deg", degrees(angle)); }
 
@@ -192,13 +191,12 @@ void print_commands(const RunInfo& info) {
   print_line("commands", std::to_string(info.commands.size()));
   for (std::size_t k = 0; k < info.commands.size(); ++k) {
     const double tilt = info.command_tilts[k];
-    std::printf("  after step %-12lld %-12s %s\n", static_cast<long long>(info.commands[k].step),
-                std::isnan(tilt) ? "deposition" : in_degrees(tilt).c_str(),
-                command_text(info.commands[k]).c_str());
+    print("  after step %-12lld %-12s %s\n", static_cast<long long>(info.commands[k].step),
+          std::isnan(tilt) ? "deposition" : in_degrees(tilt).c_str(), command_text(info.commands[k]).c_str());
   }
 }
 
-void print_text(const RunInfo& info) {
+void print_report(const RunInfo& info) {
   const double theta_c = figure(info.results, "theta_c");
   print_line("run",
              info.path + (info.complete ? "" : fmt::format(" (not complete, at {})", in_degrees(info.tilt))));
@@ -215,7 +213,8 @@ void print_text(const RunInfo& info) {
   print_line("frames",
              std::to_string(info.frames) + (info.frames == 0 ? "" : tilts_text(info)) +
                  (info.flow_frames == 0 ? "" : fmt::format(", {} after failure", info.flow_frames)));
-  print_line("theta_c", std::isnan(theta_c) ? "none: the slope has not failed" : in_degrees(theta_c));
+  print_line("theta_c", std::isnan(theta_c) ? "none: the slope has not failed"
+                                            : in_degrees(theta_c) + beyond_repose(theta_c, info.tilt));
   if (find_value(info.results, "theta_r")) print_line("theta_r", rest_text(info));
   print_line("solver tolerance", short_number(info.solver_tolerance));
   print_line("worst residual", fmt::format("{} in the tilt, {} of its steps not converged",
@@ -223,11 +222,11 @@ void print_text(const RunInfo& info) {
   print_line("steps", std::to_string(info.steps));
   if (!info.commands.empty()) print_commands(info);
   print_line("state hash", info.state_hash);
-  std::printf("results (SI)\n");
+  print("results (SI)\n");
   for (const auto& [name, value] : info.results)
-    std::printf("  %-30s%s\n", visible(name).c_str(), short_number(value).c_str());
-  std::printf("timing (s)\n");
-  for (const auto& [name, value] : info.timing) std::printf("  %-30s%.3f\n", visible(name).c_str(), value);
+    print("  %-30s%s\n", name.c_str(), short_number(value).c_str());
+  print("timing (s)\n");
+  for (const auto& [name, value] : info.timing) print("  %-30s%.3f\n", name.c_str(), value);
 }
 
 }  // namespace
@@ -249,7 +248,7 @@ void add_info_command(CLI::App& app) {
     if (arguments->json)
       print_json(info);
     else
-      print_text(info);
+      print_report(info);
   });
 }
 

@@ -9,6 +9,7 @@
 #include "analysis/quantities.h"
 #include "app/commands.h"
 #include "app/help_text.h"
+#include "app/terminal.h"
 #include "core/text.h"
 #include "pictures/map_kind.h"
 #include "pictures/traces.h"
@@ -57,7 +58,7 @@ void print_row(std::string_view name, const std::string& shows, const std::strin
     std::string text = fmt::format("{:{}}  {:{}}  {}", line(left, k), first_width, line(middle, k),
                                    shows_width, line(right, k));
     text.erase(text.find_last_not_of(' ') + 1);
-    std::printf("%s\n", text.c_str());
+    print("%s\n", text.c_str());
   }
 }
 
@@ -65,14 +66,13 @@ void print_maps() {
   print_row("--map", "shows", "options");
   for (const MapKind kind : map_kinds())
     print_row(map_name(kind), std::string(map_help(kind)), options_of(kind));
-  std::printf(
-      "\nTwo are overlaid with a plus: --map gamma+forces. Several with commas are several pictures.\n\n");
+  print("\nTwo are overlaid with a plus: --map gamma+forces. Several with commas are several pictures.\n\n");
   print_row("--trace", "shows", "options");
   for (const TraceKind kind : trace_kinds())
     print_row(trace_name(kind), shown_title(trace_quantity(kind)), options_of(kind));
-  std::printf("\n");
+  print("\n");
   print_row("--colours", joined(colour_maps(), ", ", colour_map_name), "");
-  std::printf("\ntalus render, panel, animate, view and run --frames draw them; docs/maps.md shows each.\n");
+  print("\ntalus render, panel, animate, view and run --frames draw them; docs/maps.md shows each.\n");
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "app/count_progress.h"
 #include "app/map_options.h"
 #include "app/output_files.h"
+#include "app/terminal.h"
 #include "core/errors.h"
 #include "pictures/panel.h"
 #include "render/layout.h"
@@ -46,8 +47,8 @@ void make_panel(const PanelArguments& arguments) {
   prepare_folder_of(arguments.output);
   const PanelDrawn drawn = draw_panel(run, arguments.at, arguments.output, arguments.overwrite);
   if (!arguments.quiet)
-    std::printf("%s: %zu angle%s%s\n", arguments.output.c_str(), drawn.angles, drawn.angles == 1 ? "" : "s",
-                drawn.there_before ? ", there before" : "");
+    print("%s: %zu angle%s%s\n", arguments.output.c_str(), drawn.angles, drawn.angles == 1 ? "" : "s",
+          drawn.there_before ? ", there before" : "");
 }
 
 }  // namespace

@@ -19,6 +19,7 @@
 #include "app/gnuplot.h"
 #include "app/jobs_option.h"
 #include "app/perturbed_run.h"
+#include "app/terminal.h"
 #include "core/errors.h"
 #include "core/output_file.h"
 #include "core/trigonometry.h"
@@ -94,13 +95,13 @@ void report(const PerturbArguments& arguments, const EnsemblePlan& plan) {
   write_text(folder / file_of(figure, figure.tables.front()), csv_text(figure.tables.front()));
   write_text(folder / "perturb.md", text);
   refuse_no_states(arguments, groups.front(), figure.tables.front());
-  std::printf("%s", text.c_str());
+  print_text(text);
   try {
     require_gnuplot();
     write_figure(figure, groups, arguments.folder, {.columns = 0, .command_line = command_line()});
   } catch (const Error& error) {
     if (error.code() != ExitCode::unavailable) throw;
-    std::fprintf(stderr, "talus: warning: the figure is left out: %s\n", error.what());
+    print_error("talus: warning: the figure is left out: %s\n", error.what());
   }
 }
 
@@ -120,7 +121,7 @@ void run_perturb(PerturbArguments& arguments) {
   const EnsemblePlan plan = plan_of(wanted, arguments.folder);
   if (done_members(plan).empty()) {
     refuse_failures(plan, "nothing is left to report");
-    std::printf("%s", ensemble_text(view).c_str());  // others are to compute it
+    print_text(ensemble_text(view));  // others are to compute it
     return;
   }
   report(arguments, plan);

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 #include <fmt/core.h>
 
+#include "app/terminal.h"
 #include "core/errors.h"
+#include "core/paths.h"
 #include "core/trigonometry.h"
 #include "ensemble/plan.h"
 #include "io/durable_file.h"
@@ -49,7 +50,7 @@ std::string bracket_text(const Threshold& threshold) {
 
 PerturbationTable read_trials(const std::string& run, const PerturbationPlan& plan) {
   const std::string path = trials_path(run);
-  if (!std::filesystem::exists(path))
+  if (!is_there(path))
     throw Error(ExitCode::bad_data,
                 fmt::format("{} has no table of trials beside it, expected {}; give another folder, or "
                             "remove the run",
@@ -73,8 +74,7 @@ std::function<void(const RunProgress&)> trials_on_the_way(const std::string& run
     if (done || !is_due(session, table.plan)) return;
     table.states.push_back({tilt, perturb(session.world(), session.scenario(), table.plan.patch, keep_on)});
     write_trials(run, table);
-    std::fprintf(stderr, "%.3f deg: %s\n", tilt,
-                 bracket_text(threshold_of(table.states.back().trials)).c_str());
+    print_error("%.3f deg: %s\n", tilt, bracket_text(threshold_of(table.states.back().trials)).c_str());
   };
 }
 

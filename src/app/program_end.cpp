@@ -13,9 +13,9 @@
 #include <string_view>
 #include <system_error>
 
+#include "app/terminal.h"
 #include "core/errors.h"
 #include "core/sanitizers.h"
-#include "core/visible_text.h"
 #include "io/file_in_use.h"
 
 namespace talus {
@@ -28,12 +28,12 @@ constexpr std::string_view out_of_memory =
 int report_stopped(std::string sentence) {
   if (!sentence.empty())
     sentence[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(sentence[0])));
-  std::fprintf(stderr, "%s.\n", visible(sentence).c_str());
+  print_error("%s.\n", sentence.c_str());
   return static_cast<int>(ExitCode::stopped);
 }
 
 int report(ExitCode code, const char* message) {
-  std::fprintf(stderr, "talus: error: %s\n", visible(message).c_str());
+  print_error("talus: error: %s\n", message);
   return static_cast<int>(code);
 }
 
@@ -49,7 +49,8 @@ int report_out_of_memory() {
 
 int report_malformed(std::string_view path) {
   say("talus: error: ");
-  say(path);
+  // visible() would take memory.
+  for (const char& c : path) say(c >= ' ' && c <= '~' ? std::string_view(&c, 1) : "?");
   say(": HDF5 crashes on it: the file is malformed, although its hash is right; restore it from a copy\n");
   return static_cast<int>(ExitCode::bad_data);
 }
@@ -107,7 +108,7 @@ int report_exception() {
   try {
     throw;
   } catch (const LocatedError& error) {
-    std::fprintf(stderr, "%s\n", visible(error.what()).c_str());
+    print_error("%s\n", error.what());
     return static_cast<int>(error.code());
   } catch (const Error& error) {
     if (error.code() == ExitCode::stopped) return report_stopped(error.what());

@@ -10,6 +10,7 @@
 #include "app/map_options.h"
 #include "app/output_files.h"
 #include "app/stop_signals.h"
+#include "app/terminal.h"
 #include "pictures/picture_files.h"
 
 namespace talus {
@@ -44,9 +45,9 @@ void render(const RenderArguments& arguments) {
   if (!missing.empty()) draw_files(run, missing, folder, rendering);
   if (arguments.quiet) return;
   const std::size_t count = choice.size() * plan.maps.size(), kept = count - missing.size();
-  std::printf("%zu picture%s in %s", count, count == 1 ? "" : "s", folder.c_str());
-  if (kept > 0) std::printf(", %zu of them there before", kept);
-  std::printf("\n");
+  print("%zu picture%s in %s", count, count == 1 ? "" : "s", folder.c_str());
+  if (kept > 0) print(", %zu of them there before", kept);
+  print("\n");
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "app/commands.h"
+#include "app/terminal.h"
 #include "io/run_repair.h"
 
 namespace talus {
@@ -16,20 +17,20 @@ struct RepairArguments {
 };
 
 void print_lines(const char* name, const std::vector<std::string>& lines) {
-  for (const std::string& line : lines) std::printf("  %-5s %s\n", name, line.c_str());
+  for (const std::string& line : lines) print("  %-5s %s\n", name, line.c_str());
 }
 
 void repair(const RepairArguments& arguments) {
   const RepairReport report = repair_run({arguments.run, arguments.output, arguments.overwrite});
   if (report.was_whole) {
-    std::printf("%s is whole: there was nothing to repair, and nothing was written\n", arguments.run.c_str());
+    print("%s is whole: there was nothing to repair, and nothing was written\n", arguments.run.c_str());
     return;
   }
-  std::printf("%s: what is whole of %s\n", arguments.output.c_str(), arguments.run.c_str());
+  print("%s: what is whole of %s\n", arguments.output.c_str(), arguments.run.c_str());
   print_lines("kept", report.kept);
   print_lines("lost", report.lost);
   if (report.of_folder)
-    std::printf("it cannot be continued; talus info prints its scenario, to compute it again\n");
+    print("it cannot be continued; talus info prints its scenario, to compute it again\n");
 }
 
 }  // namespace

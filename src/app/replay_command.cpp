@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
 #include <fmt/core.h>
 #include <memory>
 #include <optional>
@@ -15,8 +14,10 @@
 #include "app/output_files.h"
 #include "app/progress.h"
 #include "app/stop_signals.h"
+#include "app/terminal.h"
 #include "core/errors.h"
 #include "core/hash.h"
+#include "core/paths.h"
 #include "core/visible_text.h"
 #include "io/run_file.h"
 #include "session/run_header.h"
@@ -43,10 +44,7 @@ std::string end_text(const World& world) {
 /// A run is never replaced by its own replay.
 void refuse_same(const ReplayArguments& arguments) {
   output_target(arguments.output, output_of_run(arguments.run, true));
-  const auto whole = [](const std::string& path) {
-    return std::filesystem::weakly_canonical(std::filesystem::absolute(path)).string();
-  };
-  const std::string output = whole(arguments.output), run = whole(arguments.run);
+  const std::string output = resolved_path(arguments.output), run = resolved_path(arguments.run);
   if (output == run || run_folder(output) == run)
     throw Error(ExitCode::usage,
                 arguments.output + " is the run that is replayed; choose another output with -o");
@@ -75,7 +73,7 @@ std::optional<RunStore> begin_output(const ReplayArguments& arguments, const Ses
 void compare(const ReplayArguments& arguments, const RunFile& run, const World& recomputed) {
   const World& stored = run.checkpoint().world;
   if (!arguments.quiet)
-    std::printf("stored      %s\nrecomputed  %s\n", end_text(stored).c_str(), end_text(recomputed).c_str());
+    print("stored      %s\nrecomputed  %s\n", end_text(stored).c_str(), end_text(recomputed).c_str());
   if (state_hash(stored) == state_hash(recomputed)) return;
   // Runs of earlier versions do not say which bed they began with.
   const std::string file = stored_scenario(run.header(), arguments.run).deposition.file;
@@ -111,8 +109,8 @@ void replay_run(const ReplayArguments& arguments) {
   control.stop = stop_request();
   control.on_step = [&line](const RunProgress& progress) { line.show(progress); };
   if (!arguments.quiet)
-    std::printf("%s: %lld steps, %zu commands\n", arguments.run.c_str(),
-                static_cast<long long>(run.checkpoint().world.step), commands.size());
+    print("%s: %lld steps, %zu commands\n", arguments.run.c_str(),
+          static_cast<long long>(run.checkpoint().world.step), commands.size());
   const RunEnd end = [&] {
     const CommitOnSignals commit;
     return replay(session, store ? &*store : nullptr, commands, run.checkpoint().world.step, control);

@@ -16,7 +16,9 @@
 #include "app/gnuplot.h"
 #include "app/jobs_option.h"
 #include "app/stop_signals.h"
+#include "app/terminal.h"
 #include "core/errors.h"
+#include "core/paths.h"
 #include "core/text.h"
 #include "ensemble/reproduction_report.h"
 #include "ensemble/reproduction_values.h"
@@ -49,10 +51,9 @@ void announce(const ReproductionPlan& plan, int jobs) {
   for (const Member& member : plan.members) seconds += estimate(member.scenario).seconds;
   const std::vector<std::size_t> done = done_members(plan);
   for (const std::size_t m : done) seconds -= estimate(plan.members[m].scenario).seconds;
-  std::fprintf(stderr,
-               "%zu of %zu runs to compute, about %s on %d processor%s; then their analyses, and figures\n",
-               plan.members.size() - done.size(), plan.members.size(), duration_text(seconds / jobs).c_str(),
-               jobs, jobs == 1 ? "" : "s");
+  print_error("%zu of %zu runs to compute, about %s on %d processor%s; then their analyses, and figures\n",
+              plan.members.size() - done.size(), plan.members.size(), duration_text(seconds / jobs).c_str(),
+              jobs, jobs == 1 ? "" : "s");
 }
 
 std::vector<RunGroup> open_groups(const ReproductionPlan& plan) {
@@ -80,13 +81,13 @@ std::string command_of(const ReproductionPlan& plan, const std::string& folder) 
 }
 
 bool holds(const fs::path& file, const std::string& text) {
-  return fs::exists(file) && read_text(file.string()) == text;
+  return is_there(file.string()) && read_text(file.string()) == text;
 }
 
 /// Whether all files of a figure are there, drawn from the same data in the same way.
 bool is_drawn(const Figure& figure, std::span<const RunGroup> groups, const fs::path& folder,
               const FigureOptions& options) {
-  const auto there = [&](const std::string& file) { return fs::exists(folder / file); };
+  const auto there = [&](const std::string& file) { return is_there((folder / file).string()); };
   return std::ranges::all_of(figure_files(figure), there) &&
          holds(folder / (figure.name + ".json"), provenance_json(figure, groups, options.command_line)) &&
          holds(folder / (figure.name + ".gp"), gnuplot_text(figure, figure_width(figure, options.columns)));
@@ -144,8 +145,8 @@ void write_report(const ReproductionResult& result, const ReproductionPictures& 
                   const fs::path& folder) {
   write_text(folder / "values.csv", values_csv(result));
   write_text(folder / "report.html", report_html(reproduction_report(result, pictures), folder));
-  for (const std::string& item : reproduction_summary(result)) std::printf("- %s\n", item.c_str());
-  std::printf("The report is %s\n", (folder / "report.html").c_str());
+  for (const std::string& item : reproduction_summary(result)) print("- %s\n", item.c_str());
+  print("The report is %s\n", (folder / "report.html").c_str());
 }
 
 void reproduce(const ReproduceArguments& arguments) {
@@ -162,7 +163,7 @@ void reproduce(const ReproduceArguments& arguments) {
                        {folder, {}, "", arguments.jobs}, {});
   if (done_members(plan).empty()) {
     refuse_failures(plan, "nothing is left to report");
-    std::printf("%s", ensemble_text(view).c_str());  // others are to compute it
+    print_text(ensemble_text(view));  // others are to compute it
     return;
   }
   const ReproductionResult result = measure_members(plan);

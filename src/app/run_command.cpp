@@ -8,6 +8,7 @@
 #include <optional>
 #include <thread>
 
+#include "app/analysis_report.h"
 #include "app/choices.h"
 #include "app/commands.h"
 #include "app/map_options.h"
@@ -15,10 +16,12 @@
 #include "app/progress.h"
 #include "app/seed_option.h"
 #include "app/stop_signals.h"
+#include "app/terminal.h"
 #include "app/unconverged_steps.h"
 #include "app/wall_time.h"
 #include "core/errors.h"
 #include "core/hash.h"
+#include "core/text.h"
 #include "core/trigonometry.h"
 #include "io/mistaken_path.h"
 #include "pictures/live_maps.h"
@@ -42,8 +45,9 @@ struct RunArguments {
 };
 
 std::string command_line_of(const RunArguments& arguments) {
-  std::string line = fmt::format("talus run {} -o {}", arguments.scenario, arguments.output);
-  for (const std::string& setting : arguments.settings) line += " --set " + setting;
+  std::string line =
+      fmt::format("talus run {} -o {}", shell_quoted(arguments.scenario), shell_quoted(arguments.output));
+  for (const std::string& setting : arguments.settings) line += " --set " + shell_quoted(setting);
   return line;
 }
 
@@ -89,31 +93,31 @@ RunRequest request_of(const RunArguments& arguments) {
 void print_rest(const Session& session) {
   const double tilt = degrees(session.world().tilt);
   if (const std::optional<double> theta_r = session.angle_at_rest())
-    std::printf("Its flow stopped at a tilt of %.3f deg: angle at rest theta_r = %.3f deg.\n", tilt,
-                degrees(*theta_r));
+    print("Its flow stopped at a tilt of %.3f deg: angle at rest theta_r = %.3f deg.\n", tilt,
+          degrees(*theta_r));
   else
-    std::printf("Its flow had not stopped when the run ended, at a tilt of %.3f deg: no angle at rest.\n",
-                tilt);
+    print("Its flow had not stopped when the run ended, at a tilt of %.3f deg: no angle at rest.\n", tilt);
 }
 
 void print_end(const RunArguments& arguments, const Session& session) {
   const StepRemark remark = remark_on(session.schedule().record, session.world().step);
-  if (!remark.usual) std::fprintf(stderr, "talus: warning: %s\n", remark.text.c_str());
+  if (!remark.usual) print_error("talus: warning: %s\n", remark.text.c_str());
   for (std::size_t k = 0; k < guard_count; ++k)
     if (const std::int64_t steps = session.schedule().warnings.steps[k]; steps > 0)
-      std::fprintf(stderr, "talus: warning: guards.%s was broken in %lld steps, first in step %lld\n",
-                   std::string(guard_names[k]).c_str(), static_cast<long long>(steps),
-                   static_cast<long long>(session.schedule().warnings.first[k]));
+      print_error("talus: warning: guards.%s was broken in %lld steps, first in step %lld\n",
+                  std::string(guard_names[k]).c_str(), static_cast<long long>(steps),
+                  static_cast<long long>(session.schedule().warnings.first[k]));
   if (arguments.quiet) return;
   const std::optional<double> theta_c = session.angle_of_repose();
   if (theta_c)
-    std::printf("The slope failed: angle of repose theta_c = %.3f deg.\n", degrees(*theta_c));
+    print("The slope failed: angle of repose theta_c = %.3f deg%s.\n", degrees(*theta_c),
+          beyond_repose(*theta_c, session.world().tilt).c_str());
   else
-    std::printf("The slope stands at %.3f deg.\n", degrees(session.world().tilt));
+    print("The slope stands at %.3f deg.\n", degrees(session.world().tilt));
   if (theta_c && session.scenario().tilt.after_failure != AfterFailure::stop) print_rest(session);
-  if (remark.usual && !remark.text.empty()) std::printf("%s\n", remark.text.c_str());
-  std::printf("%s: %lld steps, state hash %s\n", arguments.output.c_str(),
-              static_cast<long long>(session.world().step), hash_text(state_hash(session.world())).c_str());
+  if (remark.usual && !remark.text.empty()) print("%s\n", remark.text.c_str());
+  print("%s: %lld steps, state hash %s\n", arguments.output.c_str(),
+        static_cast<long long>(session.world().step), hash_text(state_hash(session.world())).c_str());
 }
 
 /// The maps that are drawn while the run computes, if any. Refuses before the run is touched.
@@ -123,13 +127,13 @@ std::optional<LiveMaps> prepare_maps(const RunArguments& arguments, const RunReq
   if (!request.scenario.empty())
     read_scenario(request.scenario, request.settings);  // no folder is made for one that is refused
   if (plan.maps[0].theta_c_assumed && !arguments.quiet)
-    std::fprintf(stderr,
-                 "talus: note: the angle of repose is not known before the slope fails: maps are scaled by "
-                 "%g deg; --theta-c DEG gives another\n",
-                 assumed_theta_c);
+    print_error(
+        "talus: note: the angle of repose is not known before the slope fails: maps are scaled by "
+        "%g deg; --theta-c DEG gives another\n",
+        assumed_theta_c);
   return std::optional<LiveMaps>(
       std::in_place, plan, arguments.frames, resumed, arguments.overwrite,
-      [](const std::string& failure) { std::fprintf(stderr, "talus: warning: %s\n", failure.c_str()); });
+      [](const std::string& failure) { print_error("talus: warning: %s\n", failure.c_str()); });
 }
 
 void begin_maps(LiveMaps& maps, const OpenRun& open, const RunArguments& arguments) {
@@ -165,7 +169,7 @@ void resume_complete(const RunArguments& arguments) {
   const Scenario scenario = stored_scenario(file.header(), arguments.output + ":/parameters");
   require_same_scenario(request_of(arguments), scenario);
   discard_folder(arguments.output);
-  if (!arguments.quiet) std::printf("%s is complete already.\n", arguments.output.c_str());
+  if (!arguments.quiet) print("%s is complete already.\n", arguments.output.c_str());
   draw_what_is_missing(arguments, file, scenario);
 }
 
@@ -173,9 +177,9 @@ OpenRun open_run(const RunArguments& arguments, const RunRequest& request, bool 
   OpenRun open = resumed ? resume_run(request) : start_run(request);
   open.session.use_threads(arguments.threads);
   if (open.session.schedule().course && open.session.tilt_rate() == 0.0)
-    std::fprintf(stderr,
-                 "talus: note: a command holds the tilt: unless the slope fails, the run goes on until it is "
-                 "stopped\n");
+    print_error(
+        "talus: note: a command holds the tilt: unless the slope fails, the run goes on until it is "
+        "stopped\n");
   return open;
 }
 

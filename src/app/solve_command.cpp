@@ -11,6 +11,7 @@
 #include "app/choices.h"
 #include "app/commands.h"
 #include "app/moving_step.h"
+#include "app/terminal.h"
 #include "core/output_file.h"
 #include "problems/local_solvers.h"
 #include "problems/problem_file.h"
@@ -139,34 +140,34 @@ void print_json(const SolveArguments& arguments, const SolveResult& result) {
       {"seconds", number(result.seconds)},
       {"ns_per_contact_iteration", number(result.nanoseconds_per_contact())},
   });
-  std::printf("%s\n", text.c_str());
+  print("%s\n", text.c_str());
 }
 
 void print_number(const char* name, const char* format, double value) {
-  std::printf("%-25s", name);
+  print("%-25s", name);
   if (std::isfinite(value))
-    std::printf(format, value);
+    print(format, value);
   else
-    std::printf("none");
-  std::printf("\n");
+    print("none");
+  print("\n");
 }
 
-void print_text(const SolveArguments& arguments, const SolveResult& result) {
+void print_report(const SolveArguments& arguments, const SolveResult& result) {
   const SolverReport& report = result.report;
-  std::printf("%-25s%s, on %s, from %s\n", "solver", name_of(arguments.settings.kind),
-              result.bodies > 0 ? "bodies" : "W, q and mu alone", arguments.cold ? "zero" : "the guess");
-  std::printf("%-25s%d\n", "contacts", result.contacts);
-  std::printf("%-25s%d\n", "iterations", report.iterations);
-  std::printf("%-25s%.3e (%s, asked for %.1e by %s)\n", "residual eta", report.residual.eta,
-              report.converged ? "converged" : "NOT CONVERGED", arguments.settings.tolerance,
-              words_of(arguments.asked_by));
+  print("%-25s%s, on %s, from %s\n", "solver", name_of(arguments.settings.kind),
+        result.bodies > 0 ? "bodies" : "W, q and mu alone", arguments.cold ? "zero" : "the guess");
+  print("%-25s%d\n", "contacts", result.contacts);
+  print("%-25s%d\n", "iterations", report.iterations);
+  print("%-25s%.3e (%s, asked for %.1e by %s)\n", "residual eta", report.residual.eta,
+        report.converged ? "converged" : "NOT CONVERGED", arguments.settings.tolerance,
+        words_of(arguments.asked_by));
   print_number("largest of one contact", "%.3e", report.residual.largest);
   print_number("Siconos's error", "%.3e", result.siconos_error);
   print_number("weight carried", "%.6f", result.carried_weight);
   print_number("seconds", "%.6f", result.seconds);
   print_number("ns / contact / iteration", "%.2f", result.nanoseconds_per_contact());
   if (result.of_run && is_moving(*result.of_run))
-    std::printf("%s\n", remark_on_moving(*result.of_run, report.residual.eta).c_str());
+    print("%s\n", remark_on_moving(*result.of_run, report.residual.eta).c_str());
 }
 
 void run(SolveArguments& arguments) {
@@ -177,7 +178,7 @@ void run(SolveArguments& arguments) {
   if (arguments.json)
     print_json(arguments, result);
   else
-    print_text(arguments, result);
+    print_report(arguments, result);
   if (arguments.output.empty()) return;
   prepare_folder_of(arguments.output);
   write_solution(arguments.problem, arguments.output, result.solution);

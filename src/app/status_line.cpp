@@ -3,7 +3,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-#include <cstdio>
+#include "app/terminal.h"
 
 namespace talus {
 namespace {
@@ -33,12 +33,12 @@ bool StatusLine::is_due() const { return !quiet_ && Clock::now() - shown_ >= int
 void StatusLine::show(const std::string& text) {
   if (quiet_) return;
   shown_ = Clock::now();
-  std::fprintf(stderr, terminal_ ? "\r\033[K%s" : "%s\n", text.c_str());
+  print_status(text, terminal_);
   open_ = terminal_;
 }
 
 void StatusLine::finish() {
-  if (open_) std::fputc('\n', stderr);
+  if (open_) print_error("\n");
   open_ = false;
 }
 

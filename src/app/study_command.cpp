@@ -9,6 +9,7 @@
 #include "app/commands.h"
 #include "app/ensemble_workers.h"
 #include "app/jobs_option.h"
+#include "app/terminal.h"
 #include "core/output_file.h"
 #include "ensemble/pool.h"
 #include "ensemble/study_report.h"
@@ -79,14 +80,14 @@ void study(const StudyArguments& arguments) {
                        {arguments.folder, {}, "", arguments.jobs}, {arguments.scenario});
   if (done_members(plan).empty()) {
     refuse_failures(plan, "nothing can be compared");
-    std::printf("%s", ensemble_text(view).c_str());  // others are to compute it
+    print_text(ensemble_text(view));  // others are to compute it
     return;
   }
   for (const std::size_t m : done_members(plan)) is_complete(plan.members[m]);  // their own runs
   const StudyResult result = read_study(plan, arguments.reference);
   write_text(folder / "study.csv", study_csv(result));
   write_text(folder / "study.md", study_markdown(result));
-  std::printf("%s\n", (arguments.json ? study_json(result) : study_markdown(result)).c_str());
+  print("%s\n", (arguments.json ? study_json(result) : study_markdown(result)).c_str());
   refuse_failures(plan, "left out of the tables");
 }
 

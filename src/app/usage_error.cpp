@@ -1,7 +1,6 @@
 #include "app/usage_error.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <fmt/core.h>
 #include <optional>
 
@@ -9,6 +8,7 @@
 #include "app/parse_error_text.h"
 #include "core/errors.h"
 #include "core/nearest_word.h"
+#include "core/paths.h"
 #include "core/text.h"
 #include "core/visible_text.h"
 #include "scenario/keys.h"
@@ -196,8 +196,7 @@ void refuse_words(CLI::App& app, const std::vector<std::string>& words) {
   const std::vector<std::string> below = names_of_commands(*command);
   if (words.size() > 1 && !below.empty() && !words[1].starts_with('-')) {
     CLI::App* const next = command_called(*command, words[1]);
-    const bool is_path =
-        words[1].find_first_of("./") != std::string::npos || std::filesystem::exists(words[1]);
+    const bool is_path = words[1].find_first_of("./") != std::string::npos || is_there(words[1]);
     if (next == nullptr && !is_path)
       if (const std::string nearest = nearest_word(words[1], below); !nearest.empty())
         throw Error(ExitCode::usage,

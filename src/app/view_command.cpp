@@ -20,8 +20,10 @@
 #include "app/plot_figure.h"
 #include "app/seed_option.h"
 #include "app/stop_signals.h"
+#include "app/terminal.h"
 #include "core/errors.h"
 #include "core/output_file.h"
+#include "core/paths.h"
 #include "gui/offscreen.h"
 #include "gui/window.h"
 #include "io/run_file.h"
@@ -202,7 +204,7 @@ void open(const std::string& path, std::optional<std::size_t> frame, ViewModel& 
   ViewModel next = ViewModel::open(path, {}, "", false, command_line());
   if (frame) next.go_to(*frame);
   const std::string kept = close(std::exchange(model, std::move(next)));
-  if (!kept.empty()) std::printf("%s\n", kept.c_str());
+  if (!kept.empty()) print("%s\n", kept.c_str());
   std::fflush(stdout);
 }
 
@@ -260,7 +262,7 @@ void show(ViewModel& model, const std::string& places, GuiWindow& window,
 /// The rule for a run that the window records. What is wrong with the input is said where there is no
 /// display, too.
 OutputRule checked_input(const ViewArguments& arguments) {
-  const bool is_missing_run = is_run(arguments.file) && !std::filesystem::exists(arguments.file) &&
+  const bool is_missing_run = is_run(arguments.file) && !is_there(arguments.file) &&
                               run_presence(arguments.file) == RunPresence::none;
   if (is_missing_run) throw Error(ExitCode::missing_input, arguments.file + ": no such run");
   if (is_run(arguments.file)) return output_of_run(arguments.file, true);
@@ -281,15 +283,15 @@ void view(const ViewArguments& arguments) {
   const CommitOnSignals commit;
   show_first(model, arguments);
   if (model.is_live() && arguments.output.empty())
-    std::printf("Nothing is kept of this run until it is saved; talus view %s -o RUN.h5 records it.\n",
-                arguments.file.c_str());
+    print("Nothing is kept of this run until it is saved; talus view %s -o RUN.h5 records it.\n",
+          arguments.file.c_str());
   std::fflush(stdout);
   const volatile std::sig_atomic_t* stop = stop_request();
   show(model, arguments.places, window, stop);
   const std::string kept = close(std::move(model));
   if (*stop != 0)
     throw Error(ExitCode::stopped, kept.empty() ? "the window was closed by a signal" : "stopped; " + kept);
-  if (!kept.empty()) std::printf("%s\n", kept.c_str());
+  if (!kept.empty()) print("%s\n", kept.c_str());
 }
 
 }  // namespace

@@ -11,25 +11,17 @@
 #include <cstdint>
 #include <filesystem>
 #include <string_view>
-#include <system_error>
 #include <vector>
 
 #include "core/descriptor.h"
 #include "core/locked_file.h"
 #include "core/output_file.h"
+#include "core/paths.h"
 
 namespace talus {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::vector<std::string> names_in(const std::string& folder) {
-  std::vector<std::string> names;
-  std::error_code unknown;
-  for (fs::directory_iterator entry(folder, unknown), end; !unknown && entry != end; entry.increment(unknown))
-    names.push_back(entry->path().filename().string());
-  return names;
-}
 
 /// NAME of NAME.talus.part; empty where a name is no such one.
 std::string name_before_ending(const std::string& name) {
@@ -49,7 +41,8 @@ bool is_own(const std::string& path, mode_t kind) {
 void remove_figure_folder(const std::string& path) {
   const std::string name = name_before_ending(fs::path(path).filename().string());
   if (name.find('.') != std::string::npos) return;
-  const std::vector<std::string> files = names_in(path);
+  std::error_code unknown;
+  const std::vector<std::string> files = names_in(path, unknown);
   const auto is_of_figure = [&](const std::string& file) {
     return file.starts_with(name) && is_own((fs::path(path) / file).string(), S_IFREG);
   };
@@ -95,7 +88,8 @@ bool is_shared_with_other_machines(const std::string& folder) {
 }  // namespace
 
 void clear_leftovers(const std::string& folder) {
-  std::vector<std::string> names = names_in(folder);
+  std::error_code unknown;
+  std::vector<std::string> names = names_in(folder, unknown);
   std::erase_if(names, [](const std::string& name) { return name_before_ending(name).empty(); });
   if (names.empty() || is_shared_with_other_machines(folder)) return;
   // One process at a time: of two that share a lock one could remove what a third has made since.

@@ -1,5 +1,7 @@
 #include "core/text.h"
 
+#include "core/visible_text.h"
+
 namespace talus {
 
 std::string csv_quoted(const std::string& text) {
@@ -11,6 +13,18 @@ std::string csv_quoted(const std::string& text) {
 std::string shell_quoted(const std::string& word) {
   const std::string plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_./,=:+%@";
   if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
+  if (visible(word) != word || word.find('\n') != std::string::npos) {
+    std::string escaped = "$'";
+    for (const char c : word) {
+      const auto byte = static_cast<unsigned char>(c);
+      if (c == '\'' || c == '\\') escaped += '\\';
+      if (byte < 0x20 || byte > 0x7e)
+        escaped += fmt::format("\\x{:02x}", byte);
+      else
+        escaped += c;
+    }
+    return escaped + "'";
+  }
   std::string quoted = "'";
   for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return quoted + "'";

@@ -57,6 +57,30 @@ void move_first(std::string_view& text, std::string& shown, const Rule& is_shown
 
 }  // namespace
 
+std::string utf8(std::string_view text) {
+  std::string valid;
+  while (!text.empty()) {
+    const std::size_t length = character_length(text);
+    valid += length == 0 ? "\xef\xbf\xbd" : text.substr(0, length);
+    text.remove_prefix(length == 0 ? 1 : length);
+  }
+  return valid;
+}
+
+std::string quoted_utf8(std::string_view text) {
+  const std::string valid = utf8(text);
+  std::string result = "\"";
+  for (std::string_view rest = valid; !rest.empty();) {
+    const std::string_view character = rest.substr(0, character_length(rest));
+    if (is_control(character))
+      result += fmt::format("\\u{:04x}", code_of(character));
+    else
+      result.append(character == "\"" || character == "\\" ? "\\" : "").append(character);
+    rest.remove_prefix(character.size());
+  }
+  return result + "\"";
+}
+
 std::string visible(std::string_view text) {
   std::string shown;
   while (!text.empty())

@@ -16,6 +16,14 @@ std::string visible(std::string_view text);
 /// apart.
 std::string visible_word(std::string_view text, std::size_t limit = 60);
 
+/// The text with U+FFFD in place of each byte that is no UTF-8, which names of files may hold: files and
+/// pages are UTF-8.
+std::string utf8(std::string_view text);
+
+/// The same in quotes, as JSON and TOML read it: control characters are escaped, so that a terminal shows it
+/// as it is.
+std::string quoted_utf8(std::string_view text);
+
 /// The length of the UTF-8 character at the beginning of a text that is not empty, in bytes; 0 where there is
 /// none.
 std::size_t character_length(std::string_view text);

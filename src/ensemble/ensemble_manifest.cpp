@@ -12,6 +12,7 @@
 #include "core/hash.h"
 #include "core/locked_file.h"
 #include "core/output_file.h"
+#include "core/paths.h"
 #include "core/text.h"
 #include "core/text_stream.h"
 #include "core/version.h"
@@ -315,7 +316,7 @@ std::vector<Variant> plan_variants(const std::string& scenario_file, const std::
     all.push_back("seed=1");
     Scenario scenario = read_scenario(scenario_file, all, nullptr, combination);
     if (!scenario.deposition.file.empty()) {
-      scenario.deposition.file = fs::absolute(scenario.deposition.file).string();
+      scenario.deposition.file = absolute_path(scenario.deposition.file);
       require_path_of_toml(scenario);
     }
     if (std::ranges::find(variants, scenario, &Variant::scenario) != variants.end()) continue;

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <charconv>
-#include <filesystem>
 #include <fmt/core.h>
 #include <optional>
 
 #include "core/errors.h"
+#include "core/paths.h"
 #include "core/visible_text.h"
 #include "ensemble/member_lists.h"
 #include "ensemble/member_series.h"
@@ -71,10 +71,7 @@ std::size_t drop_runs(const EnsembleManifest& manifest, const EnsemblePlan& plan
     const Member& member = plan.members[m];
     if (states[m].stage != MemberStage::done || !states[m].has_run || keeps_run(manifest, member.seed))
       continue;
-    std::error_code unknown;
-    if (!std::filesystem::exists(series_path(member.path), unknown) ||
-        !std::filesystem::exists(lists_path(member.path), unknown))
-      continue;
+    if (!is_there(series_path(member.path)) || !is_there(lists_path(member.path))) continue;
     if (!has_own_run(member)) continue;
     drop_run(member);
     ++dropped;

@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "analysis/quantities.h"
+#include "core/paths.h"
 #include "core/errors.h"
 #include "core/hash.h"
 #include "core/snapshot.h"
@@ -106,7 +107,7 @@ void sign(MemberNumbers& numbers, const Member& member, const std::vector<std::s
   numbers.origin = member.origin;
   numbers.files.clear();
   for (const std::string& ending : endings)
-    if (const std::string file = file_beside(member.path, ending.c_str()); std::filesystem::exists(file))
+    if (const std::string file = file_beside(member.path, ending.c_str()); is_there(file))
       numbers.files.emplace_back(ending, hash_of_file(file));
 }
 

@@ -5,6 +5,7 @@
 
 #include "core/errors.h"
 #include "core/output_file.h"
+#include "core/paths.h"
 #include "ensemble/measured_file.h"
 #include "ensemble/member_numbers.h"
 #include "ensemble/member_state.h"
@@ -48,7 +49,7 @@ bool has_readings(const Member& member) { return member.scenario.bed.boundary ==
 std::optional<Thresholds> kept_reading(const RunFile& run, const std::string& path,
                                        const ChainAnalysis& analysis) {
   const std::string file = reading_path(path, analysis);
-  if (!fs::exists(file)) return std::nullopt;
+  if (!is_there(file)) return std::nullopt;
   return parse_measured(read_text(file), analysis_key(run, parse_analysis_settings(analysis.settings)));
 }
 

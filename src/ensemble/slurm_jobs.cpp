@@ -8,6 +8,7 @@
 
 #include "core/errors.h"
 #include "core/output_file.h"
+#include "core/paths.h"
 #include "core/text_stream.h"
 #include "ensemble/member_state.h"
 #include "io/durable_file.h"
@@ -83,10 +84,8 @@ void forget_job(const std::string& folder, const SlurmJob& job) {
 std::vector<SlurmJob> recorded_jobs(const std::string& folder) {
   std::vector<SlurmJob> jobs;
   std::error_code error;  // a folder that is not there has no jobs yet
-  for (fs::directory_iterator entry(slurm_folder(folder), error), end; !error && entry != end;
-       entry.increment(error))
-    if (const std::string id = id_in(entry->path().filename().string()); !id.empty())
-      jobs.push_back(read_job(folder, id));
+  for (const std::string& name : names_in(slurm_folder(folder), error))
+    if (const std::string id = id_in(name); !id.empty()) jobs.push_back(read_job(folder, id));
   std::ranges::sort(jobs, {}, [](const SlurmJob& job) { return std::stoull(job.id); });
   return jobs;
 }

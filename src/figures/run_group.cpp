@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include "core/errors.h"
+#include "core/paths.h"
 #include "scenario/keys.h"
 #include "scenario/text.h"
 
@@ -44,7 +45,10 @@ bool belongs_to(const RunGroup& group, const FigureRun& run) {
 /// The name of the folder of the first run.
 std::string folder_name(const RunGroup& group) {
   const std::string& path = group.runs.front().path;
-  return std::filesystem::absolute(path.substr(0, path.find('#'))).parent_path().filename().string();
+  return std::filesystem::path(absolute_path(path.substr(0, path.find('#'))))
+      .parent_path()
+      .filename()
+      .string();
 }
 
 /// Adds to the labels of groups that share one their folders.

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "core/paths.h"
 #include "gui/beside_actions.h"
 #include "gui/panels.h"
 #include "gui/run_actions.h"
@@ -40,7 +41,8 @@ void draw_browser(Gui& gui) {
       "Open a run or a scenario: choose it, or drop it on the window. With shift a run is shown beside "
       "this one.");
   ImGui::BeginChild("files", {0.0f, 12.0f * gui.em}, true);
-  for (const Entry& entry : entries_of(state.folder.empty() ? fs::current_path() : fs::path(state.folder))) {
+  for (const Entry& entry :
+       entries_of(state.folder.empty() ? fs::path(resolved_path(".")) : fs::path(state.folder))) {
     if (ImGui::Selectable(entry.label.c_str())) {
       if (entry.folder) {
         state.folder = entry.path;

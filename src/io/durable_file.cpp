@@ -8,6 +8,7 @@
 
 #include "core/descriptor.h"
 #include "core/errors.h"
+#include "core/visible_text.h"
 
 namespace talus {
 
@@ -37,7 +38,8 @@ std::string read_text(const std::string& path) {
 }
 
 void write_text(const std::string& path, const std::string& text) {
-  write_durably(path, std::as_bytes(std::span(text)));
+  const std::string valid = utf8(text);
+  write_durably(path, std::as_bytes(std::span(valid)));
 }
 
 void make_folder(const std::string& path) {

@@ -19,7 +19,7 @@ std::string read_text(const std::string& path);
 /// whole. Throws as OutputFile does, and what `check` throws.
 void write_durably(const std::string& path, std::span<const std::byte> bytes, const CheckFile& check = {});
 
-/// The same of a text.
+/// The same of a text, as UTF-8 whatever the bytes of the names in it.
 void write_text(const std::string& path, const std::string& text);
 
 /// Creates a folder durably; one that exists already is taken. Throws creation_error.

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/errors.h"
+#include "core/visible_text.h"
 
 namespace talus::hdf5 {
 namespace {
@@ -213,7 +214,8 @@ Handle Writer::put_text(const std::string& path, const std::string& text, const 
   return set;
 }
 
-void Writer::write_text(const std::string& path, const std::string& text) {
+void Writer::write_text(const std::string& path, const std::string& bytes) {
+  const std::string text = utf8(bytes);
   const Handle set = put_text(path, text, field_of(path).unit);
   attach_hash(set.get(), piece_hash(path, std::as_bytes(std::span(text))));
   contents_.append(path).append("\n");

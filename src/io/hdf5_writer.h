@@ -47,8 +47,8 @@ class Writer {
   void write_scalar(const std::string& path, T value) {
     write(path, std::span<const T>(&value, 1));
   }
-  /// A scalar string of fixed length.
-  void write_text(const std::string& path, const std::string& text);
+  /// A scalar string of fixed length, as UTF-8.
+  void write_text(const std::string& path, const std::string& bytes);
 
   /// Writes rows `first_row` ... along the first dimension of a created data set; values are whole rows.
   template <typename T>

@@ -6,6 +6,7 @@
 
 #include "core/errors.h"
 #include "core/hash.h"
+#include "core/paths.h"
 #include "core/text_stream.h"
 #include "io/durable_file.h"
 #include "io/packed_file.h"
@@ -121,7 +122,7 @@ bool replaces_packed(const std::string& folder, const std::string& packed) try {
 
 std::vector<std::byte> read_stored(const std::string& folder, const StoredFile& file) {
   const std::string path = (std::filesystem::path(folder) / file.name).string();
-  if (!std::filesystem::exists(path))
+  if (!is_there(path))
     throw Error(ExitCode::bad_data,
                 fmt::format("{}: is missing, although the manifest names it{}", path, hint));
   std::vector<std::byte> bytes = read_file(path);

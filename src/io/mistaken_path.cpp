@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/errors.h"
+#include "core/paths.h"
 #include "core/trigonometry.h"
 #include "io/packed_file.h"
 #include "io/run_file.h"
@@ -27,9 +28,10 @@ bool is_ensemble_folder(const std::string& path) {
 std::string first_run_in(const std::string& folder) {
   std::vector<std::string> runs;
   std::error_code unknown;
-  for (fs::directory_iterator entry(folder, unknown), end; !unknown && entry != end; entry.increment(unknown))
-    if (entry->path().extension() == ".h5" && begins_as_run(entry->path().string()))
-      runs.push_back(entry->path().string());
+  for (const std::string& name : names_in(folder, unknown))
+    if (const fs::path path = fs::path(folder) / name;
+        path.extension() == ".h5" && begins_as_run(path.string()))
+      runs.push_back(path.string());
   return runs.empty() ? std::string() : *std::ranges::min_element(runs);
 }
 

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "core/errors.h"
+#include "core/paths.h"
 #include "core/trigonometry.h"
 #include "io/byte_code.h"
 #include "io/child_process.h"
@@ -46,11 +47,9 @@ constexpr const char* lost_analysis = "/analysis: is no part of the run; make it
 /// That of a run which replaced another one in its folder has a number.
 bool has_header(const std::string& folder) {
   std::error_code unknown;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, unknown))
-    if (const std::string name = entry.path().filename().string();
-        name.starts_with("header") && name.ends_with(".h5"))
-      return true;
-  return false;
+  return std::ranges::any_of(names_in(folder, unknown), [](const std::string& name) {
+    return name.starts_with("header") && name.ends_with(".h5");
+  });
 }
 
 std::optional<std::string> folder_of(const std::string& run) {
@@ -70,15 +69,14 @@ Bytes padded(Bytes bytes) {
 }
 
 /// The files of a folder in the order of their commits; without a manifest, those that are there.
-Lines names_in(const std::string& folder, Lines& lost) {
+Lines files_in(const std::string& folder, Lines& lost) {
   Lines names;
   try {
     for (const StoredFile& file : files_of(read_manifest(folder))) names.push_back(file.name);
   } catch (const Error&) {
     lost.emplace_back("manifest: is not as it was written");
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder))
-      if (const std::string name = entry.path().filename().string(); name.ends_with(".h5"))
-        names.push_back(name);
+    for (const std::string& name : names_in(folder))
+      if (name.ends_with(".h5")) names.push_back(name);
     // By their lengths: the header, segments, checkpoints.
     std::ranges::sort(names, {}, [](const std::string& name) { return std::pair(name.size(), name); });
   }
@@ -89,8 +87,8 @@ std::vector<Part> parts_of(const std::string& run, Lines& lost) {
   const std::optional<std::string> folder = folder_of(run);
   if (!folder) return {{"", padded(read_file(run))}};
   std::vector<Part> parts;
-  for (const std::string& name : names_in(*folder, lost))
-    if (const fs::path path = fs::path(*folder) / name; fs::exists(path))
+  for (const std::string& name : files_in(*folder, lost))
+    if (const fs::path path = fs::path(*folder) / name; is_there(path))
       parts.push_back({name, read_file(path.string())});
     else
       lost.push_back(name + ": is missing");
@@ -303,11 +301,10 @@ bool is_whole(const std::string& run) try {
 
 void refuse_output(const RepairRequest& request) {
   output_target(request.output, {true, {request.run, run_folder(request.run)}});
-  const auto whole = [](const std::string& path) { return fs::weakly_canonical(fs::absolute(path)); };
   for (const std::string& path : {request.output, run_folder(request.output)}) {
-    if (whole(path) == whole(request.run))
+    if (resolved_path(path) == resolved_path(request.run))
       throw Error(ExitCode::usage, request.output + " is the damaged run; choose another output with -o");
-    if (!request.overwrite && fs::exists(path))
+    if (!request.overwrite && is_there(path))
       throw Error(ExitCode::cannot_create,
                   path + " exists already; replace it with --overwrite, or choose another output with -o");
   }

@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "core/errors.h"
+#include "core/paths.h"
 #include "io/durable_file.h"
 #include "io/manifest.h"
 #include "io/packed_file.h"
@@ -57,9 +58,8 @@ bool is_named(const Manifest& manifest, const std::string& name) {
 /// Removes what a kill left behind: own files that the manifest does not name.
 void remove_leftovers(const std::string& folder, const Manifest& manifest) {
   std::vector<std::string> leftovers;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder))
-    if (const std::string name = entry.path().filename().string(); is_own(name) && !is_named(manifest, name))
-      leftovers.push_back(name);
+  for (const std::string& name : names_in(folder))
+    if (is_own(name) && !is_named(manifest, name)) leftovers.push_back(name);
   for (const std::string& name : leftovers) remove_file(in(folder, name));
 }
 
@@ -68,10 +68,8 @@ void remove_leftovers(const std::string& folder, const Manifest& manifest) {
 void remove_folder(const std::string& folder) {
   ::unlink(in(folder, Manifest::file_name).c_str());
   std::error_code unknown;
-  std::vector<std::string> paths;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, unknown))
-    if (is_own(entry.path().filename().string())) paths.push_back(entry.path().string());
-  for (const std::string& path : paths) ::unlink(path.c_str());
+  for (const std::string& name : names_in(folder, unknown))
+    if (is_own(name)) ::unlink(in(folder, name).c_str());
   ::unlink(in(folder, WriterLock::file_name).c_str());
   ::rmdir(folder.c_str());
 }
@@ -140,10 +138,9 @@ void refuse_existing(const std::string& path, bool overwrite) {
 /// The first serial number that no file of the folder has.
 std::uint64_t next_serial(const std::string& folder) {
   std::uint64_t serial = 0;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder))
-    if (const std::string name = entry.path().filename().string(); is_serial_name(name, "header_") ||
-                                                                   is_serial_name(name, "segment_") ||
-                                                                   is_serial_name(name, "checkpoint_"))
+  for (const std::string& name : names_in(folder))
+    if (is_serial_name(name, "header_") || is_serial_name(name, "segment_") ||
+        is_serial_name(name, "checkpoint_"))
       serial = std::max(serial, serial_of({name, 0, 0}));
   return serial + 1;
 }

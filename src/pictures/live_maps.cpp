@@ -1,11 +1,11 @@
 #include "pictures/live_maps.h"
 
 #include <cmath>
-#include <filesystem>
 #include <fmt/core.h>
 #include <utility>
 
 #include "core/output_file.h"
+#include "core/paths.h"
 #include "core/trigonometry.h"
 #include "pictures/picture_files.h"
 
@@ -19,9 +19,8 @@ constexpr double margin_above = 0.05;
 constexpr std::size_t frames_waiting = 4;
 
 void refuse_pictures(const std::string& folder, const MapPlan& plan) {
-  for (const auto& entry : std::filesystem::directory_iterator(folder))
+  for (const std::string& name : names_in(folder))
     for (const MapSettings& map : plan.maps) {
-      const std::string name = entry.path().filename().string();
       if (name.starts_with(layers_name(map.layers) + "_") && name.ends_with(".png"))
         throw Error(ExitCode::cannot_create,
                     fmt::format("{} holds pictures of the map {} already; choose another folder, or give "

@@ -5,6 +5,7 @@
 
 #include "core/errors.h"
 #include "core/output_file.h"
+#include "core/paths.h"
 #include "core/trigonometry.h"
 #include "core/version.h"
 #include "pictures/texts.h"
@@ -21,9 +22,8 @@ std::string seen_from(const std::filesystem::path& picture, std::filesystem::pat
   namespace fs = std::filesystem;
   if (!run.has_filename()) run = run.parent_path();  // RUN.h5.run/
   if (run.extension() == ".run") run.replace_extension();
-  // Absolute first: that of a relative path of which nothing exists yet would stay relative.
-  const fs::path folder = fs::weakly_canonical(fs::absolute(picture).parent_path());
-  return fs::weakly_canonical(fs::absolute(run)).lexically_relative(folder).string();
+  const fs::path folder = resolved_path(fs::path(absolute_path(picture.string())).parent_path().string());
+  return fs::path(resolved_path(run.string())).lexically_relative(folder).string();
 }
 
 }  // namespace
@@ -134,7 +134,7 @@ PngTexts picture_texts(const PictureMarks& marks) {
 
 bool is_drawn(const std::string& path, const PictureMarks& marks, bool overwrite) {
   output_target(path);
-  if (!std::filesystem::exists(path)) return false;
+  if (!is_there(path)) return false;
   if (png_text(path, key_word) == marks.key) return true;
   if (overwrite || png_text(path, request_word) == marks.request) return false;
   throw Error(

@@ -5,7 +5,6 @@
 #include <concepts>
 #include <fmt/core.h>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -15,33 +14,11 @@
 
 namespace talus::json {
 
-/// \u001b of a control character of one or two bytes.
-inline std::string control_escape(std::string_view character) {
-  return fmt::format("\\u{:04x}", static_cast<unsigned char>(character.back()));
-}
-
 /// Names and values that are JSON already, in writing order.
 using Members = std::vector<std::pair<std::string, std::string>>;
 
-/// A text in quotes. UTF-8 stays UTF-8; control characters are escaped, and of what is no UTF-8 each byte
-/// becomes U+FFFD.
-inline std::string quoted(const std::string& whole) {
-  std::string result = "\"";
-  std::string_view text = whole;
-  while (!text.empty()) {
-    const std::size_t length = character_length(text);
-    const std::string_view character = text.substr(0, length == 0 ? 1 : length);
-    const bool marked = character == "\"" || character == "\\";
-    if (length == 0)
-      result += "\\ufffd";
-    else if (is_control(character) && length <= 2)
-      result += control_escape(character);
-    else
-      result.append(marked ? "\\" : "").append(character);
-    text.remove_prefix(character.size());
-  }
-  return result + "\"";
-}
+/// A text in quotes.
+inline std::string quoted(const std::string& text) { return quoted_utf8(text); }
 
 /// The shortest digits that read back as the same number; null where the value is none.
 inline std::string number(double value) { return std::isfinite(value) ? short_text(value) : "null"; }

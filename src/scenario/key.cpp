@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include "core/text.h"
+#include "core/visible_text.h"
 #include "scenario/text.h"
 
 namespace talus {
@@ -27,8 +28,8 @@ std::string text_of(const Choices& choices) {
 }
 
 std::string text_of(const TextRange& range) {
-  return fmt::format("{} in quotes (at most {} bytes, none of them zero), or \"\" for none", range.what,
-                     range.longest);
+  return fmt::format("{} in quotes (UTF-8, at most {} bytes, none of them zero), or \"\" for none",
+                     range.what, range.longest);
 }
 
 std::optional<KeyValue> admitted_by(const NumberRange& range, const KeyValue& value) {
@@ -58,7 +59,8 @@ std::optional<KeyValue> admitted_by(const Choices& choices, const KeyValue& valu
 
 std::optional<KeyValue> admitted_by(const TextRange& range, const KeyValue& value) {
   const std::string* text = std::get_if<std::string>(&value);
-  return text != nullptr && text->size() <= range.longest && text->find('\0') == std::string::npos
+  return text != nullptr && text->size() <= range.longest && text->find('\0') == std::string::npos &&
+                 utf8(*text) == *text
              ? std::optional(value)
              : std::nullopt;
 }

@@ -7,21 +7,11 @@
 #include <fmt/core.h>
 
 #include "core/text.h"
+#include "core/visible_text.h"
 #include "scenario/keys.h"
 
 namespace talus {
 namespace {
-
-/// A basic string of TOML.
-std::string quoted(const std::string& text) {
-  std::string result = "\"";
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (c == '"' || c == '\\') result += '\\';
-    result += byte < 0x20 || byte == 0x7f ? fmt::format("\\u{:04x}", byte) : std::string(1, c);
-  }
-  return result + "\"";
-}
 
 std::string comment(const KeyHead& key) {
   return fmt::format("# {}{}", key.unit.empty() ? "" : key.unit + "; ", key.help);
@@ -56,11 +46,11 @@ std::string short_text(double value) {
 
 std::string toml_text(const KeyValue& value) {
   if (const auto* whole = std::get_if<std::int64_t>(&value)) return std::to_string(*whole);
-  if (const auto* text = std::get_if<std::string>(&value)) return quoted(*text);
+  if (const auto* text = std::get_if<std::string>(&value)) return quoted_utf8(*text);
   if (const auto* numbers = std::get_if<std::vector<double>>(&value))
     return fmt::format("[{}]", joined(*numbers, ", ", [](double number) { return toml_text(number); }));
   if (const auto* phrases = std::get_if<std::vector<std::string>>(&value))
-    return fmt::format("[{}]", joined(*phrases, ", ", quoted));
+    return fmt::format("[{}]", joined(*phrases, ", ", quoted_utf8));
   // Without a point or an exponent (and for nan and inf, which have an "n") TOML would read an integer.
   const std::string digits = short_text(std::get<double>(value));
   return digits.find_first_of(".en") == std::string::npos ? digits + ".0" : digits;

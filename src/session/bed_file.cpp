@@ -10,6 +10,7 @@
 
 #include "contact/detection.h"
 #include "core/errors.h"
+#include "core/paths.h"
 #include "io/durable_file.h"
 #include "io/run_file.h"
 #include "session/bed_table.h"
@@ -111,9 +112,8 @@ FileGrains read_run(const std::string& path, std::size_t frame, LengthUnit unit,
 
 std::string table_text(const std::string& path) {
   std::error_code error;
-  const std::filesystem::file_status status = std::filesystem::status(path, error);
-  if (error || !std::filesystem::exists(status)) refuse_missing(path + ": there is no such file");
-  if (!std::filesystem::is_regular_file(status)) refuse_missing(path + ": this is not a file");
+  if (!is_there(path)) refuse_missing(path + ": there is no such file");
+  if (!std::filesystem::is_regular_file(path, error)) refuse_missing(path + ": this is not a file");
   const std::uintmax_t size = std::filesystem::file_size(path, error);
   if (!error && size > largest_table)
     refuse(path, fmt::format("the table is too large: expected at most {} bytes", largest_table));

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
 #include <fmt/core.h>
 
 #include "core/errors.h"
+#include "core/paths.h"
 #include "core/text.h"
 #include "core/text_stream.h"
 #include "core/trigonometry.h"
@@ -63,7 +63,7 @@ std::string bookmarks_path(const std::string& run) {
 }
 
 std::vector<Bookmark> read_bookmarks(const std::string& path) {
-  if (!std::filesystem::exists(path)) return {};
+  if (!is_there(path)) return {};
   std::vector<Bookmark> bookmarks;
   std::istringstream lines = text_stream(read_text(path));
   std::string line;

@@ -39,5 +39,18 @@ TEST(VisibleWord, is_one_line_and_short) {
   EXPECT_EQ(visible_word("caf\xc3\xa9s", 4), "caf\\xc3\\xa9...") << "characters are counted, not bytes";
 }
 
+TEST(Utf8, has_a_replacement_for_each_byte_that_is_none) {
+  EXPECT_EQ(utf8("b\xc3\xb6\n\x1b"), "b\xc3\xb6\n\x1b");
+  EXPECT_EQ(utf8("b\xf6"
+                 "b\xe2\x84"),
+            "b\xef\xbf\xbd"
+            "b\xef\xbf\xbd\xef\xbf\xbd");
+}
+
+TEST(QuotedUtf8, escapes_what_a_terminal_obeys) {
+  EXPECT_EQ(quoted_utf8("a\"b\\ \xc3\xb6\n"), "\"a\\\"b\\\\ \xc3\xb6\\u000a\"");
+  EXPECT_EQ(quoted_utf8("\x1b \xc2\x9b \xe2\x80\xae \xf6"), "\"\\u001b \\u009b \\u202e \xef\xbf\xbd\"");
+}
+
 }  // namespace
 }  // namespace talus
