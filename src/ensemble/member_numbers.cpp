@@ -9,9 +9,9 @@
 #include <variant>
 
 #include "analysis/quantities.h"
-#include "core/paths.h"
 #include "core/errors.h"
 #include "core/hash.h"
+#include "core/paths.h"
 #include "core/snapshot.h"
 #include "core/text_stream.h"
 #include "core/trigonometry.h"

@@ -114,8 +114,7 @@ TEST(Avalanche, relaxes_its_surface_between_walls) {
   advance_to_end(session);
   EXPECT_EQ(session.world().tilt, tilt);
   ASSERT_TRUE(session.angle_at_rest());
-  const double inclination =
-      surface_inclination(session.world().grains, session.world().boundary);
+  const double inclination = surface_inclination(session.world().grains, session.world().boundary);
   EXPECT_GT(inclination, 0.0) << "what flowed down lies higher there";
   EXPECT_EQ(*session.angle_at_rest(), tilt - inclination);
 }

@@ -1,8 +1,9 @@
 /// The analysis of a run as text, and as JSON: all that its table has, under the names of the table.
 
+#include "app/analysis_report.h"
+
 #include <gtest/gtest.h>
 
-#include "app/analysis_report.h"
 #include "session/analysis_parameters.h"
 #include "support/blank_analysis.h"
 
