@@ -155,9 +155,8 @@ void drop_old_runs(const std::string& folder) {
 static void tell_withdrawn(const std::vector<Variant>& before, const std::vector<Variant>& now) {
   for (const Variant& variant : before)
     if (std::ranges::find(now, variant.name, &Variant::name) == now.end())
-      std::fprintf(stderr,
-                   "talus: note: %s is withdrawn from the ensemble: no member of it could be computed\n",
-                   variant.name.empty() ? "the scenario as it was" : visible(variant.name).c_str());
+      print_error("talus: note: %s is withdrawn from the ensemble: no member of it could be computed\n",
+                  variant.name.empty() ? "the scenario as it was" : variant.name.c_str());
 }
 
 void begin_ensemble(const std::string& folder, const EnsembleManifest& wanted,
