@@ -337,7 +337,7 @@ QuantityRows layer_rows() {
        "them; NaN where there are none",
        ""},
       {&FrameRecord::layer_critical_share_of_bound, "layers/critical_share_of_bound", "T Y", "1",
-       "nu of each layer over 2 - 3 N / M of the layer, its contacts M counted in the same way", ""},
+       "nu of each layer over the same bound of the layer, its contacts M counted in the same way", ""},
   };
 }
 
