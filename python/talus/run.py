@@ -14,10 +14,10 @@ from talus.checked_file import Identity
 from talus.checks import check_between, check_frame_values, check_series, check_statics, refuse
 from talus.errors import Error, MissingIndex, WrongType, WrongValue, check_text, short
 from talus.frame import Frame
+from talus.schema import ANALYSIS, DATA_SETS, SCHEMA
 from talus.storage import Storage, find_run, manifest_text
 from talus.table import Table
 from talus.units import Units, check_units, unit_in, values_in
-from talus.version import ANALYSIS, SCHEMA
 
 
 def last_rise(tilts: np.ndarray) -> tuple[int, int]:
@@ -267,12 +267,19 @@ class Run:
     @cached_property
     def observables(self) -> Table:
         """Series of the packing in short intervals of the tilt: "tilt", "sigma_t_over_n", "volume_strain", ..."""
-        return Table(self, "observables")
+        return self._series("observables")
 
     @cached_property
     def steps(self) -> Table:
         """What the solver did in each step: "iterations", "residual", ..."""
-        return Table(self, "steps")
+        return self._series("steps")
+
+    def _series(self, group: str) -> Table:
+        table = Table(self, group)
+        for name in DATA_SETS:
+            if self.storage.parts and name.startswith(group + "/") and name.rpartition("/")[2] not in table:
+                raise refuse(self.path, name, "is missing")
+        return table
 
     @cached_property
     def analysis(self) -> Table:

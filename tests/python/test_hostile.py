@@ -131,6 +131,8 @@ def test_nothing_outside_of_the_file_is_read(packed, secret, tmp_path, name):
     (replaced("contacts/pair", shape=(HUGE, 2), chunks=(1, 2)), "larger than the file can hold"),
     (replaced("parameters/scenario_resolved", dtype=h5py.string_dtype()), "is not of the type text"),
     (replaced("frames/tilt", dtype=[("x", "f8")]), "is not of the type float64"),
+    (lambda file: file.move("observables", "observed"), "observables/step is missing"),
+    (lambda file: file.__delitem__("steps/phase"), "steps/phase is missing"),
     (with_values("contacts/offset", lambda v: np.put(v, 2, v[4])), "does not ascend"),
     (with_values("contacts/offset", lambda v: np.put(v, 5, 10**9)), "does not ascend within"),
     (with_values("contacts/offset", lambda v: np.put(v, 1, -5)), "does not ascend"),

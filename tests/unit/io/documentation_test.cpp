@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <fmt/core.h>
 #include <fstream>
 #include <sstream>
 
@@ -33,14 +34,18 @@ constexpr const char* schema_for_python =
     R"("""Every data set of a run file and of its analysis. The test FileFormat of unit_io makes this table from that of the
 program, compares them, and says where a new one is."""
 
+#: Versions of the tables in docs/file_format.md and docs/analysis.md.
+SCHEMA = {}
+ANALYSIS = {}
+
 #: Type, shape and unit by the path without its first slash; `*` stands for names that the run chooses. Letters of a
 #: shape are sizes (docs/file_format.md).
-DATA_SETS = {
+DATA_SETS = {{
 )";
 
 TEST(FileFormat, is_what_the_python_package_checks) {
   std::ostringstream table;
-  table << schema_for_python;
+  table << fmt::format(schema_for_python, run_schema_version, analysis_version);
   for (const std::vector<DataSetField>& schema : {run_schema(), analysis_schema()})
     for (const DataSetField& field : schema)
       table << "    \"" << field.path.substr(1) << "\": (\"" << type_name(field.type) << "\", \""
