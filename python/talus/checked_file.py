@@ -3,7 +3,6 @@ data sets of the table of run files are read, which lie in the file itself and a
 
 import os
 import stat
-import time
 from math import prod
 from pathlib import Path
 from typing import Any, BinaryIO
@@ -107,14 +106,17 @@ def check_stored(path: Path, size: int, expected: str) -> Identity:
     return identity
 
 
-def open_unlocked(path: Path) -> h5py.File:
-    """The file, once its writer has let go of it: it keeps its lock for an instant after the file has its name."""
-    for _ in range(100):
-        try:
-            return h5py.File(path, "r")
-        except BlockingIOError:
-            time.sleep(0.05)
-    return h5py.File(path, "r")
+def open_unlocked(path: Path) -> tuple[h5py.File, Identity]:
+    """The file and its identity. HDF5 asks for no lock: a file that has its name is whole, and not every file system has
+    locks. Where the environment asks for locks all the same, or h5py is too old to do without, Python opens it."""
+    try:
+        if os.environ.get("HDF5_USE_FILE_LOCKING", "FALSE").upper() in ("FALSE", "0"):
+            file = h5py.File(path, "r", locking=False)
+            return file, identity_of(file.id.get_vfd_handle())
+    except (TypeError, ValueError):  # of an h5py before 3.5, or an HDF5 before 1.10.7
+        pass
+    stream = open_regular(path)
+    return h5py.File(stream, "r"), identity_of(stream.fileno())
 
 
 def field_of(name: str) -> tuple[str, str, str] | None:
@@ -136,11 +138,11 @@ class CheckedFile:
     def __init__(self, path: Path, identity: Identity, sizes: dict[str, int]) -> None:
         """`identity`: that of the file whose bytes were checked. `sizes`: what is known of the letters of shapes."""
         self.path = path
-        self._file = open_unlocked(path)
+        self._file, opened = open_unlocked(path)
         self._size = identity[2]
         self._sizes = {"": dict(sizes), "analysis": {"N": sizes["N"]} if "N" in sizes else {}}
         self._sets: dict[str, h5py.h5d.DatasetID] = {}
-        if identity_of(self._file.id.get_vfd_handle()) != identity:
+        if opened != identity:
             self.close()
             raise Error(f"{path}: has changed since it was opened; open it again")
 

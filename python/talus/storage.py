@@ -192,8 +192,6 @@ def told_as_damage(path: Path) -> Iterator[None]:
     except FileNotFoundError:
         raise Error(f"{path}: is not there any more: the run has gone on, or is complete, since it was opened; "
                     "open it again") from None
-    except BlockingIOError:
-        raise Error(f"{path}: another process writes to it; open it when that has ended") from None
     except PermissionError as error:
         raise Error(f"{path}: cannot be opened: {error.strerror}") from None
     except MemoryError:
