@@ -96,7 +96,7 @@ class Frame:
         """The contacts that carry force."""
         read = {name: self.run.read_frame(f"contacts/{name}", self.index)
                 for name in ("pair", "shift", "normal", "point", "force", "status")}
-        if len(read["pair"]) and self.run.storage.has("contacts/moment"):
+        if len(read["pair"]) and self.run.resists_rolling:
             read["moment"] = self.run.read_frame("contacts/moment", self.index)
         a, b = read["pair"].T
         between_grains = b < len(self.position)

@@ -208,6 +208,11 @@ class Run:
         return "last_tilt_step" in self.storage.names("checkpoint/integers")
 
     @cached_property
+    def resists_rolling(self) -> bool:
+        """Whether contacts have moments."""
+        return self.storage.has("contacts/moment")
+
+    @cached_property
     def planes(self) -> int:
         """How many planes (floor, walls) there are; without the last state of the run, as many as there can be."""
         name = "checkpoint/plane_offset"
@@ -247,7 +252,6 @@ class Run:
         if not name.startswith("contacts/") and not name.endswith("/value"):
             raise Error(f"{self.path}: {name} is no data set by frame")
         k = self.frame_index(k)
-        self.storage.check(name)
         values = self.storage.read_frame(name, k)
         check_frame_values(self, name, values)
         return np.asarray(self._converted(name, values))

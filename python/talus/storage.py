@@ -105,6 +105,8 @@ class Storage:
 
     def read_frame(self, name: str, k: int) -> np.ndarray:
         """What a data set holds of frame k: a row of it, or the contacts of the frame. 0 <= k < sum(frames)."""
+        if field_of(name) is None:
+            raise Error(f"{self.place}: has no data set {name}")
         part = 0
         while k >= self.frames[part]:
             k -= self.frames[part]
