@@ -78,7 +78,11 @@ void renew(AveragesOnTheWay& averages, const std::string& folder) {
       count_of(look_at_members(plan_of(read_ensemble(folder), folder)), MemberStage::done);
   if (done == averages.members) return;
   averages.members = done;
-  write_averages(folder);
+  try {
+    write_averages(folder);
+  } catch (const Error&) {
+    return;  // a table that is refused stops no member under way: it is reported at the end
+  }
   averages.made = std::chrono::steady_clock::now();
   averages.interval =
       std::max<std::chrono::steady_clock::duration>(std::chrono::minutes(1), 20 * (averages.made - now));

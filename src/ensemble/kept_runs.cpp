@@ -10,9 +10,10 @@
 #include "core/visible_text.h"
 #include "ensemble/member_lists.h"
 #include "ensemble/member_series.h"
-#include "ensemble/pool.h"
 #include "io/durable_file.h"
+#include "io/run_file.h"
 #include "io/run_store.h"
+#include "session/run_header.h"
 
 namespace talus {
 namespace {
@@ -30,10 +31,11 @@ std::optional<std::size_t> number_kept(const std::string& keep) {
                           visible_word(keep)));
 }
 
-/// Whether the run at the place of a member is complete and its own: no other is removed.
-bool has_own_run(const Member& member) {
+/// Whether the run at the place of a member is that of another scenario or seed, which is not removed. A
+/// damaged one does not tell.
+bool has_run_of_another(const Member& member) {
   try {
-    return is_complete(member);
+    return stored_scenario(RunFile::open(member.path).header(), member.path) != member.scenario;
   } catch (const Error&) {
     return false;
   }
@@ -72,7 +74,7 @@ std::size_t drop_runs(const EnsembleManifest& manifest, const EnsemblePlan& plan
     if (states[m].stage != MemberStage::done || !states[m].has_run || keeps_run(manifest, member.seed))
       continue;
     if (!is_there(series_path(member.path)) || !is_there(lists_path(member.path))) continue;
-    if (!has_own_run(member)) continue;
+    if (has_run_of_another(member)) continue;
     drop_run(member);
     ++dropped;
   }

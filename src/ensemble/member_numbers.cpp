@@ -128,7 +128,7 @@ MemberNumbers read_numbers(const Member& member) {
 void require_own_file(const Member& member, const MemberNumbers& numbers, const std::string& ending) {
   const std::optional<std::string> hash = find_value(numbers.files, ending);
   const std::string path = file_beside(member.path, ending.c_str());
-  if (!hash || *hash == hash_of_file(path)) return;
+  if (!hash || !std::filesystem::exists(path) || *hash == hash_of_file(path)) return;
   const std::string table = numbers_path(member.path);
   throw Error(
       ExitCode::bad_data,
@@ -148,7 +148,12 @@ std::vector<std::string> numbers_of_run() {
 
 bool is_number_of_run(const std::string& name) {
   const std::vector<std::string> names = numbers_of_run();
-  return std::ranges::find(names, name.substr(0, name.find('['))) != names.end();
+  const std::size_t bracket = std::min(name.find('['), name.size());
+  const std::string element = name.substr(bracket);  // "[1]"
+  const std::size_t digits = element.find_first_not_of("0123456789", 1);
+  const bool is_element =
+      element.empty() || (digits != std::string::npos && digits > 1 && element.substr(digits) == "]");
+  return is_element && std::ranges::find(names, name.substr(0, bracket)) != names.end();
 }
 
 std::string numbers_csv(const MemberNumbers& numbers) {
