@@ -128,7 +128,7 @@ MemberNumbers read_numbers(const Member& member) {
 void require_own_file(const Member& member, const MemberNumbers& numbers, const std::string& ending) {
   const std::optional<std::string> hash = find_value(numbers.files, ending);
   const std::string path = file_beside(member.path, ending.c_str());
-  if (!hash || !std::filesystem::exists(path) || *hash == hash_of_file(path)) return;
+  if (!hash || !is_there(path) || *hash == hash_of_file(path)) return;
   const std::string table = numbers_path(member.path);
   throw Error(
       ExitCode::bad_data,
