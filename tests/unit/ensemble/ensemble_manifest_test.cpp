@@ -226,8 +226,14 @@ TEST_F(EnsembleManifestTest, has_short_names_that_differ_whatever_the_values_are
   EXPECT_TRUE(sweep[1].full_name.ends_with("solver.allowed_overlap=0.0002")) << sweep[1].full_name;
   EXPECT_EQ(test::exit_code_of(
                 [&] { plan_variants(scenario, {"deposition.method=file"}, {"deposition.file=a\xff.csv"}); }),
-            ExitCode::usage)
+            ExitCode::bad_data)
       << "no scenario file can hold it";
+  EXPECT_EQ(test::exit_code_of([&] {
+              plan_variants(scenario, {"deposition.method=file"},
+                            {"deposition.file=" + std::string(4095, 'a')});
+            }),
+            ExitCode::usage)
+      << "nor this one, as an absolute path";
   EXPECT_EQ(
       test::exit_code_of([&] { plan_variants(scenario, {}, std::vector<std::string>(14, "seed=1,2")); }),
       ExitCode::usage)
