@@ -3,7 +3,6 @@
 #include <filesystem>
 
 #include "app/perturbed_run.h"
-#include "core/descriptor.h"
 #include "core/locked_file.h"
 #include "core/paths.h"
 #include "ensemble/averages_file.h"
@@ -80,12 +79,12 @@ MemberNumbers write_numbers(const Member& member, const AnalysedRun& analysed) {
 
 EnsembleView write_averages(const std::string& folder) {
   const std::filesystem::path place = folder;
-  const std::string lock_path = (place / "averages.lock").string();
   read_ensemble(folder);  // before a file is made in what may be no ensemble
-  const Descriptor lock = create_locked_when_free(lock_path);
-  EnsembleView view = view_of_ensemble(folder);
-  if (count_of(view.states, MemberStage::done) > 0) write_files(place, view);
-  remove_file(lock_path);
+  EnsembleView view;
+  while_locked((place / "averages.lock").string(), [&] {
+    view = view_of_ensemble(folder);
+    if (count_of(view.states, MemberStage::done) > 0) write_files(place, view);
+  });
   return view;
 }
 

@@ -5,10 +5,12 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <chrono>
 #include <filesystem>
 #include <fmt/core.h>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -29,11 +31,24 @@ constexpr int attempts = 100;
                   path, attempts));
 }
 
-/// False if others hold the file in a way that does not allow this lock.
+/// The error of the first lock that the file system refused.
+std::atomic<int>& lock_problem() {
+  static std::atomic<int> error = 0;
+  return error;
+}
+
+/// False if others hold the file in a way that does not allow this lock. Where the file system refuses it for
+/// any other reason than a disk that is full or fails, it has no locks, and the file is used without one.
 bool lock(const Descriptor& file, int operation, const std::string& path) {
   while (::flock(file.get(), operation) != 0) {
     if (errno == EWOULDBLOCK) return false;
-    if (errno != EINTR) throw creation_error("lock", path, errno);
+    if (errno == EINTR) continue;
+    const int error = errno;
+    const Error refused = creation_error("lock", path, error);
+    if (refused.code() == ExitCode::io_error) throw Error(refused);
+    int none = 0;
+    lock_problem().compare_exchange_strong(none, error);
+    return true;
   }
   return true;
 }
@@ -72,6 +87,18 @@ bool is_named(const std::string& path, const Descriptor& file) {
          opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
 }
 
+std::optional<bool> is_locked(const std::string& path) {
+  const Descriptor file = open_found(path, O_RDONLY);
+  if (file.get() < 0 || ::flock(file.get(), LOCK_SH | LOCK_NB) == 0) return false;
+  if (errno == EWOULDBLOCK) return true;
+  return std::nullopt;
+}
+
+std::string take_lock_problem() {
+  const int error = lock_problem().exchange(0);
+  return error == 0 ? "" : std::generic_category().message(error);
+}
+
 std::optional<Descriptor> create_locked(const std::string& path) {
   for (int attempt = 0; attempt < attempts; ++attempt) {
     Descriptor made(::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
@@ -92,11 +119,19 @@ std::optional<Descriptor> create_locked(const std::string& path) {
   give_up(path);
 }
 
-Descriptor create_locked_when_free(const std::string& path) {
-  for (;;) {
-    if (std::optional<Descriptor> file = create_locked(path)) return std::move(*file);
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+void while_locked(const std::string& path, const std::function<void()>& work) {
+  std::optional<Descriptor> file;
+  while (!(file = create_locked(path))) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  const auto remove = [&] {
+    if (is_named(path, *file)) ::unlink(path.c_str());
+  };
+  try {
+    work();
+  } catch (...) {
+    remove();
+    throw;
   }
+  remove();
 }
 
 std::optional<Descriptor> create_locked_folder(const std::string& path) {

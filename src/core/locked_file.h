@@ -1,6 +1,7 @@
 #pragma once
 /// Files and folders that only one process writes at a time.
 
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -14,10 +15,15 @@ namespace talus {
 /// clear_leftovers (core/leftovers.h) is about to remove, which is waited for. No value if another process
 /// holds the file; throws creation_error if it cannot be created, and Error(cannot_create) where a link, a
 /// folder or a device has the name, which stays.
+///
+/// Some file systems have no locks (NFS without lockd, Lustre without flock), and on some the locks of other
+/// machines are not seen. There a file that is found is taken from whoever made it, who finds out by
+/// is_named.
 std::optional<Descriptor> create_locked(const std::string& path);
 
-/// The same, once no other process holds it.
-Descriptor create_locked_when_free(const std::string& path);
+/// Does the work while this process holds such a file, which others who call this with the same path wait
+/// for. The file is removed at the end, also if the work throws.
+void while_locked(const std::string& path, const std::function<void()>& work);
 
 /// The same of an empty folder, which is open for reading. One that was left is removed with all that is in
 /// it.
@@ -25,5 +31,13 @@ std::optional<Descriptor> create_locked_folder(const std::string& path);
 
 /// Whether `path` names the open file rather than another one, a link, or none.
 bool is_named(const std::string& path, const Descriptor& file);
+
+/// Whether a process holds the lock of a file; false if there is no such file. No value if the file system
+/// does not tell, since it has no locks.
+std::optional<bool> is_locked(const std::string& path);
+
+/// Why a file could not be locked that this process has written all the same; empty if there was none since
+/// the last call. Files are locked at any depth, and only commands print.
+std::string take_lock_problem();
 
 }  // namespace talus

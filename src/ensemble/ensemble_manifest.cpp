@@ -359,11 +359,9 @@ void hash_beds(std::vector<Variant>& variants, const std::string& folder) {
   }
 }
 
-EnsembleManifest extend_ensemble(const std::string& folder, const EnsembleManifest& wanted) {
-  const std::string lock_path = manifest_path(folder) + ".lock";
-  prepare_folder(folder);
-  // Only one process at a time extends an ensemble; the others wait.
-  const Descriptor lock = create_locked_when_free(lock_path);
+namespace {
+
+EnsembleManifest extend_locked(const std::string& folder, const EnsembleManifest& wanted) {
   EnsembleManifest all = wanted;
   all.version = version_text();
   all.variants.clear();
@@ -394,7 +392,16 @@ EnsembleManifest extend_ensemble(const std::string& folder, const EnsembleManife
   for (const Member& member : plan_ensemble({all.seeds.front()}, all.variants, folder).members)
     prepare_folder_of(member.path);
   if (const std::string text = text_of(all); text != before) write_text(manifest_path(folder), text);
-  remove_file(lock_path);
+  return all;
+}
+
+}  // namespace
+
+EnsembleManifest extend_ensemble(const std::string& folder, const EnsembleManifest& wanted) {
+  prepare_folder(folder);
+  EnsembleManifest all;
+  // Only one process at a time extends an ensemble; the others wait.
+  while_locked(manifest_path(folder) + ".lock", [&] { all = extend_locked(folder, wanted); });
   return all;
 }
 

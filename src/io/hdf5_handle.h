@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdlib>
 #include <fmt/core.h>
 #include <iterator>
 #include <new>
@@ -52,8 +53,12 @@ struct DataSet {
 
 /// Keeps HDF5 from printing errors, which we report ourselves, from loading plugins into this process, and
 /// from tidying up when the process ends: there is nothing left to write then, and after an error it can
-/// crash.
+/// crash. Nor does it lock files: what it reads has been written whole before, and a file system without
+/// locks would let it read nothing. The environment overrules what a program asks of the library, so that is
+/// what is set, once, before the library looks.
 inline void set_library_policy() {
+  static const int without_locks = ::setenv("HDF5_USE_FILE_LOCKING", "FALSE", 1);
+  if (without_locks != 0) throw std::bad_alloc();
   errno = 0;
   H5dont_atexit();
   if (H5open() < 0 || errno == ENOMEM) throw std::bad_alloc();  // it can begin, and lack a part

@@ -1,13 +1,17 @@
 #include "io/run_store.h"
 
+#include <sys/random.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
+#include <cerrno>
 #include <chrono>
 #include <filesystem>
 #include <fmt/core.h>
 #include <string_view>
 #include <system_error>
+#include <thread>
 
 #include "core/errors.h"
 #include "core/paths.h"
@@ -26,8 +30,20 @@ std::string in(const std::string& folder, const std::string& name) {
   return (fs::path(folder) / name).string();
 }
 
-std::string serial_name(const char* kind, std::uint64_t serial) {
-  return fmt::format("{}{:06}.h5", kind, serial);
+/// What the names of a writer's files end with: eight letters that no other writer has, so that two who both
+/// take themselves for the only one never write to one file.
+std::string mark_of_writer() {
+  std::array<unsigned char, 8> bytes{};
+  if (::getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size()))
+    throw system_error(ExitCode::io_error, "get random bytes for", "the names of files", errno);
+  std::string mark = "-";
+  for (const unsigned char byte : bytes) mark += static_cast<char>('a' + byte % 26);
+  return mark;
+}
+
+bool is_mark(std::string_view text) {
+  return text.size() == 9 && text[0] == '-' &&
+         std::ranges::all_of(text.substr(1), [](char c) { return c >= 'a' && c <= 'z'; });
 }
 
 std::uint64_t serial_of(const StoredFile& checkpoint) {
@@ -35,19 +51,37 @@ std::uint64_t serial_of(const StoredFile& checkpoint) {
   return digit == std::string::npos ? 0 : std::stoull(checkpoint.name.substr(digit));
 }
 
-bool is_serial_name(std::string_view name, std::string_view kind) {
+/// "segment_000001-abcdefgh.h5"; without a mark in folders of earlier versions.
+bool is_serial_name(std::string_view name) {
   constexpr std::string_view ending = ".h5";
-  if (!name.starts_with(kind) || !name.ends_with(ending) || name.size() < kind.size() + ending.size() + 6)
-    return false;
-  const auto digits = name.substr(kind.size(), name.size() - kind.size() - ending.size());
-  return std::ranges::all_of(digits, [](char c) { return c >= '0' && c <= '9'; });
+  if (!name.ends_with(ending)) return false;
+  name.remove_suffix(ending.size());
+  for (const std::string_view kind : {"header_", "segment_", "checkpoint_"}) {
+    if (!name.starts_with(kind)) continue;
+    std::string_view digits = name.substr(kind.size());
+    if (const std::size_t end = digits.find('-'); end != std::string_view::npos) {
+      if (!is_mark(digits.substr(end))) return false;
+      digits = digits.substr(0, end);
+    }
+    return digits.size() >= 6 && digits.size() <= 16 &&
+           std::ranges::all_of(digits, [](char c) { return c >= '0' && c <= '9'; });
+  }
+  return false;
 }
+
+/// What is written under a temporary name before it takes that of the manifest or of the packed file.
+constexpr std::string_view made_manifest = "manifest", made_packed = "packed";
+
+bool is_temporary(std::string_view name) { return name.ends_with(temporary_ending); }
 
 /// Whether a file of this name is the store's own: no other is ever removed.
 bool is_own(std::string_view name) {
-  if (name.ends_with(temporary_ending)) name.remove_suffix(std::string_view(temporary_ending).size());
-  return name == Manifest::header_name || name == Manifest::file_name || is_serial_name(name, "header_") ||
-         is_serial_name(name, "segment_") || is_serial_name(name, "checkpoint_");
+  if (is_temporary(name)) {
+    name.remove_suffix(std::string_view(temporary_ending).size());
+    for (const std::string_view made : {made_manifest, made_packed})
+      if (name.starts_with(made) && is_mark(name.substr(made.size()))) return true;
+  }
+  return name == Manifest::header_name || name == Manifest::file_name || is_serial_name(name);
 }
 
 bool is_named(const Manifest& manifest, const std::string& name) {
@@ -55,23 +89,57 @@ bool is_named(const Manifest& manifest, const std::string& name) {
          std::ranges::any_of(files_of(manifest), [&](const StoredFile& file) { return file.name == name; });
 }
 
-/// Removes what a kill left behind: own files that the manifest does not name.
-void remove_leftovers(const std::string& folder, const Manifest& manifest) {
-  std::vector<std::string> leftovers;
-  for (const std::string& name : names_in(folder))
-    if (is_own(name) && !is_named(manifest, name)) leftovers.push_back(name);
-  for (const std::string& name : leftovers) remove_file(in(folder, name));
+/// Own files of the folder that `is_wanted` does not hold for.
+std::vector<std::string> own_files(const std::string& folder,
+                                   const std::function<bool(const std::string&)>& is_wanted) {
+  std::error_code unknown;
+  std::vector<std::string> names = names_in(folder, unknown);
+  std::erase_if(names, [&](const std::string& name) { return !is_own(name) || !is_wanted(name); });
+  return names;
 }
 
-/// Removes the folder of a packed run, the lock last. What cannot be removed stays and does no harm; so does
-/// a folder where somebody keeps other files.
-void remove_folder(const std::string& folder) {
-  ::unlink(in(folder, Manifest::file_name).c_str());
+/// Removes own files of the folder. A writer that has taken the run over after the lock was asked for has
+/// names of its own, which are not among these.
+void remove_own(const std::string& folder, const WriterLock& lock,
+                const std::function<bool(const std::string&)>& is_wanted) {
+  const std::vector<std::string> names = own_files(folder, is_wanted);
+  lock.require();
+  for (const std::string& name : names) remove_file(in(folder, name));
+}
+
+/// Takes the run from a writer that has lost its lock without knowing it: of two renames that both want to
+/// be a commit, only that of the last writer finds its file (publish). To be done before anything is read.
+void shut_out_others(const std::string& folder, const WriterLock& lock) {
+  remove_own(folder, lock, is_temporary);
+}
+
+/// What a kill left behind: own files that the manifest does not name.
+void remove_leftovers(const std::string& folder, const WriterLock& lock, const Manifest& manifest) {
+  remove_own(folder, lock, [&](const std::string& name) { return !is_named(manifest, name); });
+}
+
+/// A file system that keeps a file which is open, when it is removed, does so until it is closed (NFS), or
+/// until its server has heard of that (FUSE).
+bool is_kept_until_closed(const std::string& folder) {
   std::error_code unknown;
   for (const std::string& name : names_in(folder, unknown))
-    if (is_own(name)) ::unlink(in(folder, name).c_str());
-  ::unlink(in(folder, WriterLock::file_name).c_str());
-  ::rmdir(folder.c_str());
+    if (!name.starts_with(".nfs") && !name.starts_with(".fuse_hidden")) return false;
+  return !unknown;
+}
+
+/// Removes the folder of a run that is packed or has not begun, the lock last; nothing where another writer
+/// has taken it over. What cannot be removed stays and does no harm; so does a folder where somebody keeps
+/// other files.
+void remove_folder(const std::string& folder, WriterLock& lock) {
+  const std::vector<std::string> names = own_files(folder, [](const std::string&) { return true; });
+  if (!lock.is_held()) return;
+  ::unlink(in(folder, Manifest::file_name).c_str());
+  for (const std::string& name : names) ::unlink(in(folder, name).c_str());
+  lock.remove();
+  for (int attempt = 0; attempt < 100 && ::rmdir(folder.c_str()) != 0; ++attempt) {
+    if (!is_kept_until_closed(folder)) return;
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
 }
 
 StoredFile store(const std::string& folder, const std::string& name, std::span<const std::byte> bytes) {
@@ -94,6 +162,22 @@ std::vector<std::byte> checkpoint_bytes(const Checkpoint& checkpoint) {
   return writer.image();
 }
 
+std::vector<std::byte> segment_bytes(const Segment& segment, const StoredSegment& sizes, std::size_t grains) {
+  // Half of the time of a commit would go into compression, for a file that the packed one soon replaces.
+  hdf5::Writer writer({{'T', sizes.frames},
+                       {'N', grains},
+                       {'M', sizes.contacts},
+                       {'R', sizes.observables},
+                       {'S', sizes.steps},
+                       {'K', segment.commands.size()}},
+                      0, hdf5::Storage::as_it_is);
+  write_frames(writer, [&segment](std::size_t k) { return segment.frames[k]; });
+  write_observables(writer, segment.observables);
+  write_steps(writer, segment.steps);
+  write_commands(writer, segment.commands);
+  return writer.image();
+}
+
 StoredSegment store_segment(const std::string& folder, const std::string& name, const Segment& segment,
                             std::size_t grains) {
   StoredSegment stored;
@@ -101,25 +185,8 @@ StoredSegment store_segment(const std::string& folder, const std::string& name, 
   stored.observables = segment.observables.size();
   stored.steps = segment.steps.size();
   for (const Frame& frame : segment.frames) stored.contacts += frame.contacts.a.size();
-  // Half of the time of a commit would go into compression, for a file that the packed one soon replaces.
-  hdf5::Writer writer({{'T', stored.frames},
-                       {'N', grains},
-                       {'M', stored.contacts},
-                       {'R', stored.observables},
-                       {'S', stored.steps},
-                       {'K', segment.commands.size()}},
-                      0, hdf5::Storage::as_it_is);
-  write_frames(writer, [&segment](std::size_t k) { return segment.frames[k]; });
-  write_observables(writer, segment.observables);
-  write_steps(writer, segment.steps);
-  write_commands(writer, segment.commands);
-  stored.file = store(folder, name, writer.image());
+  stored.file = store(folder, name, segment_bytes(segment, stored, grains));
   return stored;
-}
-
-void store_manifest(const std::string& folder, const Manifest& manifest) {
-  const std::string text = manifest_text(manifest);
-  store(folder, Manifest::file_name, std::as_bytes(std::span(text)));
 }
 
 bool is_empty(const Segment& segment) {
@@ -138,10 +205,8 @@ void refuse_existing(const std::string& path, bool overwrite) {
 /// The first serial number that no file of the folder has.
 std::uint64_t next_serial(const std::string& folder) {
   std::uint64_t serial = 0;
-  for (const std::string& name : names_in(folder))
-    if (is_serial_name(name, "header_") || is_serial_name(name, "segment_") ||
-        is_serial_name(name, "checkpoint_"))
-      serial = std::max(serial, serial_of({name, 0, 0}));
+  for (const std::string& name : own_files(folder, is_serial_name))
+    serial = std::max(serial, serial_of({name, 0, 0}));
   return serial + 1;
 }
 
@@ -150,11 +215,26 @@ std::uint64_t next_serial(const std::string& folder) {
 struct RunStore::State {
   /// Takes the lock of the folder, which must exist.
   explicit State(const std::string& run) : path(run), folder(run_folder(run)), lock(folder) {}
+  /// Of a run that has not begun nothing is left.
+  ~State() {
+    const bool has_begun = !manifest.checkpoint.name.empty() ||
+                           ::access(in(folder, Manifest::file_name).c_str(), F_OK) == 0 || errno != ENOENT;
+    if (!has_begun) remove_folder(folder, lock);
+  }
+  State(const State&) = delete;
+  State& operator=(const State&) = delete;
+
+  std::string name_of_next(const char* kind) const { return fmt::format("{}{:06}{}.h5", kind, serial, mark); }
+  void publish(std::string_view made, std::span<const std::byte> bytes, const std::string& target,
+               const CheckFile& check = {}) const;
+  void publish(const Manifest& next) const;
 
   std::string path;
   std::string folder;
   WriterLock lock;
+  std::string mark = mark_of_writer();
   Manifest manifest;
+  std::vector<std::string> replaced;  ///< names of files of a run that this one replaces in its folder
   std::size_t grains = 0;
   std::vector<std::byte> header;  ///< of a run that has not begun: written with its first commit
   /// Of the next commit. A commit that failed may have left its files, or even its manifest: no name is used
@@ -162,6 +242,25 @@ struct RunStore::State {
   std::uint64_t serial = 1;
   double seconds_writing = 0.0;
 };
+
+/// Gives bytes a name, in one instant in which the run is this writer's. It can lose the run at any moment,
+/// and be stopped before any line; but whoever takes the run over removes the file that is renamed here
+/// before anything else (shut_out_others), so that the rename comes either before that, and counts, or never.
+void RunStore::State::publish(std::string_view made, std::span<const std::byte> bytes,
+                              const std::string& target, const CheckFile& check) const {
+  OutputFile file(in(folder, fmt::format("{}{}", made, mark)));
+  file.write(bytes);
+  file.flush();
+  if (check) check(file.temporary_path());
+  lock.require();
+  give_name(file.temporary_path(), target);
+  sync_name(target);
+}
+
+void RunStore::State::publish(const Manifest& next) const {
+  const std::string text = manifest_text(next);
+  publish(made_manifest, std::as_bytes(std::span(text)), in(folder, Manifest::file_name));
+}
 
 RunStore::RunStore(std::unique_ptr<State> state) : state_(std::move(state)) {}
 RunStore::RunStore(RunStore&&) noexcept = default;
@@ -172,18 +271,26 @@ RunStore RunStore::create(const std::string& path, const RunHeader& header, bool
   refuse_existing(path, overwrite);
   const std::string folder = run_folder(path);
   make_folder(folder);
-  auto state = std::make_unique<State>(path);
+  std::unique_ptr<State> state;
+  try {
+    state = std::make_unique<State>(path);
+  } catch (const Error&) {
+    ::rmdir(folder.c_str());  // if there is nothing in it
+    throw;
+  }
   refuse_existing(path, overwrite);  // again, now that nobody else can change it
   std::error_code unknown;
-  if (!fs::exists(in(folder, Manifest::file_name), unknown)) remove_leftovers(folder, {});
+  shut_out_others(folder, state->lock);
+  if (!fs::exists(in(folder, Manifest::file_name), unknown)) remove_leftovers(folder, state->lock, {});
+  state->replaced = own_files(folder, is_serial_name);
+  if (fs::exists(in(folder, Manifest::header_name), unknown))
+    state->replaced.emplace_back(Manifest::header_name);
   state->manifest.replaces = fs::is_regular_file(path, unknown);
   state->header = header_bytes(header);
   state->grains = header.statics.radius.size();
   state->serial = next_serial(folder);
   // No name of a run that is there is used: it is whole until the one manifest takes the place of the other.
-  const bool is_free = !fs::exists(in(folder, Manifest::header_name), unknown);
-  state->manifest.header =
-      describe(is_free ? Manifest::header_name : serial_name("header_", state->serial), state->header);
+  state->manifest.header = describe(state->name_of_next("header_"), state->header);
   return RunStore(std::move(state));
 }
 
@@ -194,40 +301,49 @@ RunStore RunStore::resume(const std::string& path, RunHeader& header, Checkpoint
   auto state = std::make_unique<State>(path);
   if (run_presence(path) != RunPresence::folder)
     throw Error(ExitCode::cannot_create, path + " was being written by another process until this moment");
-  state->manifest = read_manifest(folder);
-  state->manifest.packed_seal = 0;  // it is packed again
-  state->serial = serial_of(state->manifest.checkpoint) + 1;
-  const RunFile run =
-      RunFile::open(folder);  // reads every file, so that damage is found before computing goes on
-  header = run.header();
-  checkpoint = run.checkpoint();
+  shut_out_others(folder, state->lock);
+  try {
+    state->manifest = read_manifest(folder);
+    state->manifest.packed_seal = 0;  // it is packed again
+    state->serial = serial_of(state->manifest.checkpoint) + 1;
+    const RunFile run =
+        RunFile::open(folder);  // reads every file, so that damage is found before computing goes on
+    header = run.header();
+    checkpoint = run.checkpoint();
+  } catch (const Error&) {
+    state->lock.require();  // what another writer changes meanwhile is no damage
+    throw;
+  }
   state->grains = header.statics.radius.size();
-  remove_leftovers(folder, state->manifest);
+  remove_leftovers(folder, state->lock, state->manifest);
   return RunStore(std::move(state));
 }
 
-void RunStore::commit(const Segment& segment, const Checkpoint& checkpoint) {
+void RunStore::commit(const Segment& segment, const Checkpoint& checkpoint) try {
   const auto start = std::chrono::steady_clock::now();
-  state_->lock.require();
-  const std::uint64_t serial = state_->serial++;
-  Manifest next = state_->manifest;
-  if (!is_empty(segment))
-    next.segments.push_back(
-        store_segment(state_->folder, serial_name("segment_", serial), segment, state_->grains));
-  next.checkpoint = store(state_->folder, serial_name("checkpoint_", serial), checkpoint_bytes(checkpoint));
-  if (!state_->header.empty()) store(state_->folder, next.header.name, state_->header);
-  store_manifest(state_->folder, next);  // here the commit happens
-  state_->header = {};
-  std::swap(state_->manifest, next);
-  if (!next.checkpoint.name.empty())
-    ::unlink(in(state_->folder, next.checkpoint.name).c_str());  // or a leftover
-  else
-    remove_leftovers(state_->folder, state_->manifest);  // of a run that this one replaces
-  state_->seconds_writing += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  State& state = *state_;
+  const std::string& folder = state.folder;
+  state.lock.require();
+  Manifest next = state.manifest;
+  const std::string segment_name = state.name_of_next("segment_"),
+                    checkpoint_name = state.name_of_next("checkpoint_");
+  ++state.serial;
+  if (!is_empty(segment)) next.segments.push_back(store_segment(folder, segment_name, segment, state.grains));
+  next.checkpoint = store(folder, checkpoint_name, checkpoint_bytes(checkpoint));
+  if (!state.header.empty()) store(folder, next.header.name, state.header);
+  state.publish(next);  // here the commit happens
+  state.header = {};
+  std::swap(state.manifest, next);
+  if (!next.checkpoint.name.empty()) ::unlink(in(folder, next.checkpoint.name).c_str());  // or a leftover
+  for (const std::string& name : std::exchange(state.replaced, {})) ::unlink(in(folder, name).c_str());
+  state.seconds_writing += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+} catch (const Error&) {
+  state_->lock.require();  // where another writer has taken the run over, that is what a missing file means
+  throw;
 }
 
-bool RunStore::pack(const std::function<bool()>& goes_on) {
-  const std::string& folder = state_->folder;
+bool RunStore::pack(const std::function<bool()>& goes_on) try {
+  const std::string folder = state_->folder;
   state_->lock.require();
   const RunFile run = RunFile::open(folder);
   std::vector<std::byte> bytes = packed_bytes(content_of(run), goes_on);
@@ -237,17 +353,20 @@ bool RunStore::pack(const std::function<bool()>& goes_on) {
     // the manifest tells the two apart, before and after the rename alike.
     Manifest last = state_->manifest;
     last.packed_seal = seal_hash(bytes);
-    store_manifest(folder, last);
+    state_->publish(last);
   }
   // Until the file can be read, the folder is all there is of the run. Its bytes on the disk are those in
-  // memory, which HDF5 reads: it would not open a file that is locked.
-  write_durably(state_->path, bytes, [&](const std::string& packed) {
+  // memory, which HDF5 reads.
+  state_->publish(made_packed, bytes, state_->path, [&](const std::string& packed) {
     verify_seal(packed);
     RunFile::of_bytes(std::move(bytes), state_->path);
   });
-  remove_folder(folder);
+  remove_folder(folder, state_->lock);
   state_.reset();
   return true;
+} catch (const Error&) {
+  state_->lock.require();
+  throw;
 }
 
 double RunStore::seconds_writing() const { return state_->seconds_writing; }
@@ -256,8 +375,8 @@ void discard_folder(const std::string& path) {
   std::error_code unknown;
   const std::string folder = run_folder(path);
   if (!fs::is_regular_file(path, unknown) || !fs::is_directory(folder, unknown)) return;
-  const WriterLock lock(folder);
-  remove_folder(folder);
+  WriterLock lock(folder);
+  remove_folder(folder, lock);
 }
 
 std::string run_folder(const std::string& path) { return path + ".run"; }

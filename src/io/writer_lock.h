@@ -7,7 +7,9 @@
 
 namespace talus {
 
-/// Holds the lock of a run folder. It dies with its process, so a file `lock` left behind does no harm.
+/// Holds the lock of a run folder. It dies with its process, so a file `lock` left behind does no harm. Where
+/// locks do not reach from one writer to the other, the later one makes a `lock` of its own, and the earlier
+/// one finds out by `require`.
 class WriterLock {
  public:
   static constexpr const char* file_name = "lock";
@@ -20,13 +22,23 @@ class WriterLock {
   /// it, and another process may have made a new one.
   void require() const;
 
+  bool is_held() const;
+
+  /// Ends the lock, and removes its file first: others who find it free would take the run over. The file is
+  /// closed only then, and some file systems keep a file that is open, under another name, until it is.
+  void remove();
+
  private:
   std::string folder_;
   std::string path_;
   Descriptor file_;
 };
 
-/// Throws Error(cannot_create) where a process holds the lock of a folder, in which nothing is changed.
+/// The process that holds the lock of a folder, "process 12 on host a"; empty if none does, or if the file
+/// system does not tell. Nothing is changed.
+std::string writer_of(const std::string& folder);
+
+/// Throws Error(cannot_create) where there is one.
 void require_no_writer(const std::string& folder);
 
 }  // namespace talus

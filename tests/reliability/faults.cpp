@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <cstring>
 #include <string_view>
+#include <utility>
 
 namespace talus::faults {
 namespace {
@@ -33,6 +34,10 @@ bool is_next() {
 
 bool strike(const char* call, const char* path) {
   if (armed.kind == Kind::kill) _exit(killed);
+  if (armed.kind == Kind::visit) {
+    std::exchange(armed, {}).visit();
+    return false;
+  }
   if (first_struck[0] == '\0') std::snprintf(first_struck, sizeof first_struck, "%s %s", call, path);
   errno = armed.errno_value;
   return true;
@@ -60,6 +65,12 @@ void split_write(int file, const void* data, size_t size) {
 }
 
 }  // namespace
+
+bool has_no_locks() {
+  if (armed.kind != Kind::no_locks) return false;
+  errno = armed.errno_value;
+  return true;
+}
 
 void arm(const Fault& fault) {
   armed = fault;
@@ -102,7 +113,9 @@ ssize_t pwrite(int file, const void* data, size_t size, off_t at) {
 }
 int lock_file(int file, int operation) noexcept __asm__("flock");  // a struct has that name too
 int lock_file(int file, int operation) noexcept {
-  return strikes("flock") ? -1 : static_cast<int>(syscall(SYS_flock, file, operation));
+  return talus::faults::has_no_locks() || strikes("flock")
+             ? -1
+             : static_cast<int>(syscall(SYS_flock, file, operation));
 }
 int fsync(int file) { return strikes("fsync") ? -1 : static_cast<int>(syscall(SYS_fsync, file)); }
 int rename(const char* from, const char* to) noexcept {

@@ -5,13 +5,20 @@
 
 namespace talus::faults {
 
-enum class Kind { none, kill, error };
+enum class Kind {
+  none,
+  kill,
+  error,
+  visit,     ///< the call is made after others have come to the files
+  no_locks,  ///< not one call, but all that lock, in all processes
+};
 
 struct Fault {
   Kind kind = Kind::none;
   int call = 0;          ///< strikes call number `call`, from 1, of those that faults.cpp defines
   int errno_value = 0;   ///< of an error
   bool lasting = false;  ///< an error strikes all later calls too
+  void (*visit)() = nullptr;
 };
 
 /// The exit code of a process that was struck by Kind::kill.
@@ -26,6 +33,9 @@ int calls();
 
 /// The first call that was made to fail, with its path where it has one; empty where none was.
 const char* struck();
+
+/// Whether the file system has no locks, with errno set.
+bool has_no_locks();
 
 /// Counts a call; true where it must fail, with errno set.
 bool strikes(const char* call, const char* path = "");

@@ -357,12 +357,13 @@ TEST_F(Outputs, a_folder_is_repaired_on_a_full_disk_or_nothing_is_left) {
   fs::create_directory(path("d.h5.run"));
   const pid_t process = start_talus(
       {"run", "bed.toml", "-o", "d.h5", "--set", "tilt.end_angle=30", "--threads", "1"}, folder_.path());
-  for (int wait = 0; wait < 5000 && !fs::exists(path("d.h5.run/segment_000004.h5")) && !has_ended(process);
+  for (int wait = 0;
+       wait < 5000 && !fs::exists(path_beginning(path("d.h5.run"), "segment_000004")) && !has_ended(process);
        ++wait)
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   kill(process, SIGKILL);
   wait_for(process);
-  std::ofstream(path("d.h5.run/segment_000002.h5"), std::ios::app) << "?";
+  std::ofstream(path_beginning(path("d.h5.run"), "segment_000002"), std::ios::app) << "?";
   for (const int kib : sizes_about(100)) {
     SCOPED_TRACE(kib);
     const SmallDisk disk(folder_.path() / "disk", kib);

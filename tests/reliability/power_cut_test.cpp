@@ -78,7 +78,8 @@ int durable_frames(const std::string& folder) {
   for (const auto& entry : fs::directory_iterator(folder, gone))
     if (const std::string name = entry.path().filename().string(); name.starts_with("checkpoint_"))
       checkpoints.insert(name);
-  const bool others_were_removed = checkpoints.size() == 2 && *checkpoints.begin() != "checkpoint_000001.h5";
+  const bool others_were_removed =
+      checkpoints.size() == 2 && !checkpoints.begin()->starts_with("checkpoint_000001");
   return others_were_removed && *checkpoints.rbegin() == checkpoint ? frames : -1;
 }
 

@@ -3,6 +3,8 @@
 ///     TALUS_FAULT="kill 12"        the process ends in call number 12 of faults.cpp; a write is split
 ///     TALUS_FAULT="error 5 12"     that call fails with errno 5
 ///     TALUS_FAULT="lasting 28 12"  that call and all later ones fail with errno 28
+///     TALUS_FAULT="no-locks 37"    the file system has no locks: all that lock fail with errno 37, in
+///                                  children too
 ///     TALUS_FAULT="memory 12"      allocation number 12 fails
 ///     TALUS_FAULT="no-memory 12"   that allocation and all later ones fail
 ///     TALUS_FAULT="clock"          the clock of the day jumps by days at each look, the steady one by an
@@ -18,6 +20,7 @@
 
 #include <atomic>
 #include <cerrno>
+#include <cstdarg>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -57,6 +60,7 @@ __attribute__((constructor)) void arm_by_environment() {
   const int numbers = std::sscanf(text, "%15s %d %d", kind, &first, &second) - 1;
   Fault fault;
   if (std::strcmp(kind, "kill") == 0) fault = {Kind::kill, first, 0, false};
+  if (std::strcmp(kind, "no-locks") == 0) fault = {Kind::no_locks, 0, first};
   if (numbers == 2) fault = {Kind::error, second, first, std::strcmp(kind, "lasting") == 0};
   arm(fault);
   clock_jumps = std::strcmp(kind, "clock") == 0;
@@ -86,6 +90,17 @@ int open64(const char* path, int flags, ...) {
              ? -1
              : static_cast<int>(syscall(SYS_openat, AT_FDCWD, path, flags, 0666));
 }
+int fcntl(int file, int operation, ...) {
+  va_list arguments;
+  va_start(arguments, operation);
+  void* const argument = va_arg(arguments, void*);  // NOLINT(clang-analyzer-valist.Uninitialized): as above
+  va_end(arguments);
+  const bool locks =
+      operation == F_SETLK || operation == F_SETLKW || operation == F_OFD_SETLK || operation == F_OFD_SETLKW;
+  if (locks && talus::faults::has_no_locks()) return -1;
+  return static_cast<int>(syscall(SYS_fcntl, file, operation, argument));
+}
+int fcntl64(int file, int operation, ...) __attribute__((alias("fcntl")));
 ssize_t pread64(int file, void* data, size_t size, off_t at) {
   return talus::faults::strikes_reading("read") ? -1 : syscall(SYS_pread64, file, data, size, at);
 }

@@ -248,5 +248,153 @@ TEST_F(StoreFaults, one_error_at_every_call_and_a_second_attempt) {
   strike_every_call({.kind = faults::Kind::error, .errno_value = EIO}, true, {0});
 }
 
+/// A writer that is stopped at some call, and goes on when another has taken its run over: to whom its lock
+/// did not reach, as between machines.
+class TakenOver : public testing::Test {
+ protected:
+  TakenOver() { replaces_ = false; }
+
+  static bool is_complete() {
+    return run_presence(path_) == RunPresence::packed &&
+           RunFile::open(path_).header().seed == example::header().seed;
+  }
+
+  /// The successor commits once, and goes on when the other has woken.
+  static void take_over() {
+    visited_ = true;
+    if (is_complete()) return;
+    std::filesystem::remove(run_folder(path_) + "/lock");
+    RunHeader header;
+    Checkpoint checkpoint;
+    const bool is_begun = run_presence(path_) == RunPresence::folder;
+    successor_ = is_begun ? RunStore::resume(path_, header, checkpoint)
+                          : RunStore::create(path_, example::header(), true);
+    done_ = is_begun ? commits_at(checkpoint) : 0;
+    marked_ = 0;
+    commit_next();
+  }
+
+  static constexpr double mark = 777.0;  ///< in what the successor commits, which has other bytes by it
+
+  static void commit_next() {
+    Segment segment = example::segment(done_);
+    Checkpoint checkpoint = example::checkpoint(done_);
+    segment.observables[0][0] = checkpoint.timing[0].second = mark;
+    successor_->commit(segment, checkpoint);
+    ++done_;
+    ++marked_;
+  }
+
+  static int commits_at(const Checkpoint& checkpoint) {
+    return static_cast<int>(checkpoint.world.step - example::checkpoint(0).world.step) + 1;
+  }
+
+  /// `prepare` makes a store; `action` is visited at each of its calls in turn.
+  void visit_every_call(const std::function<std::optional<RunStore>()>& prepare,
+                        const std::function<void(std::optional<RunStore>&)>& action) {
+    int calls = 0, ousted = 0;
+    for (visited_ = true; visited_; ++calls) {
+      SCOPED_TRACE("call " + std::to_string(calls + 1));
+      path_ = folder_.path("run" + std::to_string(calls) + ".h5");
+      if (replaces_) std::filesystem::copy(old_path_, path_);
+      std::optional<RunStore> store = prepare();
+      visited_ = false;
+      faults::arm({.kind = faults::Kind::visit, .call = calls + 1, .visit = &TakenOver::take_over});
+      try {
+        action(store);
+      } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ExitCode::cannot_create) << error.what();
+        // Within one process locks are seen, if the other one comes first.
+        const std::string text = error.what();
+        EXPECT_TRUE(text.find("another process has taken the run over") != std::string::npos ||
+                    text.find("is being written by") != std::string::npos)
+            << text;
+        ++ousted;
+      }
+      faults::arm({});
+      if (successor_) finish(store, calls % 8 == 0);
+      store.reset();
+      std::filesystem::remove_all(run_folder(path_));
+      std::filesystem::remove(path_);
+    }
+    EXPECT_GT(ousted, 5) << "of " << calls;
+  }
+
+  /// Of two, the last one that took the lock goes on; the other is refused, and leaves what is there.
+  void finish(std::optional<RunStore>& store, bool packs) {
+    try {
+      commit_next();
+      EXPECT_FALSE(is_complete()) << "by the one that was ousted";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::cannot_create) << error.what();
+      successor_.reset();
+      done_ = commits_in(path_);
+      return;
+    }
+    EXPECT_EQ(commits_in(path_), done_);
+    const RunFile run = RunFile::open(path_);
+    EXPECT_EQ(run.checkpoint().timing[0].second, mark);
+    EXPECT_EQ(
+        std::ranges::count(run.all_observables(), mark, [](const ObservableRow& row) { return row[0]; }),
+        marked_);
+    store.reset();
+    if (packs) {  // which takes longer than all else
+      successor_->pack();
+      EXPECT_EQ(commits_in(path_), done_);
+      EXPECT_FALSE(std::filesystem::exists(run_folder(path_))) << "leftovers";
+    }
+    successor_.reset();
+  }
+
+  static std::optional<RunStore> begun(int count) {
+    RunStore store = RunStore::create(path_, example::header(), true);
+    for (int k = 0; k < count; ++k) store.commit(example::segment(k), example::checkpoint(k));
+    return store;
+  }
+
+  example::TemporaryFolder folder_;
+  std::string old_path_ = folder_.path("old.h5");
+  static inline std::string path_;
+  static inline std::optional<RunStore> successor_;
+  static inline int done_ = 0, marked_ = 0;
+  static inline bool visited_ = false, replaces_ = false;
+};
+
+TEST_F(TakenOver, when_it_begins_a_run_it_leaves_that_of_its_successor_whole) {
+  visit_every_call([] { return std::nullopt; },
+                   [](std::optional<RunStore>& store) {
+                     store = RunStore::create(path_, example::header(), true);
+                     store->commit(example::segment(0), example::checkpoint(0));
+                   });
+}
+
+TEST_F(TakenOver, within_a_commit_it_leaves_the_run_of_its_successor_whole) {
+  visit_every_call(
+      [] { return begun(1); },
+      [](std::optional<RunStore>& store) { store->commit(example::segment(1), example::checkpoint(1)); });
+}
+
+TEST_F(TakenOver, when_it_resumes_it_leaves_the_run_of_its_successor_whole) {
+  visit_every_call(
+      [] {
+        begun(2);
+        return std::nullopt;
+      },
+      [](std::optional<RunStore>& store) {
+        RunHeader header;
+        Checkpoint checkpoint;
+        store = RunStore::resume(path_, header, checkpoint);
+        if (const int next = commits_at(checkpoint); next < commits)
+          store->commit(example::segment(next), example::checkpoint(next));
+      });
+}
+
+/// In place of another run, whose file hides the folder or not, as its manifest says.
+TEST_F(TakenOver, when_it_packs_it_leaves_the_run_of_its_successor_whole) {
+  begin_old_run(old_path_, true);
+  replaces_ = true;
+  visit_every_call([] { return begun(1); }, [](std::optional<RunStore>& store) { store->pack(); });
+}
+
 }  // namespace
 }  // namespace talus

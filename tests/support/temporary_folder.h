@@ -35,4 +35,13 @@ class TemporaryFolder {
   std::filesystem::path folder_;
 };
 
+/// The path of what is called so in a folder, with whatever follows: the store ends the names of a run's
+/// files with a mark of their writer.
+inline std::string path_beginning(const std::filesystem::path& folder, const std::string& name) {
+  std::error_code none;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, none))
+    if (entry.path().filename().string().starts_with(name)) return entry.path().string();
+  return (folder / name).string();
+}
+
 }  // namespace talus::test

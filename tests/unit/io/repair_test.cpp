@@ -219,7 +219,8 @@ class RepairFolder : public testing::Test {
     c.world.step = 5 * (k + 1);
     return c;
   }
-  std::string file(const std::string& name) { return run_folder(run_) + "/" + name; }
+  std::string file(const std::string& name) { return test::path_beginning(run_folder(run_), name); }
+  std::string name_of(const std::string& name) { return fs::path(file(name)).filename().string(); }
   void break_file(const std::string& name) {
     const std::string text = example::file_text(file(name));
     example::write_text(file(name), text.substr(0, text.size() / 4));
@@ -250,8 +251,8 @@ TEST_F(RepairFolder, that_is_whole_is_left_alone) {
 }
 
 TEST_F(RepairFolder, keeps_the_frames_without_the_last_state) {
-  break_file("checkpoint_000004.h5");
-  EXPECT_TRUE(mention(repair().lost, "checkpoint_000004.h5: "));
+  break_file("checkpoint_000004");
+  EXPECT_TRUE(mention(repair().lost, name_of("checkpoint_000004") + ": "));
   expect_frames_of({0, 1, 2, 3});
   EXPECT_FALSE(RunFile::open(out_).has_state());
 }
@@ -270,8 +271,9 @@ TEST_F(RepairFolder, needs_no_manifest) {
 }
 
 TEST_F(RepairFolder, keeps_the_frames_beside_a_missing_segment) {
-  fs::remove(file("segment_000003.h5"));
-  EXPECT_TRUE(mention(repair().lost, "segment_000003.h5: is missing"));
+  const std::string name = name_of("segment_000003");
+  fs::remove(file(name));
+  EXPECT_TRUE(mention(repair().lost, name + ": is missing"));
   expect_frames_of({0, 1, 3});
 }
 
@@ -279,26 +281,26 @@ TEST_F(RepairFolder, waits_for_the_process_that_writes_it) {
   RunHeader header;
   Checkpoint state;
   const RunStore store = RunStore::resume(run_, header, state);
-  break_file("checkpoint_000004.h5");
+  break_file("checkpoint_000004");
   EXPECT_EQ(code_of({run_, out_, false}), ExitCode::cannot_create);
 }
 
 TEST_F(RepairFolder, keeps_the_frames_beside_a_broken_segment) {
-  break_file("segment_000002.h5");
+  break_file("segment_000002");
   repair();
   expect_frames_of({0, 2, 3});
   const std::string lost = RunFile::open(out_).lost();
-  EXPECT_NE(lost.find("segment_000002.h5"), std::string::npos) << lost;
+  EXPECT_NE(lost.find(name_of("segment_000002")), std::string::npos) << lost;
 }
 
 TEST_F(RepairFolder, keeps_the_frames_beside_a_damaged_one) {
-  example::spoil_data_set(file("segment_000003.h5"), "/particles/grains/angle/value", 1);
-  EXPECT_TRUE(mention(repair().lost, "segment_000003.h5: frame 1, at 1.750 deg"));
+  example::spoil_data_set(file("segment_000003"), "/particles/grains/angle/value", 1);
+  EXPECT_TRUE(mention(repair().lost, name_of("segment_000003") + ": frame 1, at 1.750 deg"));
   EXPECT_EQ(RunFile::open(out_).all_frame_tilts().size(), 2U);  // of commits 1 and 2
 }
 
 TEST_F(RepairFolder, without_its_header_is_refused) {
-  break_file("header.h5");
+  break_file("header_");
   EXPECT_EQ(code_of({run_, out_, false}), ExitCode::bad_data);
   EXPECT_FALSE(fs::exists(out_) || fs::exists(run_folder(out_)));
 }
