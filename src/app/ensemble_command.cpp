@@ -23,6 +23,7 @@
 #include "app/wall_time.h"
 #include "core/errors.h"
 #include "core/text.h"
+#include "core/visible_text.h"
 #include "ensemble/kept_runs.h"
 #include "ensemble/pool.h"
 #include "ensemble/reproduction_values.h"
@@ -77,6 +78,8 @@ void compute_member(const EnsembleArguments& arguments) {
   if (member == plan.members.end())
     throw Error(ExitCode::usage, fmt::format("{} has no member {}", arguments.folder, arguments.member));
   const auto* trials = std::get_if<PerturbationPlan>(&manifest.task);
+  if (const std::string damage = discard_damaged(member->path); !damage.empty())
+    print_error("talus: note: %s; the member is begun anew\n", damage.c_str());
   if (!is_complete(*member)) {
     RunControl control;
     control.stop = stop_request();
@@ -122,9 +125,11 @@ void work(const EnsembleArguments& arguments) {
                                             : fmt::format("ended with exit code {}", code).c_str());
                           std::fflush(stdout);
                         }};
+  options.tell_wait = tell_wait;
   if (!arguments.max_wall.empty()) options.max_wall = parse_wall_time("--max-wall", arguments.max_wall);
   drop_old_runs(arguments.folder);
   const WorkerEnd end = work_on_ensemble(options);
+  drop_old_runs(arguments.folder);
   print("%zu done and %zu failed here; %zu are under way elsewhere%s\n", end.done, end.failed, end.elsewhere,
         end.enough ? "; the precision that was asked for is reached" : "");
 }

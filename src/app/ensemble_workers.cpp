@@ -12,6 +12,7 @@
 
 #include "app/ensemble_averages.h"
 #include "app/ensemble_report.h"
+#include "app/output_files.h"
 #include "app/progress_text.h"
 #include "app/status_line.h"
 #include "app/terminal.h"
@@ -23,6 +24,8 @@
 #include "ensemble/member_state.h"
 #include "ensemble/pool.h"
 #include "ensemble/worker.h"
+#include "io/run_store.h"
+#include "io/writer_lock.h"
 
 namespace talus {
 namespace {
@@ -39,6 +42,16 @@ double estimate_of(const EnsemblePlan& plan, const std::vector<MemberState>& sta
   for (std::size_t m = 0; m < plan.members.size(); ++m)
     if (states[m].stage == stage) seconds += of_variant[plan.members[m].variant];
   return seconds;
+}
+
+/// "seed-3 waits for process 12 on host a", of the first member that waits for whoever writes its run; empty
+/// where there is none.
+std::string wait_text(const EnsemblePlan& plan, const std::vector<MemberState>& states) {
+  for (std::size_t m = 0; m < states.size(); ++m)
+    if (states[m].stage == MemberStage::waiting)
+      if (const std::string writer = writer_of(run_folder(plan.members[m].path)); !writer.empty())
+        return fmt::format("{} waits for {}", visible(plan.members[m].name), visible(writer));
+  return "";
 }
 
 /// "ensemble: 3 of 50 members done, 2 under way, 1 failed", how far that is, and how long it still takes.
@@ -58,6 +71,7 @@ void show(StatusLine& line, const EnsemblePlan& plan, const EnsemblePace& pace) 
   fields.insert(fields.begin(), {fmt::format("ensemble: {} of {} members done, {} under way{}", done,
                                              states.size(), count_of(states, MemberStage::claimed), failures),
                                  0});
+  if (const std::string wait = wait_text(plan, states); !wait.empty()) fields.push_back({wait, 1});
   line.show(fitted_line(fields, line.width()));
 }
 
@@ -150,7 +164,9 @@ void compute_members(const EnsembleWorkers& workers) {
 
 void drop_old_runs(const std::string& folder) {
   const EnsembleManifest manifest = read_ensemble(folder);
-  if (const std::size_t dropped = drop_runs(manifest, plan_of(manifest, folder)); dropped > 0)
+  const EnsemblePlan plan = plan_of(manifest, folder);
+  drop_claims(plan);
+  if (const std::size_t dropped = drop_runs(manifest, plan); dropped > 0)
     print_error("talus: note: %zu run%s of members that are done removed (--keep %s); their tables stay\n",
                 dropped, dropped == 1 ? "" : "s", visible_word(manifest.keep).c_str());
 }
@@ -176,6 +192,7 @@ void begin_ensemble(const std::string& folder, const EnsembleManifest& wanted,
   for (const char* name : {"members.csv", "averages.csv", "ensemble.h5"})
     output_target((std::filesystem::path(folder) / name).string(), {true, inputs});
   tell_withdrawn(before, extend_ensemble(folder, asked).variants);
+  note_missing_locks();
   drop_old_runs(folder);
 }
 
@@ -198,6 +215,11 @@ void refuse_failures(const EnsemblePlan& plan, const std::string& consequence) {
   if (failed.empty()) return;
   const char* const them = failed.size() == 1 ? "it" : "them";
   refuse(failed, fmt::format("{} until talus ensemble retry lets {} be computed again", consequence, them));
+}
+
+void tell_wait(const std::string& member, const std::string& writer) {
+  print_error("talus: note: %s is left for later: %s writes its run, and is waited for\n", member.c_str(),
+              writer.c_str());
 }
 
 }  // namespace talus

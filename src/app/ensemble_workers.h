@@ -41,4 +41,7 @@ EnsembleView compute_ensemble(const EnsembleManifest& wanted, const EnsembleWork
 /// none has. `consequence`: "left out of the means".
 void refuse_failures(const EnsemblePlan& plan, const std::string& consequence);
 
+/// Prints that a worker leaves a member for later, and who writes its run.
+void tell_wait(const std::string& member, const std::string& writer);
+
 }  // namespace talus

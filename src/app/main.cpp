@@ -10,6 +10,7 @@
 
 #include "app/commands.h"
 #include "app/help_text.h"
+#include "app/output_files.h"
 #include "app/program_end.h"
 #include "app/program_help.h"
 #include "app/stop_signals.h"
@@ -107,6 +108,7 @@ int run_and_tell(int argc, char** argv) {
     app.exit(error);
   }
   require_printed();
+  talus::note_missing_locks();
   errno = 0;  // whatever could not be had was not needed
   return static_cast<int>(talus::ExitCode::done);
 }

@@ -1,5 +1,7 @@
 #include "app/output_files.h"
 
+#include "app/terminal.h"
+#include "core/locked_file.h"
 #include "io/run_store.h"
 
 namespace talus {
@@ -11,6 +13,14 @@ OutputRule output_of_run(const std::string& run, bool overwrite) {
 OutputRule output_of_scenario(const std::string& file, const Scenario& scenario) {
   const std::string& bed = scenario.deposition.file;
   return bed.empty() ? OutputRule{true, {file}} : OutputRule{true, {file, bed, run_folder(bed)}};
+}
+
+void note_missing_locks() {
+  if (const std::string problem = take_lock_problem(); !problem.empty())
+    print_error(
+        "talus: note: the file system has no locks (%s): start no second command that writes the "
+        "same output, since neither would be refused\n",
+        problem.c_str());
 }
 
 }  // namespace talus

@@ -16,4 +16,7 @@ OutputRule output_of_run(const std::string& run, bool overwrite);
 /// reads.
 OutputRule output_of_scenario(const std::string& file, const Scenario& scenario);
 
+/// Prints once that a file is written without a lock, where the file system has none.
+void note_missing_locks();
+
 }  // namespace talus

@@ -55,7 +55,7 @@ EnsembleManifest manifest_of(const PerturbArguments& arguments) {
 void perturb_seed(const PerturbArguments& arguments, const EnsembleManifest& wanted) {
   begin_ensemble(arguments.folder, wanted, {arguments.scenario});
   const EnsemblePlan plan = plan_of(wanted, arguments.folder);
-  WorkerOptions options{arguments.folder, {}, {}, {}, plan.members.front().name};
+  WorkerOptions options{arguments.folder, {}, {}, {}, plan.members.front().name, tell_wait};
   while (work_on_ensemble(options).elsewhere > 0) std::this_thread::sleep_for(std::chrono::seconds(1));
   refuse_failures(plan, "its trials are not complete");
 }

@@ -13,6 +13,7 @@
 #include "app/commands.h"
 #include "app/map_options.h"
 #include "app/open_run.h"
+#include "app/output_files.h"
 #include "app/progress.h"
 #include "app/seed_option.h"
 #include "app/stop_signals.h"
@@ -176,6 +177,7 @@ void resume_complete(const RunArguments& arguments) {
 OpenRun open_run(const RunArguments& arguments, const RunRequest& request, bool resumed) {
   OpenRun open = resumed ? resume_run(request) : start_run(request);
   open.session.use_threads(arguments.threads);
+  note_missing_locks();  // now, since a run takes long
   if (open.session.schedule().course && open.session.tilt_rate() == 0.0)
     print_error(
         "talus: note: a command holds the tilt: unless the slope fails, the run goes on until it is "

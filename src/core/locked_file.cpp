@@ -95,8 +95,11 @@ std::optional<bool> is_locked(const std::string& path) {
 }
 
 std::string take_lock_problem() {
-  const int error = lock_problem().exchange(0);
-  return error == 0 ? "" : std::generic_category().message(error);
+  constexpr int told = -1;
+  const int error = lock_problem();
+  if (error <= 0) return "";
+  lock_problem() = told;
+  return std::generic_category().message(error);
 }
 
 std::optional<Descriptor> create_locked(const std::string& path) {

@@ -36,8 +36,8 @@ bool is_named(const std::string& path, const Descriptor& file);
 /// does not tell, since it has no locks.
 std::optional<bool> is_locked(const std::string& path);
 
-/// Why a file could not be locked that this process has written all the same; empty if there was none since
-/// the last call. Files are locked at any depth, and only commands print.
+/// Why a file could not be locked that this process writes all the same; told once, and empty if there was
+/// none. Files are locked at any depth, and only commands print.
 std::string take_lock_problem();
 
 }  // namespace talus

@@ -59,6 +59,8 @@ std::vector<StoredQuantity> quantities_at(Source& source, const std::string& gro
     if (!array.path.starts_with(group + "/") || !array.path.ends_with(ending)) continue;
     if (array.shape != std::vector<std::size_t>{members, points} || array.values.size() != members * points)
       refuse(source, array.path + " is of another size than its grid and the seeds");
+    if (std::ranges::any_of(array.values, [](double value) { return std::isinf(value); }))
+      refuse(source, array.path + " holds an infinite value");
     const std::size_t begin = group.size() + 1;
     found.push_back({array.path.substr(begin, array.path.size() - ending.size() - begin), array.unit,
                      std::move(array.values)});

@@ -10,9 +10,13 @@
 #include <charconv>
 #include <filesystem>
 #include <fmt/core.h>
+#include <limits>
+#include <system_error>
 
 #include "core/errors.h"
 #include "core/locked_file.h"
+#include "core/output_file.h"
+#include "core/paths.h"
 #include "ensemble/plan.h"
 
 namespace talus {
@@ -38,11 +42,15 @@ std::string line_of_claim() {
   return fmt::format("process {} on host {}, boot {}\n", ::getpid(), host.data(), this_boot());
 }
 
-/// Whether a process of this machine holds the claim.
-bool is_held(const std::string& path) {
-  const Descriptor file(::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC));
-  if (file.get() < 0) return false;
-  return ::flock(file.get(), LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+constexpr int last_number = std::numeric_limits<int>::max();
+
+/// The number of the claim that replaces a dead one. After the last one it is the first that is free.
+int number_after(const std::string& run, std::optional<int> found) {
+  if (!found) return 0;
+  if (*found < last_number) return *found + 1;
+  int number = 0;
+  while (is_there(claim_path(run, number))) ++number;
+  return number;
 }
 
 }  // namespace
@@ -58,13 +66,25 @@ std::optional<ClaimName> parse_claim_name(const std::string& file) {
   const char* const last = file.data() + file.size();
   ClaimName name{file.substr(0, at), 0};
   const auto [end, error] = std::from_chars(digits, last, name.number);
-  if (error != std::errc() || end != last || name.number < 0) return std::nullopt;
+  // Only as claim_path writes it: another spelling would be of another file.
+  if (error != std::errc() || end != last || name.number < 0 || std::to_string(name.number) != digits)
+    return std::nullopt;
   return name;
+}
+
+std::vector<std::string> claims_of(const std::string& run) {
+  const std::filesystem::path path = run;
+  std::vector<std::string> claims;
+  std::error_code unknown;
+  for (const std::string& file : names_in(parent_folder(run), unknown))
+    if (const auto name = parse_claim_name(file); name && name->run == path.stem().string())
+      claims.push_back(claim_path(run, name->number));
+  return claims;
 }
 
 std::optional<ClaimHolder> read_claim(const std::string& run, int number) {
   const std::string path = claim_path(run, number);
-  const Descriptor file(::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC));
+  const Descriptor file(::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
   struct stat status {};
   if (file.get() < 0 || ::fstat(file.get(), &status) != 0) return std::nullopt;
   std::array<std::byte, 512> bytes{};
@@ -79,7 +99,9 @@ std::optional<ClaimHolder> read_claim(const std::string& run, int number) {
 ClaimState claim_state(const std::string& run, int number, ClaimWatch& watch) {
   const std::optional<ClaimHolder> holder = read_claim(run, number);
   if (holder && holder->boot == this_boot())
-    return is_held(claim_path(run, number)) ? ClaimState::alive : ClaimState::dead;
+    // Without locks this machine goes by the heartbeats as well.
+    if (const std::optional<bool> held = is_locked(claim_path(run, number)))
+      return *held ? ClaimState::alive : ClaimState::dead;
   const std::uint64_t beats = holder ? holder->beats : 0;
   const std::string who = holder ? holder->worker + holder->boot : "";
   auto [found, is_new] = watch.seen.try_emplace(run);
@@ -91,22 +113,23 @@ ClaimState claim_state(const std::string& run, int number, ClaimWatch& watch) {
   return seen.grew ? ClaimState::alive : ClaimState::unknown;
 }
 
-Claim::Claim(std::string path, std::string next, Descriptor file, double seconds)
+Claim::Claim(std::string path, int number, std::string next, Descriptor file, double seconds)
     : path_(std::move(path)),
+      number_(number),
       next_(std::move(next)),
       file_(std::move(file)),
       interval_(seconds),
       last_(Clock::now()) {}
 
 std::optional<Claim> Claim::take(const std::string& run, std::optional<int> found, const ClaimTimes& times) {
-  const int number = found.value_or(-1) + 1;
+  const int number = number_after(run, found);
   const std::string path = claim_path(run, number);
   // The processes that compute the member inherit the lock: as long as one of them lives, the claim does.
   Descriptor file(::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_APPEND, 0666));
   if (file.get() < 0 && errno == EEXIST) return std::nullopt;
   if (file.get() < 0) throw creation_error("create", path, errno);
   ::flock(file.get(), LOCK_EX | LOCK_NB);  // for this machine; others go by the heartbeats
-  Claim claim(path, claim_path(run, number + 1), std::move(file), times.beat());
+  Claim claim(path, number, claim_path(run, number_after(run, number)), std::move(file), times.beat());
   const std::string text = line_of_claim();
   if (::write(claim.file_.get(), text.data(), text.size()) != static_cast<ssize_t>(text.size()))
     throw system_error(ExitCode::io_error, "write", path, errno);

@@ -11,6 +11,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/descriptor.h"
 
@@ -44,6 +45,9 @@ struct ClaimName {
 };
 std::optional<ClaimName> parse_claim_name(const std::string& file);
 
+/// The paths of all claims of a run.
+std::vector<std::string> claims_of(const std::string& run);
+
 /// The claims that this worker has looked at, and when they last grew.
 struct ClaimWatch {
   struct Seen {
@@ -59,7 +63,8 @@ struct ClaimWatch {
 
 enum class ClaimState { alive, dead, unknown };
 
-/// Whether the worker of a claim is there. `unknown`: on another machine, and not watched for long enough.
+/// Whether the worker of a claim is there. `unknown`: on another machine, or on a file system without locks,
+/// and not watched for long enough.
 ClaimState claim_state(const std::string& run, int number, ClaimWatch& watch);
 
 /// The right to compute one member. It ends with the object, or with the process and all that it started.
@@ -76,9 +81,12 @@ class Claim {
   /// lost: it was taken for dead, or removed.
   bool beat();
 
+  int number() const { return number_; }
+
  private:
-  Claim(std::string path, std::string next, Descriptor file, double seconds);
+  Claim(std::string path, int number, std::string next, Descriptor file, double seconds);
   std::string path_;
+  int number_;
   std::string next_;  ///< the claim that would replace it
   Descriptor file_;
   std::chrono::duration<double> interval_;

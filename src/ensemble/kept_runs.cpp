@@ -1,13 +1,17 @@
 #include "ensemble/kept_runs.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <charconv>
 #include <fmt/core.h>
 #include <optional>
 
 #include "core/errors.h"
+#include "core/locked_file.h"
 #include "core/paths.h"
 #include "core/visible_text.h"
+#include "ensemble/claim.h"
 #include "ensemble/member_lists.h"
 #include "ensemble/member_series.h"
 #include "io/durable_file.h"
@@ -79,6 +83,16 @@ std::size_t drop_runs(const EnsembleManifest& manifest, const EnsemblePlan& plan
     ++dropped;
   }
   return dropped;
+}
+
+void drop_claims(const EnsemblePlan& plan) {
+  const std::vector<MemberState> states = look_at_members(plan);
+  for (std::size_t m = 0; m < states.size(); ++m) {
+    if (!states[m].claim) continue;
+    if (states[m].stage != MemberStage::done && states[m].stage != MemberStage::failed) continue;
+    for (const std::string& claim : claims_of(plan.members[m].path))
+      if (!is_locked(claim).value_or(false)) ::unlink(claim.c_str());
+  }
 }
 
 }  // namespace talus

@@ -30,4 +30,9 @@ void drop_run(const Member& member);
 /// less. A run whose tables are not both there stays. Returns how many were removed.
 std::size_t drop_runs(const EnsembleManifest& manifest, const EnsemblePlan& plan);
 
+/// Removes the claims of members that are done or have failed: their worker was killed just before it would
+/// have done so. Those that a process of this machine holds stay. A worker of another machine may be about to
+/// remove its own, and nothing else.
+void drop_claims(const EnsemblePlan& plan);
+
 }  // namespace talus

@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "core/errors.h"
 #include "core/text_stream.h"
 #include "core/visible_text.h"
 #include "ensemble/claim.h"
@@ -98,6 +99,11 @@ MemberFailure read_failure(const std::string& run) {
   std::getline(lines, failure.message);
   std::getline(lines, failure.message);
   failure.message = visible(failure.message);
+  // A member with such a file has failed, whatever stands in it.
+  if (failure.exit_code < 1 || failure.exit_code > 255)
+    return {
+        static_cast<int>(ExitCode::bad_data),
+        visible(failure_path(run)) + " is not as talus writes it, and does not tell why the member failed"};
   return failure;
 }
 

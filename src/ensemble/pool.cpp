@@ -6,14 +6,17 @@
 #include <cerrno>
 #include <csignal>
 #include <ctime>
+#include <filesystem>
 #include <fmt/core.h>
 #include <map>
+#include <system_error>
 
 #include "core/child_program.h"
 #include "core/descriptor.h"
 #include "core/errors.h"
 #include "core/output_file.h"
 #include "core/visible_text.h"
+#include "ensemble/member_state.h"
 #include "io/run_file.h"
 #include "session/run_header.h"
 
@@ -53,6 +56,20 @@ pid_t start(const Job& job) {
   return process;
 }
 
+/// The last line of a job. On a full disk its log has none, and its exit code tells why.
+std::string said_in(const std::string& log, int code) {
+  std::string said;
+  try {
+    said = last_line_of(log);
+  } catch (const Error&) {  // it is gone
+  }
+  if (!said.empty() || code != static_cast<int>(ExitCode::io_error)) return said;
+  std::error_code unknown;
+  const std::filesystem::space_info space = std::filesystem::space(parent_folder(log), unknown);
+  return !unknown && space.available < 65536 ? "no space is left on the disk of this folder"
+                                             : "a file could not be read or written";
+}
+
 /// Takes the jobs out of `running` that have ended; those with an error go to `failed`.
 void collect(std::map<pid_t, const Job*>& running, std::vector<FailedJob>& failed) {
   for (auto child = running.begin(); child != running.end();) {
@@ -65,7 +82,7 @@ void collect(std::map<pid_t, const Job*>& running, std::vector<FailedJob>& faile
     // Without a status (somebody else has it) nobody knows how it ended.
     const int ended_with = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
     const int code = ended < 0 ? static_cast<int>(ExitCode::internal) : ended_with;
-    if (code != 0) failed.push_back({child->second->log, code});
+    if (code != 0) failed.push_back({child->second->log, code, said_in(child->second->log, code)});
     child = running.erase(child);
   }
 }

@@ -18,7 +18,7 @@ struct Job {
 struct FailedJob {
   std::string log;
   int exit_code = 0;      ///< 128 + signal where a signal ended it
-  std::string said = {};  ///< its last line, where that is known
+  std::string said = {};  ///< its last line; on a full disk, that it is full
 };
 
 /// Does all jobs side by side and returns those that ended with an error. `go_on` is asked at the

@@ -4,7 +4,9 @@
 #include <chrono>
 #include <filesystem>
 #include <fmt/core.h>
+#include <map>
 #include <numeric>
+#include <set>
 #include <thread>
 
 #include "core/errors.h"
@@ -24,6 +26,8 @@ using Clock = std::chrono::steady_clock;
 struct Worker {
   const WorkerOptions& options;
   ClaimWatch watch;
+  std::map<std::string, std::string> waits_for = {};  ///< who writes the run of which member, as was told
+  std::set<std::string> refused = {};                 ///< members that ended with 73 once
   Clock::time_point begin = Clock::now();
   WorkerEnd end = {};
 };
@@ -44,9 +48,23 @@ struct Taken {
 };
 
 /// Whether a claim that was just taken is that of a member which still has to be computed.
-bool still_ours(const EnsemblePlan& plan, std::size_t member, std::optional<int> found) {
+bool still_ours(const EnsemblePlan& plan, std::size_t member, const Claim& claim) {
   const MemberState now = look_at_members(plan)[member];
-  return now.stage == MemberStage::claimed && now.claim == found.value_or(-1) + 1;
+  return now.stage == MemberStage::claimed && now.claim == claim.number();
+}
+
+/// Whether somebody writes the run of a member, such as `talus run --resume`, or a process whose worker was
+/// taken for dead. Each time that is another one, it is told who.
+bool is_written(const Member& member, Worker& worker) {
+  const std::string writer = writer_of(run_folder(member.path));
+  if (writer.empty()) {
+    worker.waits_for.erase(member.name);
+    return false;
+  }
+  std::string& told = worker.waits_for[member.name];
+  if (told != writer && worker.options.tell_wait) worker.options.tell_wait(member.name, writer);
+  told = writer;
+  return true;
 }
 
 /// What a look at all members gave.
@@ -54,6 +72,7 @@ struct Look {
   std::optional<Taken> taken;
   std::size_t alive = 0;
   std::size_t unknown = 0;  ///< claims that have to be watched for longer
+  std::size_t written = 0;  ///< members whose runs others write, which are waited for
 };
 
 Look take_next(const EnsemblePlan& plan, const std::vector<MemberState>& states, Worker& worker) {
@@ -69,8 +88,12 @@ Look take_next(const EnsemblePlan& plan, const std::vector<MemberState>& states,
       if (claim == ClaimState::unknown) ++look.unknown;
       if (claim != ClaimState::dead) continue;
     }
+    if (is_written(member, worker)) {
+      ++look.written;
+      continue;
+    }
     std::optional<Claim> claim = Claim::take(member.path, state.claim, worker.options.times);
-    if (!claim || !still_ours(plan, m, state.claim)) continue;
+    if (!claim || !still_ours(plan, m, *claim)) continue;
     look.taken.emplace(Taken{member, std::move(*claim)});
     return look;
   }
@@ -87,26 +110,9 @@ std::optional<std::string> time_left(const Worker& worker) {
   return fmt::format("{:02}:{:02}:{:02}", seconds / 3600, seconds / 60 % 60, seconds % 60);
 }
 
-/// Whether no process writes the run of the member: one whose claim was taken for dead may still do. Waits
-/// for it for a while.
-bool is_free_to_write(Taken& taken) {
-  for (int tries = 0; tries < 150; ++tries) {
-    try {
-      require_no_writer(run_folder(taken.member.path));
-      return true;
-    } catch (const Error& error) {
-      if (error.code() != ExitCode::cannot_create) throw;
-    }
-    if (!taken.claim.beat()) return false;
-    std::this_thread::sleep_for(std::chrono::milliseconds(200));
-  }
-  return false;
-}
-
 /// One process computes the member and analyses it, while this one keeps the claim alive.
 void compute(Worker& worker, Taken& taken) {
   const Member& member = taken.member;
-  if (!is_free_to_write(taken)) return;
   std::vector<std::string> arguments = {"ensemble", "member", path_word(worker.options.folder),
                                         path_word(member.name)};
   if (const std::optional<std::string> left = time_left(worker)) {
@@ -118,8 +124,9 @@ void compute(Worker& worker, Taken& taken) {
   const auto keep_claim = [&] { return !(lost = lost || !taken.claim.beat()); };
   const std::vector<FailedJob> failed =
       run_jobs({{std::move(arguments), file_beside(member.path, ".log")}}, "the worker", keep_claim);
-  if (lost) return;  // somebody else goes on with it
   const int code = failed.empty() ? 0 : failed.front().exit_code;
+  // Somebody else goes on with it: what a process says that was taken for dead is no failure of the member.
+  if (lost || (code != 0 && !taken.claim.beat())) return;
   if (worker.options.tell) worker.options.tell(member.name, code);
   if (code == static_cast<int>(ExitCode::stopped))
     throw Error(ExitCode::stopped,
@@ -128,10 +135,13 @@ void compute(Worker& worker, Taken& taken) {
     ++worker.end.done;
     return;
   }
+  // Another process was at the run, maybe one whose worker was taken for dead: once that is no failure
+  // either.
+  if (code == static_cast<int>(ExitCode::cannot_create) && worker.refused.insert(member.name).second) return;
   // Whoever kills all that a job has started kills this worker too, maybe a moment after its member: then it
   // is not the member that has failed.
   if (code > 128) std::this_thread::sleep_for(std::chrono::seconds(1));
-  record_failure(member.path, {code, last_line_of(failed.front().log)});
+  record_failure(member.path, {code, failed.front().said});
   ++worker.end.failed;
 }
 
@@ -157,13 +167,15 @@ WorkerEnd work_on_ensemble(const WorkerOptions& options) {
                         is_reached(parse_precision(manifest.until), plan, numbers_of(plan, states));
     if (worker.end.enough) return worker.end;
     Look look = take_next(plan, states, worker);
-    worker.end.elsewhere = look.alive + look.unknown;
+    worker.end.elsewhere = look.alive + look.unknown + look.written;
     if (look.taken)
       compute(worker, *look.taken);
-    else if (look.unknown == 0)
+    else if (look.unknown + look.written == 0)
       return worker.end;
-    else
+    else {
+      time_left(worker);  // throws when it is over
       std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    }
   }
 }
 

@@ -132,15 +132,19 @@ void take_object(OpenPlainFile& open, const std::string& item) {
 
 PlainFile all_of(OpenPlainFile& open) {
   if (open.file.get() < 0) throw Error(ExitCode::bad_data, open.path + ": is not an HDF5 file");
-  std::vector<std::string> items = {"/"};
+  struct Found {
+    std::vector<std::string> items = {"/"}, links;
+  } found;
   const auto add = [](hid_t, const char* name, const H5L_info_t* link, void* all) -> herr_t {
-    if (link->type == H5L_TYPE_HARD)
-      static_cast<std::vector<std::string>*>(all)->push_back(std::string("/") + name);
+    Found& into = *static_cast<Found*>(all);
+    (link->type == H5L_TYPE_HARD ? into.items : into.links).push_back(std::string("/") + name);
     return 0;
   };
-  if (H5Lvisit(open.file.get(), H5_INDEX_NAME, H5_ITER_NATIVE, add, &items) < 0)
+  if (H5Lvisit(open.file.get(), H5_INDEX_NAME, H5_ITER_NATIVE, add, &found) < 0)
     refuse(open.path, "/", "cannot be listed");
-  for (const std::string& item : items) take_object(open, item);
+  if (!found.links.empty())
+    refuse(open.path, found.links.front(), "is a link to another place, which is not followed");
+  for (const std::string& item : found.items) take_object(open, item);
   return std::move(open.found);
 }
 

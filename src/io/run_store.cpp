@@ -379,6 +379,23 @@ void discard_folder(const std::string& path) {
   remove_folder(folder, lock);
 }
 
+std::string discard_damaged(const std::string& path) {
+  if (run_presence(path) != RunPresence::folder) return "";
+  const std::string folder = run_folder(path);
+  WriterLock lock(folder);
+  shut_out_others(folder, lock);
+  try {
+    for (const StoredFile& file : files_of(read_manifest(folder))) read_stored(folder, file);
+    return "";
+  } catch (const Error& error) {
+    lock.require();
+    if (error.code() != ExitCode::bad_data) throw;
+    const std::string damage = error.what();
+    remove_folder(folder, lock);
+    return damage.substr(0, damage.find(';'));  // what follows is advice for a run that cannot be made again
+  }
+}
+
 std::string run_folder(const std::string& path) { return path + ".run"; }
 
 RunPresence run_presence(const std::string& path) {

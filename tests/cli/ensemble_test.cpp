@@ -1,12 +1,15 @@
 /// Ensembles of a tiny bed: workers that share a folder, stops, takeovers, failures, and what is reported.
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
 
 #include <algorithm>
 #include <csignal>
 #include <fstream>
 #include <thread>
 
+#include "core/descriptor.h"
 #include "support/places.h"
 #include "support/process.h"
 
@@ -381,6 +384,95 @@ TEST(Ensemble, of_a_bad_form_is_refused_before_anything_is_made) {
   EXPECT_EQ(run_talus({"ensemble", "work", ""}, folder.path()).exit_code, 64)
       << "as work \"$FOLDER\" without it";
   EXPECT_FALSE(std::filesystem::exists(folder.path("e")));
+}
+
+TEST(Ensemble, leaves_a_member_for_later_whose_run_somebody_else_writes) {
+  const TemporaryFolder folder;
+  write_file(folder, "bed.toml", tiny_bed);
+  std::vector<std::string> words = ensemble_of("e", "1-3");
+  words.insert(words.end(), {"--jobs", "0"});
+  ASSERT_EQ(run_talus(words, folder.path()).exit_code, 0);
+  std::filesystem::create_directory(folder.path("e/seed-1.h5.run"));
+  write_file(folder, "e/seed-1.h5.run/lock", "process 12 on host a");
+  pid_t work = 0;
+  {
+    const Descriptor lock(open(folder.path("e/seed-1.h5.run/lock").c_str(), O_RDWR | O_CLOEXEC));
+    ASSERT_EQ(flock(lock.get(), LOCK_EX), 0);
+    work = start_talus({"ensemble", "work", "e"}, folder.path());
+    const auto others_are_done = [&] {
+      return std::filesystem::exists(folder.path("e/seed-2.csv")) &&
+             std::filesystem::exists(folder.path("e/seed-3.csv"));
+    };
+    for (int wait = 0; wait < 6000 && !others_are_done(); ++wait)
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    EXPECT_TRUE(others_are_done());
+    EXPECT_FALSE(has_ended(work)) << "it waits";
+    EXPECT_NE(errors_in(folder.path()).find("seed-1 is left for later: process 12 on host a writes its run"),
+              std::string::npos)
+        << errors_in(folder.path());
+    EXPECT_FALSE(std::filesystem::exists(folder.path("e/seed-1.claim-0")));
+  }
+  EXPECT_EQ(wait_for(work), 0) << errors_in(folder.path());
+  EXPECT_TRUE(std::filesystem::exists(folder.path("e/seed-1.csv")));
+}
+
+TEST(Ensemble, begins_a_member_anew_whose_folder_is_damaged) {
+  const TemporaryFolder folder;
+  write_file(folder, "bed.toml", tiny_bed);
+  std::vector<std::string> words = ensemble_of("e", "1");
+  words.insert(words.end(), {"--jobs", "0"});
+  ASSERT_EQ(run_talus(words, folder.path()).exit_code, 0);
+  std::filesystem::create_directory(folder.path("e/seed-1.h5.run"));
+  write_file(folder, "e/seed-1.h5.run/manifest", "talus run folder 1\nheader");
+  const Outcome work = run_talus({"ensemble", "work", "e"}, folder.path());
+  EXPECT_NE(work.out.find("seed-1 done\n"), std::string::npos) << work.out;
+  const std::string log = text_of(folder.path("e/seed-1.log"));
+  EXPECT_NE(log.find("the member is begun anew"), std::string::npos) << log;
+  EXPECT_FALSE(std::filesystem::exists(folder.path("e/seed-1.failed")));
+}
+
+TEST(Ensemble, is_left_without_claims_and_locks) {
+  const TemporaryFolder folder;
+  write_file(folder, "bed.toml", tiny_bed);
+  write_file(folder, "other.toml", std::string(tiny_bed) + "[contact]\nfriction = 0.2\n");
+  ASSERT_EQ(run_talus(ensemble_of("e", "1"), folder.path()).exit_code, 0);
+  EXPECT_EQ(run_talus({"ensemble", "other.toml", "--seeds", "1", "-o", "e"}, folder.path()).exit_code, 65);
+  EXPECT_FALSE(std::filesystem::exists(folder.path("e/ensemble.manifest.lock")));
+  for (const char* number : {"0", "7"})
+    write_file(folder, std::string("e/seed-1.claim-") + number, "process 1 on host far, boot another\n...");
+  std::filesystem::create_directory(folder.path("e/averages.csv.talus.part"));  // in the way of averages
+  EXPECT_NE(run_talus({"ensemble", "average", "e"}, folder.path()).exit_code, 0);
+  EXPECT_FALSE(std::filesystem::exists(folder.path("e/averages.lock")));
+  ASSERT_EQ(run_talus({"ensemble", "work", "e"}, folder.path()).exit_code, 0);
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path("e")))
+    EXPECT_EQ(entry.path().string().find(".claim-"), std::string::npos) << entry.path();
+}
+
+TEST(Ensemble, computes_a_member_whatever_the_number_of_a_dead_claim) {
+  const TemporaryFolder folder;
+  write_file(folder, "bed.toml", tiny_bed);
+  std::vector<std::string> words = ensemble_of("e", "1-2");
+  words.insert(words.end(), {"--jobs", "0"});
+  ASSERT_EQ(run_talus(words, folder.path()).exit_code, 0);
+  write_file(folder, "e/seed-1.claim-2147483647", "process 1 on host far, boot another\n");
+  write_file(folder, "e/seed-2.claim-07", "process 1 on host far, boot another\n");
+  EXPECT_EQ(run_talus({"ensemble", "work", "e", "--stale", "1"}, folder.path()).exit_code, 0);
+  for (const char* table : {"e/seed-1.csv", "e/seed-2.csv"})
+    EXPECT_TRUE(std::filesystem::exists(folder.path(table))) << table;
+}
+
+TEST(Ensemble, does_not_end_well_because_a_failure_does_not_tell_its_code) {
+  const TemporaryFolder folder;
+  write_file(folder, "bed.toml", tiny_bed);
+  ASSERT_EQ(run_talus(ensemble_of("e", "1"), folder.path()).exit_code, 0);
+  for (const char* text : {"", "exit code 0\nall is well\n", "exit code 256\n", "exit code -1\n", "what\n"}) {
+    std::filesystem::remove(folder.path("e/seed-1.csv"));
+    write_file(folder, "e/seed-1.failed", text);
+    const Outcome outcome = run_talus(ensemble_of("e", "1"), folder.path());
+    EXPECT_EQ(outcome.exit_code, 65) << text;
+    EXPECT_NE(outcome.err.find("e/seed-1.failed is not as talus writes it"), std::string::npos)
+        << outcome.err;
+  }
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "reliability/faults.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
@@ -72,6 +73,54 @@ bool has_no_locks() {
   return true;
 }
 
+namespace {
+
+constexpr int max_files = 256;
+
+/// A file that was removed while it was open.
+struct KeptFile {
+  char path[4096];
+  struct stat status;
+};
+KeptFile kept[16];
+int kept_count = 0;
+
+bool is_same(const struct stat& left, const struct stat& right) {
+  return left.st_dev == right.st_dev && left.st_ino == right.st_ino;
+}
+
+bool is_open(const struct stat& status) {
+  struct stat opened {};
+  for (int file = 3; file < max_files; ++file)
+    if (fstat(file, &opened) == 0 && is_same(opened, status)) return true;
+  return false;
+}
+
+}  // namespace
+
+int unlink_kept(const char* path) {
+  struct stat status {};
+  if (armed.kind != Kind::keeps_open || lstat(path, &status) != 0 || !is_open(status) || kept_count == 16)
+    return static_cast<int>(syscall(SYS_unlink, path));
+  KeptFile& file = kept[kept_count++];
+  file.status = status;
+  const char* const slash = std::strrchr(path, '/');
+  const int folder = slash == nullptr ? 0 : static_cast<int>(slash - path) + 1;
+  std::snprintf(file.path, sizeof file.path, "%.*s.nfs%lx", folder, path,
+                static_cast<unsigned long>(status.st_ino));
+  return static_cast<int>(syscall(SYS_rename, path, file.path));
+}
+
+int close_kept(int file) {
+  const int result = static_cast<int>(syscall(SYS_close, file));
+  for (int k = 0; k < kept_count; ++k)
+    if (!is_open(kept[k].status)) {
+      syscall(SYS_unlink, kept[k].path);
+      kept[k] = kept[--kept_count];
+    }
+  return result;
+}
+
 void arm(const Fault& fault) {
   armed = fault;
   counted = 0;
@@ -122,8 +171,9 @@ int rename(const char* from, const char* to) noexcept {
   return strikes("rename", to) ? -1 : static_cast<int>(syscall(SYS_rename, from, to));
 }
 int unlink(const char* path) noexcept {
-  return strikes("unlink", path) ? -1 : static_cast<int>(syscall(SYS_unlink, path));
+  return strikes("unlink", path) ? -1 : talus::faults::unlink_kept(path);
 }
+int close(int file) { return talus::faults::close_kept(file); }
 int mkdir(const char* path, mode_t mode) noexcept {
   return strikes("mkdir", path) ? -1 : static_cast<int>(syscall(SYS_mkdir, path, mode));
 }

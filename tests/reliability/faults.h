@@ -9,8 +9,10 @@ enum class Kind {
   none,
   kill,
   error,
-  visit,     ///< the call is made after others have come to the files
-  no_locks,  ///< not one call, but all that lock, in all processes
+  visit,  ///< the call is made after others have come to the files
+  // Not one call, but a file system, for all processes:
+  no_locks,    ///< without locks
+  keeps_open,  ///< a file that is open is not removed but renamed, until it is closed, as NFS and FUSE do
 };
 
 struct Fault {
@@ -36,6 +38,10 @@ const char* struck();
 
 /// Whether the file system has no locks, with errno set.
 bool has_no_locks();
+
+/// Removes a file as such a file system does, and closes one.
+int unlink_kept(const char* path);
+int close_kept(int file);
 
 /// Counts a call; true where it must fail, with errno set.
 bool strikes(const char* call, const char* path = "");

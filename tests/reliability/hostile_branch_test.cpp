@@ -48,7 +48,7 @@ class HostileBranch : public HostileFile<make_good> {
 /// In a process of its own, which may take no longer than a file of that size needs.
 void use_apart(const std::string& path) {
   const std::string folder = run_folder(path);
-  const std::string read = fs::exists(path) ? path : path_beginning(folder, "header_");
+  const std::string read = fs::exists(path) ? path : test::path_beginning(folder, "header_");
   in_child_process(path, fs::file_size(read), [&path] {
     use_branch(path);
     return Bytes();
@@ -430,7 +430,7 @@ TEST_F(HostileBranch, with_damage_of_chance_is_repaired_to_what_was_written) {
 }
 
 TEST_F(HostileBranch, with_a_byte_flipped_in_its_header_is_refused_as_a_folder) {
-  const fs::path header = path_beginning(run_folder(folder->path("stopped.h5")), "header_");
+  const fs::path header = test::path_beginning(run_folder(folder->path("stopped.h5")), "header_");
   const Bytes whole = read_bytes(header);
   Random random(61);
   for (int k = 0; k < tries(60); ++k) {

@@ -5,6 +5,7 @@
 ///     TALUS_FAULT="lasting 28 12"  that call and all later ones fail with errno 28
 ///     TALUS_FAULT="no-locks 37"    the file system has no locks: all that lock fail with errno 37, in
 ///                                  children too
+///     TALUS_FAULT="keeps-open"     a file that is removed while it is open keeps another name until then
 ///     TALUS_FAULT="memory 12"      allocation number 12 fails
 ///     TALUS_FAULT="no-memory 12"   that allocation and all later ones fail
 ///     TALUS_FAULT="clock"          the clock of the day jumps by days at each look, the steady one by an
@@ -60,6 +61,7 @@ __attribute__((constructor)) void arm_by_environment() {
   const int numbers = std::sscanf(text, "%15s %d %d", kind, &first, &second) - 1;
   Fault fault;
   if (std::strcmp(kind, "kill") == 0) fault = {Kind::kill, first, 0, false};
+  if (std::strcmp(kind, "keeps-open") == 0) fault = {Kind::keeps_open};
   if (std::strcmp(kind, "no-locks") == 0) fault = {Kind::no_locks, 0, first};
   if (numbers == 2) fault = {Kind::error, second, first, std::strcmp(kind, "lasting") == 0};
   arm(fault);

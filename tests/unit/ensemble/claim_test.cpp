@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <fstream>
+#include <limits>
 #include <thread>
 
 #include "support/temporary_folder.h"
@@ -154,13 +155,26 @@ TEST(Claim, lives_as_long_as_a_process_that_its_worker_has_started) {
   close(file);
 }
 
+TEST(Claim, of_the_last_number_is_replaced_by_one_that_is_free) {
+  const test::TemporaryFolder folder;
+  const std::string run = folder.path("seed-1.h5");
+  const int last = std::numeric_limits<int>::max();
+  for (const int number : {0, last}) write_foreign_claim(claim_path(run, number), 0);
+  std::optional<Claim> claim = Claim::take(run, last, quick);
+  ASSERT_TRUE(claim);
+  EXPECT_EQ(claim->number(), 1);
+  EXPECT_TRUE(claim->beat());
+  EXPECT_FALSE(std::filesystem::exists(claim_path(run, last)));
+  EXPECT_EQ(claims_of(run).size(), 2u);
+}
+
 TEST(ClaimName, is_that_of_its_run_with_a_number) {
   const std::optional<ClaimName> name = parse_claim_name("seed-7.claim-12");
   ASSERT_TRUE(name);
   EXPECT_EQ(name->run, "seed-7");
   EXPECT_EQ(name->number, 12);
-  for (const char* other :
-       {"seed-7.h5", "seed-7.claim-", "seed-7.claim-x", "seed-7.claim-1x", "seed-7.claim--1"})
+  for (const char* other : {"seed-7.h5", "seed-7.claim-", "seed-7.claim-x", "seed-7.claim-1x",
+                            "seed-7.claim--1", "seed-7.claim-01", "seed-7.claim-2147483648"})
     EXPECT_FALSE(parse_claim_name(other)) << other;
 }
 
