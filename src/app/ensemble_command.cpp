@@ -23,7 +23,6 @@
 #include "app/wall_time.h"
 #include "core/errors.h"
 #include "core/text.h"
-#include "core/visible_text.h"
 #include "ensemble/kept_runs.h"
 #include "ensemble/pool.h"
 #include "ensemble/reproduction_values.h"
