@@ -22,7 +22,8 @@ std::vector<DataSetField> header_fields() {
       {"/parameters/friction", float64, "", "1", "coefficient of friction between grains, mu"},
       {"/provenance/seed", uint64, "", "1", "seed of the random deposition"},
       {"/provenance/*", text, "", "1",
-       "a fact about how the run was made: version, compiler, host, command, ..."},
+       "a fact about how the run was made: version, compiler, host, command, ...; `bed_hash` if "
+       "`deposition.file` holds its bed"},
       {"/particles/grains/box/edges", float64, "2", "m",
        "length of the bed (its period, or the distance between its walls) and its nominal depth"},
       {"/particles/grains/id", int32, "N", "1",

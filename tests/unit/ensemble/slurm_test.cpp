@@ -33,7 +33,7 @@ TEST(SlurmScript, holds_paths_as_words_of_a_shell) {
   const std::string script = job_script(array_in("/shared/it's $(rm x)\n-b"));
   EXPECT_TRUE(script.starts_with("#!/bin/bash\n"));
   EXPECT_TRUE(has(script, "\ntalus='/opt/my programs/talus'\n")) << script;
-  EXPECT_TRUE(has(script, "\ncd -- '/shared/it'\\''s $(rm x)\n-b' || exit 66\n")) << script;
+  EXPECT_TRUE(has(script, "\ncd -- $'/shared/it\\'s $(rm x)\\x0a-b' || exit 66\n")) << script;
   EXPECT_TRUE(has(script, "\n\"$talus\" ensemble work . --stale 120 --max-wall 03:58:00 &\n")) << script;
 }
 
