@@ -7,6 +7,7 @@ import shutil
 import numpy as np
 import pytest
 from conftest import BED, json_of, run_talus
+from resealed import sealed_text
 
 import talus
 
@@ -128,7 +129,8 @@ def test_damaged_manifests(tmp_path, text):
 @pytest.mark.parametrize("name", ["..", "../victim", "a/../../victim", "/tmp/victim", ".", "a//b", "a/", "a\x1b[2J",
                                   "a\tb", "a\rb", "twice\nvariant 0 twice"])
 def test_names_of_a_manifest_stay_in_its_folder(tmp_path, name):
-    (tmp_path / "ensemble.manifest").write_text(f"talus ensemble 1\nseeds 1-3\nvariant 0 {name}\nhash 0\n", newline="")
+    text = sealed_text(f"talus ensemble 1\nseeds 1-3\nvariant 0 {name}\nhash 0\n")
+    (tmp_path / "ensemble.manifest").write_text(text, newline="")
     with pytest.raises(talus.Error, match=r"ensemble.manifest: is not what talus wrote, in line [34]: "):
         talus.open_ensemble(tmp_path)
 
@@ -136,7 +138,8 @@ def test_names_of_a_manifest_stay_in_its_folder(tmp_path, name):
 @pytest.mark.parametrize("seeds", ["1-1000000000000", "5-1", "1-9000,10000-19000", str(2**63), "1" * 5000, "-1", "1-", "+1",
                                    "1_0", " 1"])
 def test_seeds_of_a_manifest_have_bounds(tmp_path, seeds):
-    (tmp_path / "ensemble.manifest").write_text(f"talus ensemble 1\nseeds {seeds}\nvariant 0 \nhash 0\n")
+    text = sealed_text(f"talus ensemble 1\nseeds {seeds}\nvariant 0 \nhash 0\n")
+    (tmp_path / "ensemble.manifest").write_text(text)
     with pytest.raises(talus.Error, match="ensemble.manifest: is not what talus wrote, in line 2: "):
         talus.open_ensemble(tmp_path)
 
