@@ -9,7 +9,7 @@ from typing import Any, NamedTuple, NoReturn
 
 import numpy as np
 
-from talus.checked_file import read_text
+from talus.checked_file import read_text, text_hash
 from talus.errors import Error, WrongType, check_text, short
 from talus.manifest import is_sealed
 from talus.optional import need
@@ -167,19 +167,28 @@ class Ensemble:
         first: dict[tuple[str, str], Member] = {}
         for member in self.done():
             other = first.setdefault((member.variant, member.state_hash), member)
-            if other is not member and self.scenario(member.variant)["deposition"]["method"] != "file":
+            if other is not member and not self._has_bed_of_file(member.variant):
                 raise Error(f"{other.path.with_suffix('.csv')} and {member.path.with_suffix('.csv')} have the same "
                             "state_hash, which two seeds never have: one is a copy")
+
+    def _has_bed_of_file(self, variant: str) -> bool:
+        deposition = self.scenario(variant).get("deposition")
+        return isinstance(deposition, dict) and deposition.get("method") == "file"
 
     def __repr__(self) -> str:
         return f"<ensemble {self.folder}: {len(self.done())} of {len(self.members)} members done>"
 
     def scenario(self, variant: str | None = None) -> dict[str, Any]:
-        """The scenario of a variant with every key, in its own units; the seed is that of the first member."""
+        """The scenario of a variant with every key, in its own units; the seed is that of the first member. Throws Error
+        where its file is not there, or was changed since the ensemble began."""
         variant = self._variant(variant)
         path = self.folder / "scenarios" / f"{variant or 'scenario'}.toml"
         try:
-            return tomllib.loads(read_text(path))
+            text = read_text(path)
+            if text_hash(text) != self._origins[self.variants.index(variant)]["scenario"]:
+                raise Error(f"{path}: was changed since the ensemble began; expected the scenario that it was made with: "
+                            "undo the change, or begin another ensemble with it")
+            return tomllib.loads(text)
         except (OSError, ValueError, RecursionError) as error:
             raise Error(f"{path}: cannot be read: {error}") from error
 
