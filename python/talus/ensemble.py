@@ -1,6 +1,7 @@
 """An ensemble: many runs of one scenario in a folder, and the numbers that each has given."""
 
 import csv
+import re
 import tomllib
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
@@ -24,6 +25,9 @@ FACTS = ("state_hash", "version", "seconds", "seed", "scenario", "bed")
 MOST_SEEDS = 10000
 MOST_VARIANTS = 10000
 LARGEST_SEED = 2**63 - 1
+LONGEST_NAME = 255  # bytes, of a folder
+#: As "theta_c:0.2": a number of a run, and the standard error that is asked of its mean.
+PRECISION = re.compile(r"[\w/]+(\[\d+\])?:((\d+\.?\d*|\.\d+)(e[-+]?\d+)?|inf(inity)?)", re.IGNORECASE | re.ASCII)
 
 
 class Mean(NamedTuple):
@@ -147,9 +151,9 @@ class Ensemble:
         if kind == "version":
             self.version = rest
         elif kind == "until":
-            self.until = rest
+            self.until = check_precision(rest)
         elif kind == "keep":
-            self.keep = rest
+            self.keep = check_keep(rest)
         elif kind == "seeds":
             self.seeds = parse_seeds(rest)
         elif kind == "variant":
@@ -272,10 +276,27 @@ def refuse_manifest(path: Path, reason: str = "") -> NoReturn:
                 "each") from None
 
 
+def check_precision(text: str) -> str:
+    """The text. Throws ValueError if it has another form than "theta_c:0.2", or asks for no error above 0."""
+    found = PRECISION.fullmatch(text)
+    if not found or not float(found[2]) > 0:
+        raise ValueError("expected a quantity and the standard error asked of its mean, such as theta_c:0.2")
+    return text
+
+
+def check_keep(text: str) -> str:
+    """The text. Throws ValueError unless it is "all", "analysis" or a number."""
+    is_number = text.isascii() and text.isdigit() and len(text) <= 20 and int(text) < 2**64
+    if text not in ("all", "analysis") and not is_number:
+        raise ValueError("expected all, analysis, or the number of seeds whose runs are kept")
+    return text
+
+
 def check_name(name: str, others: Sequence[str]) -> None:
     """Throws ValueError where the name of a variant is not that of a folder in the one of the ensemble, or one of others."""
     parts = name.split("/") if name else []
-    if not name.isprintable() or any(part in ("", ".", "..") for part in parts) or "\ufffd" in name:
+    if not name.isprintable() or "\ufffd" in name or any(
+            part in ("", ".", "..") or len(part.encode()) > LONGEST_NAME for part in parts):
         raise ValueError("expected a variant whose name is that of a folder in this one")
     if (name or "scenario") in [other or "scenario" for other in others]:
         raise ValueError("expected each name once")
@@ -286,4 +307,8 @@ def check_name(name: str, others: Sequence[str]) -> None:
 def open_ensemble(folder: str | Path) -> Ensemble:
     """Opens the folder of an ensemble, whatever of it is done. Throws Error where there is none, or its manifest or the
     numbers of a member are not what talus wrote."""
-    return Ensemble(as_path(folder))
+    path = as_path(folder)
+    try:
+        return Ensemble(path)
+    except OSError as error:
+        raise Error(f"{short(str(path))}: cannot be opened: {error}") from None

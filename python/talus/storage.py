@@ -68,7 +68,7 @@ class Storage:
             files = parse_manifest(manifest, place)
             self._stored = {file.path: file for file in (files.header, files.checkpoint, *files.segments)}
             for path in self._stored:
-                if not path.is_file():
+                if not os.path.isfile(path):  # no OSError where the whole path is too long
                     raise Error(f"{path}: is missing, although the manifest names it")
             self.header, self.state = files.header.path, files.checkpoint.path
             self.parts = [segment.path for segment in files.segments]

@@ -176,6 +176,7 @@ def test_a_manifest_names_files_of_its_folder_once(folder_of_run, name):
     (lambda f: [without(f / "segment_000003.h5", "steps/residual"), reseal_folder(f)], "steps/residual is missing"),
     (lambda f: [(f / "header.h5").unlink(), os.mkfifo(f / "header.h5")], "header.h5: is missing"),
     (lambda f: [(f / "manifest").unlink(), os.mkfifo(f / "manifest")], "nothing is committed"),
+    (lambda f: change_manifest(f, r"^segment segment_000003.h5", f"segment {'x' * 300}.h5"), "x.h5: is missing, although"),
     (lambda f: os.truncate(f / "manifest", HUGE), "more than a file of its kind can have"),
 ])
 def test_folders_are_what_their_manifest_says(folder_of_run, change, text):
@@ -234,6 +235,35 @@ def test_a_scenario_that_was_changed_is_not_given(tmp_path):
         file.write("# a line\n")
     with pytest.raises(talus.Error, match="scenario.toml: was changed since the ensemble began; expected"):
         ensemble.scenario()
+
+
+@pytest.mark.chosen
+@pytest.mark.parametrize("lines", ["keep -5", "keep some", "keep ", "keep 1.5", "keep +1", f"keep {2**64}", "keep " + "1" * 5000,
+                                   "until foo", "until theta_c:", "until theta_c:x", "until :1", "until theta_c:0",
+                                   "until theta_c:-1", "until theta_c:nan", "until theta_c:1_0", "until theta_c[x]:1", "until ",
+                                   f"variant 0 {'x' * 256}", f"variant 0 {'é' * 128}", f"variant 0 a/{'x' * 300}"])
+def test_lines_of_an_ensemble_are_those_that_talus_writes(tmp_path, lines):
+    (tmp_path / "ensemble.manifest").write_text(sealed_text(f"talus ensemble 1\nseeds 1\nvariant 0 \n{lines}\nhash \n"))
+    with pytest.raises(talus.Error, match="ensemble.manifest: is not what talus wrote, in line 4: .*expected"):
+        talus.open_ensemble(tmp_path)
+
+
+@pytest.mark.parametrize("line", ["keep all", "keep analysis", "keep 0", "keep 12", "until theta_c:0.2", "until theta_c:1e-3",
+                                  "until theta_d/dilation_low:.5", "until threshold[1]:2", "until theta_c:inf",
+                                  f"variant 0 {'x' * 255}", f"variant 0 {'é' * 127}"])
+def test_lines_that_talus_writes_are_taken(tmp_path, line):
+    (tmp_path / "ensemble.manifest").write_text(sealed_text(f"talus ensemble 1\nseeds 1\nvariant 0 \n{line}\nhash \n"))
+    ensemble = talus.open_ensemble(tmp_path)
+    assert line.split(" ")[-1] in (ensemble.keep, ensemble.until, ensemble.variants[-1])
+
+
+@pytest.mark.chosen
+def test_an_ensemble_at_a_place_that_cannot_be_is_an_error(tmp_path):
+    (tmp_path / "ensemble.manifest").write_text(
+        sealed_text(f"talus ensemble 1\nseeds 1\nvariant 0 {'/'.join(['x' * 200] * 30)}\nhash \n"))
+    for place in (tmp_path, tmp_path / ("x" * 300)):
+        with pytest.raises(talus.Error, match="cannot be opened: .*too long"):
+            talus.open_ensemble(place)
 
 
 def test_names_in_a_file_write_nothing_to_the_terminal(packed):
