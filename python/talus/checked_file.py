@@ -119,13 +119,23 @@ def open_unlocked(path: Path) -> tuple[h5py.File, Identity]:
     return h5py.File(stream, "r"), identity_of(stream.fileno())
 
 
+def is_encodable(name: str) -> bool:
+    """Whether a text can be the name of something in a file: one surrogate alone cannot, but for those by which Python
+    writes bytes that are no UTF-8."""
+    try:
+        name.encode("utf-8", "surrogateescape")
+        return True
+    except UnicodeEncodeError:
+        return False
+
+
 def field_of(name: str) -> tuple[str, str, str] | None:
     """Type, shape and unit of a data set, by the path without its first slash; None if no run file has it. Texts below
     /help have none in the table."""
     if name in DATA_SETS:
         return DATA_SETS[name]
     group, _, last = name.rpartition("/")
-    if last in ("", ".", "..") or "\0" in name:
+    if last in ("", ".", "..") or "\0" in name or not is_encodable(name):
         return None
     if group.partition("/")[0] == "help":
         return "text", "", "1"

@@ -10,7 +10,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from talus.checked_file import Identity
+from talus.checked_file import Identity, field_of
 from talus.checks import check_between, check_frame_values, check_series, check_statics, refuse
 from talus.errors import Error, MissingIndex, WrongType, WrongValue, check_text, short
 from talus.frame import Frame
@@ -30,6 +30,12 @@ def last_rise(tilts: np.ndarray) -> tuple[int, int]:
     falls = np.flatnonzero(change < 0)
     before, after = falls[falls < rises[-1]], falls[falls > rises[-1]]
     return (int(before[-1]) + 1 if len(before) else 0), (int(after[0]) + 1 if len(after) else len(tilts))
+
+
+def is_by_frame(name: str) -> bool:
+    """Whether a data set has values of grains, or of contacts, for each frame, by its shape."""
+    field = field_of(name)
+    return field is not None and field[1].startswith(("T N", "M"))
 
 
 class Frames(Sequence[Frame]):
@@ -249,7 +255,7 @@ class Run:
         """What a data set by frame holds of frame k, in the units of the run. Throws Error where the run has no frame k
         or no such data set, or the values are impossible."""
         name = self._known(name)
-        if not name.startswith("contacts/") and not name.endswith("/value"):
+        if not is_by_frame(name):
             raise Error(f"{self.path}: {name} is no data set by frame")
         k = self.frame_index(k)
         values = self.storage.read_frame(name, k)

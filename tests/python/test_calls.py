@@ -22,7 +22,7 @@ KEPT = ROOT / "tests/runs/schema_4.h5"
 #: None of them is an index, a name, a place, a path or a unit of anything.
 NOTHING = [1.7, 1e300, math.nan, math.inf, -math.inf, 1j, True, np.True_, np.float64(1.0), "x", "repos", "", b"x", None, (), [0],
            {}, {1, 2}, object(), len, type, 10**30, -(10**30), np.array([1, 2]), np.array(["a", "b"]), np.array(1.5), Ellipsis,
-           "\0", "\x1b[2J", "\ud800", "a/../b", slice(0.5, 2), slice("a", None), slice(None, None, 0), range(3), Exception("x")]
+           "\0", "\x1b[2J", "\ud800", "help/\ud800", "a/../b", slice(0.5, 2), slice("a", None), slice(None, None, 0), range(3), Exception("x")]
 
 
 @pytest.fixture(scope="module")
@@ -42,7 +42,8 @@ CALLS = {
     "frame_at": (lambda run, x: run.frame_at(x), [x for x in NOTHING if repr(x) not in ("1.7", "1.0", "array(1.5)")]),
     "frame_index": (lambda run, x: run.frame_index(x), NOTHING),
     "Frame": (lambda run, x: talus.Frame(run, x), NOTHING),
-    "read_frame name": (lambda run, x: run.read_frame(x, 0), NOTHING),
+    "read_frame name": (lambda run, x: run.read_frame(x, 0), NOTHING + [
+        "help/particles/grains/position/value", "contacts/offset", "contacts/none", "frames/tilt", "checkpoint/contact_pair"]),
     "read_frame index": (lambda run, x: run.read_frame("contacts/pair", x), NOTHING),
     "run[]": (lambda run, x: run[x], NOTHING),
     "unit": (lambda run, x: run.unit(x), NOTHING),
@@ -91,6 +92,13 @@ def test_errors_are_those_that_python_asks_for(kept):
     assert not str(error.value).startswith(('"', "'"))
     again = pickle.loads(pickle.dumps(error.value))
     assert type(again) is type(error.value) and str(again) == str(error.value)
+
+
+@pytest.mark.parametrize("name", ["help/\ud800", "\ud800/x", "results/\ud800", "help/\ud800/value"])
+def test_a_name_that_no_file_can_have_is_no_damage(kept, name):
+    for call in (kept.__getitem__, kept.unit, kept.meaning):
+        with pytest.raises(talus.Error, match=r"has no data set .*\\ud800"):
+            call(name)
 
 
 def test_frames_are_indexed_as_a_list_is(kept):
