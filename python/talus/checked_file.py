@@ -21,7 +21,7 @@ READ_SIZE = 1 << 20
 MAX_TEXT = 1 << 27
 #: Values that are read at once: 4 GiB of doubles.
 MAX_VALUES = 1 << 29
-#: Deflate makes data at most so many times smaller.
+#: Deflate makes bytes at most so many times fewer.
 MAX_DEFLATION = 1032
 #: Deflate, shuffle, and checksums. HDF5 would look for a plugin, a library to load, for a filter that it does not have.
 FILTERS = (h5py.h5z.FILTER_DEFLATE, h5py.h5z.FILTER_SHUFFLE, h5py.h5z.FILTER_FLETCHER32)
@@ -251,8 +251,7 @@ class CheckedFile:
             raise self.refuse(name, "has no shape")
         self._check_shape(name, field[1], found.shape)
         chunk = layout.get_chunk() if layout.get_layout() == h5py.h5d.CHUNKED else ()
-        characters = kind.get_size() if expected == "text" else 1
-        if max(prod(found.shape), prod(chunk)) * characters > MAX_DEFLATION * self._size:
+        if max(prod(found.shape), prod(chunk)) * kind.get_size() > MAX_DEFLATION * self._size:
             raise self.refuse(name, f"of shape {list(found.shape)} is larger than the file can hold")
         return found
 

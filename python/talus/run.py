@@ -148,7 +148,7 @@ class Run:
 
     def _converted(self, name: str, values: Any) -> Any:
         if isinstance(values, np.ndarray) and values.dtype.kind == "f":
-            values = values.astype(np.float64)
+            values = values.astype(np.float64, copy=False)
         values = values_in(self.units, self.storage.unit(name), values, self.D)
         return values.item() if isinstance(values, np.generic) else values
 

@@ -28,7 +28,7 @@ def values_in(units: Units, unit: str, values: Any, mean_diameter: float) -> Any
         return values
     if isinstance(values, np.ndarray):
         # The quotient of floats in single precision may round up to L.
-        values = values.astype(np.float64)
+        values = values.astype(np.float64, copy=False)
     if unit == "m":
         return values / mean_diameter
     return np.degrees(values)

@@ -158,6 +158,22 @@ def test_what_the_program_refuses_is_refused(packed, change, text):
 
 
 @pytest.mark.chosen
+def test_values_are_no_more_bytes_than_the_file_can_hold(packed):
+    """Values that were never stored take the memory of those that were: bytes count, and one array of them is made."""
+    most = 1032 * os.path.getsize(packed) // 8
+    for count, refused in ((most + (1 << 21), True), (1 << 20, False)):
+        shutil.copy(KEPT, packed)
+        sealed(packed, lambda file: file.create_dataset("analysis/threshold", (count,), "<f8", chunks=(1024,)))
+        with talus.open(packed) as run:
+            tracemalloc.start()
+            with pytest.raises(talus.Error, match="larger than the file can hold") if refused else contextlib.nullcontext():
+                assert len(run["analysis/threshold"]) == count
+            peak = tracemalloc.get_traced_memory()[1]
+            tracemalloc.stop()
+        assert peak < (1 << 20 if refused else 9 * count)
+
+
+@pytest.mark.chosen
 @pytest.mark.parametrize("name", ["../other.h5", "/etc/passwd.h5", "segment_000002.h5", "sub/x.h5"])
 def test_a_manifest_names_files_of_its_folder_once(folder_of_run, name):
     shutil.copy(folder_of_run / "segment_000003.h5", folder_of_run.parent / "other.h5")
