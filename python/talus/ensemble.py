@@ -286,7 +286,7 @@ def check_precision(text: str) -> str:
 
 def check_keep(text: str) -> str:
     """The text. Throws ValueError unless it is "all", "analysis" or a number."""
-    is_number = text.isascii() and text.isdigit() and len(text) <= 20 and int(text) < 2**64
+    is_number = text.isascii() and text.isdigit() and int(text.lstrip("0")[:21] or 0) < 2**64
     if text not in ("all", "analysis") and not is_number:
         raise ValueError("expected all, analysis, or the number of seeds whose runs are kept")
     return text

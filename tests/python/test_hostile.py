@@ -264,8 +264,8 @@ def test_lines_of_an_ensemble_are_those_that_talus_writes(tmp_path, lines):
         talus.open_ensemble(tmp_path)
 
 
-@pytest.mark.parametrize("line", ["keep all", "keep analysis", "keep 0", "keep 12", "until theta_c:0.2", "until theta_c:1e-3",
-                                  "until theta_d/dilation_low:.5", "until threshold[1]:2", "until theta_c:inf",
+@pytest.mark.parametrize("line", ["keep all", "keep analysis", "keep 0", f"keep {1:030}", "until theta_c:0.2",
+                                  "until theta_c:1e-3", "until theta_d/dilation_low:.5", "until threshold[1]:2", "until theta_c:inf",
                                   f"variant 0 {'x' * 255}", f"variant 0 {'é' * 127}"])
 def test_lines_that_talus_writes_are_taken(tmp_path, line):
     (tmp_path / "ensemble.manifest").write_text(sealed_text(f"talus ensemble 1\nseeds 1\nvariant 0 \n{line}\nhash \n"))
