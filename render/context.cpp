@@ -28,7 +28,8 @@ bool names_driver_option(std::string_view name) {
   const auto may_be_in_one = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
   };
-  return name.find('_') != std::string_view::npos && !name.ends_with("_proxy") &&
+  // The shell sets "_" itself for every command.
+  return name.find('_', 1) != std::string_view::npos && name.front() != '_' && !name.ends_with("_proxy") &&
          std::all_of(name.begin(), name.end(), may_be_in_one);
 }
 

@@ -107,14 +107,16 @@ def check_stored(path: Path, size: int, expected: str) -> Identity:
 
 
 def open_unlocked(path: Path) -> tuple[h5py.File, Identity]:
-    """The file and its identity. HDF5 asks for no lock: a file that has its name is whole, and not every file system has
-    locks. Where the environment asks for locks all the same, or h5py is too old to do without, Python opens it."""
-    try:
-        if os.environ.get("HDF5_USE_FILE_LOCKING", "FALSE").upper() in ("FALSE", "0"):
-            file = h5py.File(path, "r", locking=False)
+    """The file and its identity, whatever locks it or the file system has: a file that has its name is whole. HDF5 opens
+    it as h5py.File does by itself first, because in one process it refuses one file opened with other ideas of locks."""
+    for options in ({}, {"locking": False}):
+        try:
+            file = h5py.File(path, "r", **options)
             return file, identity_of(file.id.get_vfd_handle())
-    except (TypeError, ValueError):  # of an h5py before 3.5, or an HDF5 before 1.10.7
-        pass
+        except FileNotFoundError:
+            raise
+        except (OSError, TypeError, ValueError):  # no lock; h5py before 3.5, or HDF5 before 1.10.7
+            continue
     stream = open_regular(path)
     return h5py.File(stream, "r"), identity_of(stream.fileno())
 

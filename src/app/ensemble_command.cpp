@@ -77,7 +77,7 @@ void compute_member(const EnsembleArguments& arguments) {
   if (member == plan.members.end())
     throw Error(ExitCode::usage, fmt::format("{} has no member {}", arguments.folder, arguments.member));
   const auto* trials = std::get_if<PerturbationPlan>(&manifest.task);
-  if (const std::string damage = discard_damaged(member->path); !damage.empty())
+  if (const std::string damage = set_damaged_aside(member->path); !damage.empty())
     print_error("talus: note: %s; the member is begun anew\n", damage.c_str());
   if (!is_complete(*member)) {
     RunControl control;
@@ -112,7 +112,7 @@ void compute_member(const EnsembleArguments& arguments) {
   if (std::holds_alternative<ReadingsTask>(manifest.task)) make_readings(*member);
   const MemberNumbers numbers = write_numbers(*member, analysed);
   // From here on the member is done. A kill leaves the run, and the next worker removes it.
-  if (!keeps_run(manifest, member->seed)) drop_run(*member);
+  if (!keeps_run(manifest, member->seed) && is_in_folder(*member, arguments.folder)) drop_run(*member);
   print("%s is done: state %s\n", member->name.c_str(), numbers.state_hash.c_str());
 }
 

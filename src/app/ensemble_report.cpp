@@ -160,11 +160,23 @@ std::string count_text(const EnsembleView& view) {
   return text;
 }
 
+/// Versions of Talus measure differently: means over members of several are said to be that.
+static std::string versions_text(const EnsembleView& view) {
+  std::vector<std::string> versions;
+  for (std::size_t m = 0; m < view.numbers.size(); ++m)
+    if (view.states[m].stage == MemberStage::done) versions.push_back(visible_word(view.numbers[m].version));
+  std::ranges::sort(versions);
+  versions.erase(std::ranges::unique(versions).begin(), versions.end());
+  if (versions.size() < 2) return "";
+  return fmt::format("  members of several versions stand side by side, so differences may be theirs: {}\n",
+                     joined(versions, ", "));
+}
+
 std::string ensemble_text(const EnsembleView& view, const EnsembleJobs& jobs) {
   const std::string until =
       view.manifest.until.empty() ? "" : fmt::format(", until {}", visible(view.manifest.until));
-  return fmt::format("{}: {}{}\n{}{}{}{}", visible(view.folder), count_text(view), until, kept_text(view),
-                     jobs_text(jobs), members_text(view), means_text(view));
+  return fmt::format("{}: {}{}\n{}{}{}{}{}", visible(view.folder), count_text(view), until, kept_text(view),
+                     versions_text(view), jobs_text(jobs), members_text(view), means_text(view));
 }
 
 std::string ensemble_json(const EnsembleView& view, const EnsembleJobs& jobs) {

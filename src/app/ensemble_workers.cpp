@@ -166,7 +166,7 @@ void drop_old_runs(const std::string& folder) {
   const EnsembleManifest manifest = read_ensemble(folder);
   const EnsemblePlan plan = plan_of(manifest, folder);
   drop_claims(plan);
-  if (const std::size_t dropped = drop_runs(manifest, plan); dropped > 0)
+  if (const std::size_t dropped = drop_runs(manifest, plan, folder); dropped > 0)
     print_error("talus: note: %zu run%s of members that are done removed (--keep %s); their tables stay\n",
                 dropped, dropped == 1 ? "" : "s", visible_word(manifest.keep).c_str());
 }

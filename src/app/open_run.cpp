@@ -4,8 +4,10 @@
 #include <fmt/core.h>
 
 #include "app/output_files.h"
+#include "app/terminal.h"
 #include "core/errors.h"
 #include "core/output_file.h"
+#include "core/version.h"
 #include "core/visible_text.h"
 #include "session/estimate.h"
 #include "session/run_header.h"
@@ -65,6 +67,11 @@ OpenRun resume_run(const RunRequest& request) {
   const Scenario scenario = stored_scenario(header, request.output + ":/parameters");
   require_same_scenario(request, scenario);
   refuse_unfinished_replay(request, header, checkpoint.world);
+  if (const std::string begun_by = version_of(header.provenance); begun_by != version_text())
+    print_error(
+        "talus: note: %s was begun by version %s and goes on with %s, which may give other bits and measure "
+        "differently\n",
+        request.output.c_str(), begun_by.c_str(), version_text().c_str());
   return {std::move(header), std::move(store), Session(scenario, std::move(checkpoint), request.output)};
 }
 

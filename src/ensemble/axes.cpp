@@ -129,7 +129,7 @@ std::string variation_name(const std::vector<std::string>& variation, const Scen
 
 std::string folder_name(const std::vector<std::string>& variation, const Scenario& scenario) {
   constexpr std::size_t longest = 100, longest_cut = 60;  // bytes
-  const std::string whole = variation_name(variation, scenario);
+  std::string whole = variation_name(variation, scenario);
   if (whole.size() <= longest && std::ranges::all_of(whole, is_plain)) return whole;
   std::string name = named_values(variation, scenario, [](const std::string& value) {
     return value.substr(value.rfind('/') + 1);  // all of it, without a slash
@@ -146,8 +146,8 @@ std::vector<std::vector<std::string>> parse_axis(const std::string& text) {
   const std::vector<std::string> keys = split(text.substr(0, equals), ':');
   const std::string_view separators = keys.size() > 1 ? ",:" : ",";
   std::vector<std::vector<std::string>> variations = {{}};
-  for (std::size_t begin = equals + 1, end = begin;; begin = end + 1) {
-    end = end_of_value(text, begin, separators);
+  for (std::size_t begin = equals + 1;;) {
+    const std::size_t end = end_of_value(text, begin, separators);
     const std::string_view value = trimmed(std::string_view(text).substr(begin, end - begin));
     const std::size_t k = variations.back().size();
     if (k == keys.size() || trimmed(keys[k]).empty() || value.empty()) refuse_axis(text);
@@ -156,6 +156,7 @@ std::vector<std::vector<std::string>> parse_axis(const std::string& text) {
     if ((is_last || text[end] == ',') && variations.back().size() != keys.size()) refuse_axis(text);
     if (is_last) return variations;
     if (text[end] == ',') variations.emplace_back();
+    begin = end + 1;
   }
 }
 

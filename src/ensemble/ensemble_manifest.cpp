@@ -177,14 +177,27 @@ void require_same(const EnsembleManifest& found, const EnsembleManifest& wanted,
                                                                 : found.variants.front().name));
 }
 
+/// Whether a member failed for what its scenario says, not for a signal or a full disk.
+bool has_failed_itself(const Member& member) {
+  const auto code = static_cast<ExitCode>(read_failure(member.path).exit_code);
+  return code == ExitCode::usage || code == ExitCode::bad_data || code == ExitCode::missing_input ||
+         code == ExitCode::internal || code == ExitCode::out_of_memory;
+}
+
 /// Whether all that is known of a variant is that it fails.
 bool is_hopeless(const EnsembleManifest& found, const Variant& variant, const std::string& folder) {
-  const std::vector<MemberState> states = look_at_members(plan_ensemble(found.seeds, {variant}, folder));
-  const bool has_more = std::ranges::any_of(states, [](const MemberState& state) {
-    return state.has_run || state.stage == MemberStage::done || state.stage == MemberStage::claimed;
-  });
-  if (has_more) return false;
-  if (count_of(states, MemberStage::failed) > 0) return true;
+  const EnsemblePlan plan = plan_ensemble(found.seeds, {variant}, folder);
+  const std::vector<MemberState> states = look_at_members(plan);
+  bool has_failed = false;
+  for (std::size_t m = 0; m < states.size(); ++m) {
+    const MemberStage stage = states[m].stage;
+    if (stage == MemberStage::done || stage == MemberStage::claimed) return false;
+    if (run_presence(plan.members[m].path) != RunPresence::none) return false;
+    if (stage != MemberStage::failed) continue;
+    if (!has_failed_itself(plan.members[m])) return false;
+    has_failed = true;
+  }
+  if (has_failed) return true;
   try {
     bed_hash(variant.scenario);
   } catch (const Error&) {
@@ -218,7 +231,6 @@ void withdraw(const EnsembleManifest& rest, const std::vector<Variant>& withdraw
     write_text(manifest_path(folder), text_of(rest));
   for (const Variant& variant : withdrawn) {
     for (const Member& member : plan_ensemble(rest.seeds, {variant}, folder).members) {
-      discard_folder(member.path);
       remove_file(failure_path(member.path));
     }
     remove_file(variant.scenario_file);
@@ -332,9 +344,9 @@ void take_earlier_names(std::vector<Variant>& variants, const std::string& folde
   const EnsembleManifest found = read_ensemble(folder);
   for (const Variant& there : found.variants)
     for (Variant& variant : variants)
-      if (there.name.find('/') != std::string::npos && there.scenario == variant.scenario) {
+      if (there.scenario == variant.scenario) {
         variant.name = there.name;
-        variant.full_name.clear();
+        variant.full_name = there.full_name;
       }
 }
 

@@ -42,8 +42,8 @@ EnsembleManifest read_ensemble(const std::string& folder);
 std::vector<Variant> plan_variants(const std::string& scenario_file, const std::vector<std::string>& settings,
                                    const std::vector<std::string>& axes);
 
-/// Gives variants that are called by paths in an ensemble of an earlier version, and have the same scenario
-/// there, these names.
+/// Gives variants whose scenario an ensemble has already the names that they have there: earlier versions
+/// called them otherwise.
 void take_earlier_names(std::vector<Variant>& variants, const std::string& folder);
 
 /// Reads the beds of variants that take them from a file (deposition.file), and notes their hashes. Throws as

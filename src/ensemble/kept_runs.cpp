@@ -56,6 +56,10 @@ bool keeps_run(const EnsembleManifest& manifest, std::uint64_t seed) {
   return static_cast<std::size_t>(before) < *kept;
 }
 
+bool is_in_folder(const Member& member, const std::string& folder) {
+  return resolved_path(member.path).starts_with(resolved_path(folder) + "/");
+}
+
 void drop_run(const Member& member) {
   discard_folder(member.path);  // while its file is there: without it, it would be taken for a run under way
   remove_file(member.path);
@@ -69,7 +73,7 @@ void refuse_missing_series(const Member& member) {
                   series_path(member.path), numbers_path(member.path)));
 }
 
-std::size_t drop_runs(const EnsembleManifest& manifest, const EnsemblePlan& plan) {
+std::size_t drop_runs(const EnsembleManifest& manifest, const EnsemblePlan& plan, const std::string& folder) {
   if (!number_kept(manifest.keep)) return 0;
   const std::vector<MemberState> states = look_at_members(plan);
   std::size_t dropped = 0;
@@ -78,7 +82,7 @@ std::size_t drop_runs(const EnsembleManifest& manifest, const EnsemblePlan& plan
     if (states[m].stage != MemberStage::done || !states[m].has_run || keeps_run(manifest, member.seed))
       continue;
     if (!is_there(series_path(member.path)) || !is_there(lists_path(member.path))) continue;
-    if (has_run_of_another(member)) continue;
+    if (!is_in_folder(member, folder) || has_run_of_another(member)) continue;
     drop_run(member);
     ++dropped;
   }

@@ -19,6 +19,10 @@ void check_keep(const std::string& keep);
 /// those of so many seeds, the lowest ones of the ensemble.
 bool keeps_run(const EnsembleManifest& manifest, std::uint64_t seed);
 
+/// Whether a member lies in the folder of its ensemble, not behind a link to another place, where nothing is
+/// to be removed.
+bool is_in_folder(const Member& member, const std::string& folder);
+
 /// Removes the run of a member that is done, with a folder that a kill has left of it.
 void drop_run(const Member& member);
 
@@ -27,8 +31,9 @@ void drop_run(const Member& member);
 
 /// Removes the runs of all members that are done and do not keep theirs: what is left where a worker was
 /// killed after it had written the tables of a member, and what was done before the ensemble was told to keep
-/// less. A run whose tables are not both there stays. Returns how many were removed.
-std::size_t drop_runs(const EnsembleManifest& manifest, const EnsemblePlan& plan);
+/// less. A run whose tables are not both there stays, and so does one behind a link. Returns how many were
+/// removed.
+std::size_t drop_runs(const EnsembleManifest& manifest, const EnsemblePlan& plan, const std::string& folder);
 
 /// Removes the claims of members that are done or have failed: their worker was killed just before it would
 /// have done so. Those that a process of this machine holds stay. A worker of another machine may be about to

@@ -7,6 +7,8 @@
 #include <array>
 #include <cerrno>
 #include <chrono>
+#include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <fmt/core.h>
 #include <string_view>
@@ -379,7 +381,7 @@ void discard_folder(const std::string& path) {
   remove_folder(folder, lock);
 }
 
-std::string discard_damaged(const std::string& path) {
+std::string set_damaged_aside(const std::string& path) {
   if (run_presence(path) != RunPresence::folder) return "";
   const std::string folder = run_folder(path);
   WriterLock lock(folder);
@@ -390,9 +392,13 @@ std::string discard_damaged(const std::string& path) {
   } catch (const Error& error) {
     lock.require();
     if (error.code() != ExitCode::bad_data) throw;
-    const std::string damage = error.what();
-    remove_folder(folder, lock);
-    return damage.substr(0, damage.find(';'));  // what follows is advice for a run that cannot be made again
+    std::string aside = path + ".damaged";
+    for (int number = 2; is_there(aside); ++number) aside = fmt::format("{}.damaged-{}", path, number);
+    if (std::rename(folder.c_str(), aside.c_str()) != 0)
+      throw Error(ExitCode::cannot_create,
+                  fmt::format("{}: is damaged and cannot be renamed: {}", folder, std::strerror(errno)));
+    const std::string damage = error.what();  // after a semicolon: advice for a run that cannot be made again
+    return fmt::format("{}; what is left of it is {} now", damage.substr(0, damage.find(';')), aside);
   }
 }
 

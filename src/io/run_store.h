@@ -102,10 +102,11 @@ RunPresence run_presence(const std::string& path);
 /// Error(cannot_create) where another process is at it.
 void discard_folder(const std::string& path);
 
-/// Removes the folder of a run that has not been packed and cannot be continued: its manifest is damaged, or
-/// does not name what is there. Returns what was damaged; nothing where all is whole. Throws
-/// Error(cannot_create) where another process is at it.
-std::string discard_damaged(const std::string& path);
+/// Makes way for a run whose folder cannot be continued, as its manifest is damaged or does not name what is
+/// there: the folder becomes `path`.damaged, with a number from the second one on. Returns what was damaged
+/// and where it lies now; nothing where all is whole. Throws Error(cannot_create) where another process is at
+/// it, or where it cannot be renamed.
+std::string set_damaged_aside(const std::string& path);
 
 /// The folder in which the run `path` is computed.
 std::string run_folder(const std::string& path);

@@ -6,6 +6,7 @@
 #include <fmt/core.h>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 #include "core/errors.h"
 #include "core/visible_text.h"
@@ -89,6 +90,14 @@ TableGrain grain_of(const TablePlace& place, const TableColumns& columns, const 
   return {x, y, columns.is_diameter ? 0.5 * size : size, place.line};
 }
 
+/// The columns that the last comment to name them has; x, y and radius if none does.
+TableColumns columns_of_comments(const std::vector<std::pair<TablePlace, std::string_view>>& comments,
+                                 LengthUnit unit, std::size_t count) {
+  for (auto comment = comments.rbegin(); comment != comments.rend(); ++comment)
+    if (auto columns = columns_of_comment(comment->first, comment->second, unit, count)) return *columns;
+  return {{0, "x", unit}, {1, "y", unit}, {2, "radius", unit}};
+}
+
 }  // namespace
 
 double in_metres(double length, LengthUnit unit, double mean_diameter) {
@@ -110,21 +119,19 @@ double in_metres(double length, LengthUnit unit, double mean_diameter) {
 std::vector<TableGrain> parse_bed_table(const std::string& text, const std::string& name, LengthUnit unit,
                                         double mean_diameter) {
   std::vector<TableGrain> grains;
-  TablePlace place{name, 0}, comment_place{name, 0};
-  std::string_view comment;
+  TablePlace place{name, 0};
+  std::vector<std::pair<TablePlace, std::string_view>> comments;
   std::optional<TableColumns> columns;
   for (std::string_view rest = unmarked(text, name); !rest.empty();) {
     ++place.line;
     const std::string_view line = take_line(rest);
     if (cells_of(line, false).empty()) {
-      if (const std::string_view words = comment_of(line); !words.empty()) {
-        comment = words;
-        comment_place.line = place.line;
-      }
+      if (const std::string_view words = comment_of(line); !words.empty() && !columns)
+        comments.emplace_back(place, words);
     } else if (!columns && are_names(line)) {
       columns = named_columns(place, line, unit);
     } else {
-      if (!columns) columns = columns_of_comment(comment_place, comment, unit, cells_of(line, false).size());
+      if (!columns) columns = columns_of_comments(comments, unit, cells_of(line, false).size());
       grains.push_back(grain_of(place, *columns, cells_of(line, columns->tabs), mean_diameter));
     }
   }

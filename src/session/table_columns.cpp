@@ -224,12 +224,12 @@ TableColumns named_columns(const TablePlace& place, std::string_view line, Lengt
   return columns;
 }
 
-TableColumns columns_of_comment(const TablePlace& place, std::string_view comment, LengthUnit unit,
-                                std::size_t count) {
+std::optional<TableColumns> columns_of_comment(const TablePlace& place, std::string_view comment,
+                                               LengthUnit unit, std::size_t count) {
   std::vector<TableCell> cells;
   TableColumns columns = columns_in(place, comment, cells);
   if (cells.size() == count && find_columns(place, cells, unit, columns).empty()) return columns;
-  return {{0, "x", unit}, {1, "y", unit}, {2, "radius", unit}};
+  return std::nullopt;
 }
 
 }  // namespace talus

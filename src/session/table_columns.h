@@ -54,8 +54,8 @@ std::string unit_text(LengthUnit unit);
 TableColumns named_columns(const TablePlace& place, std::string_view line, LengthUnit unit);
 
 /// The columns that a comment names if it has a name for each of `count`, with x, height and size among them;
-/// else x, y and radius.
-TableColumns columns_of_comment(const TablePlace& place, std::string_view comment, LengthUnit unit,
-                                std::size_t count);
+/// else nothing.
+std::optional<TableColumns> columns_of_comment(const TablePlace& place, std::string_view comment,
+                                               LengthUnit unit, std::size_t count);
 
 }  // namespace talus

@@ -273,6 +273,32 @@ TEST_F(EnsembleManifestTest, of_which_all_fails_begins_anew_with_the_corrected_c
   EXPECT_EQ(count_of(look_at_members(plan_of(found, ensemble)), MemberStage::waiting), 1u);
 }
 
+TEST_F(EnsembleManifestTest, withdraws_no_variant_that_was_stopped_or_has_begun) {
+  extend_ensemble(ensemble, wanted({1, 2}, {"contact.friction=0.3,0.4"}));
+  const std::vector<Member> members = plan_of(read_ensemble(ensemble), ensemble).members;
+  const auto extend = [&] { extend_ensemble(ensemble, wanted({1, 2}, {"contact.friction=0.4"})); };
+  record_failure(members[0].path, {137, "killed"});
+  extend();
+  EXPECT_EQ(read_ensemble(ensemble).variants.size(), 2u) << "a signal says nothing of the value";
+  record_failure(members[0].path, {65, "a mistake"});
+  std::filesystem::create_directories(members[2].path + ".run");
+  std::ofstream(members[2].path + ".run/manifest") << "talus run folder 1\n";
+  extend();
+  EXPECT_EQ(read_ensemble(ensemble).variants.size(), 2u) << "another seed has a run";
+  std::filesystem::remove_all(members[2].path + ".run");
+  extend();
+  EXPECT_EQ(read_ensemble(ensemble).variants.size(), 1u);
+}
+
+TEST_F(EnsembleManifestTest, of_an_earlier_version_keeps_its_names) {
+  EnsembleManifest before = wanted({1}, {"contact.friction=0.3"});
+  before.variants.front().name = "contact.friction=0.30000";
+  extend_ensemble(ensemble, before);
+  std::vector<Variant> now = wanted({1}, {"contact.friction=0.3"}).variants;
+  take_earlier_names(now, ensemble);
+  EXPECT_EQ(now.front().name, "contact.friction=0.30000");
+}
+
 TEST_F(EnsembleManifestTest, of_an_earlier_version_keeps_names_that_are_paths) {
   std::ofstream(folder_.path("a.csv")) << "x,y,radius\n10,0.5,0.5\n";
   const std::string axis = "deposition.file=" + folder_.path("a.csv");

@@ -57,14 +57,29 @@ TEST_F(DroppedRuns, are_those_of_members_that_are_done_and_have_all_tables) {
        {"seed-3.h5", "seed-3.csv", "seed-3.series.csv", "seed-3.lists.h5", "seed-5.h5", "seed-5.series.csv",
         "seed-5.lists.h5", "seed-8.h5", "seed-8.csv", "seed-8.series.csv"})
     touch(name);
-  EXPECT_EQ(drop_runs(manifest_with(""), plan()), 0u);
-  EXPECT_EQ(drop_runs(manifest_with("1"), plan()), 0u) << "seed 3 keeps its run";
-  EXPECT_EQ(drop_runs(manifest_with("analysis"), plan()), 1u);
+  EXPECT_EQ(drop_runs(manifest_with(""), plan(), folder_.path()), 0u);
+  EXPECT_EQ(drop_runs(manifest_with("1"), plan(), folder_.path()), 0u) << "seed 3 keeps its run";
+  EXPECT_EQ(drop_runs(manifest_with("analysis"), plan(), folder_.path()), 1u);
   EXPECT_FALSE(fs::exists(folder_.path("seed-3.h5")));
   EXPECT_TRUE(fs::exists(folder_.path("seed-3.csv")) && fs::exists(folder_.path("seed-3.series.csv")));
   EXPECT_TRUE(fs::exists(folder_.path("seed-5.h5"))) << "a member that is not done";
   EXPECT_TRUE(fs::exists(folder_.path("seed-8.h5"))) << "one whose lists are made from its run only";
-  EXPECT_EQ(drop_runs(manifest_with("analysis"), plan()), 0u);
+  EXPECT_EQ(drop_runs(manifest_with("analysis"), plan(), folder_.path()), 0u);
+}
+
+TEST_F(DroppedRuns, are_none_behind_a_link) {
+  const std::string ensemble = folder_.path("e");
+  fs::create_directory(folder_.path("victim"));
+  for (const char* name : {"seed-3.h5", "seed-3.csv", "seed-3.series.csv", "seed-3.lists.h5"})
+    touch(std::string("victim/") + name);
+  fs::create_symlink(folder_.path("victim"), ensemble);
+  const EnsemblePlan behind = plan_of(manifest_with("analysis"), ensemble);
+  EXPECT_EQ(drop_runs(manifest_with("analysis"), behind, folder_.path()), 1u)
+      << "the link is the folder's own";
+  touch("victim/seed-3.h5");
+  fs::create_directory(folder_.path("own"));
+  EXPECT_EQ(drop_runs(manifest_with("analysis"), behind, folder_.path("own")), 0u);
+  EXPECT_TRUE(fs::exists(folder_.path("victim/seed-3.h5")));
 }
 
 TEST_F(DroppedRuns, leave_no_folder_behind) {

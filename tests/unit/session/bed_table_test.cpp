@@ -44,6 +44,11 @@ TEST(BedTable, may_have_names_comments_and_empty_lines) {
   expect_two_grains("# a bed\n\nx,y,radius # in D\n0.5,1.25,0.4# first\n\n#\n3,-0.125,0.6", 4, 7);
 }
 
+TEST(BedTable, has_the_columns_that_the_last_comment_to_name_them_has) {
+  expect_two_grains("# y x r\n# made by x\n1.25 0.5 0.4\n-0.125 3 0.6\n", 3, 4);
+  expect_two_grains("# x y r\n# y x r\n# units: D\n1.25 0.5 0.4\n-0.125 3 0.6\n# x y r\n", 4, 5);
+}
+
 TEST(BedTable, has_any_ends_of_lines_and_a_byte_order_mark) {
   expect_two_grains("\xef\xbb\xbfx,y,radius\r\n0.5,1.25,0.4 \t\r\n3,-0.125,0.6\r\n", 2, 3);
   expect_two_grains(
