@@ -166,7 +166,7 @@ static std::string versions_text(const EnsembleView& view) {
   for (std::size_t m = 0; m < view.numbers.size(); ++m)
     if (view.states[m].stage == MemberStage::done) versions.push_back(visible_word(view.numbers[m].version));
   std::ranges::sort(versions);
-  versions.erase(std::ranges::unique(versions).begin(), versions.end());
+  versions.erase(std::unique(versions.begin(), versions.end()), versions.end());
   if (versions.size() < 2) return "";
   return fmt::format("  members of several versions stand side by side, so differences may be theirs: {}\n",
                      joined(versions, ", "));
