@@ -1,6 +1,7 @@
 #include "app/given_runs.h"
 
 #include <filesystem>
+#include <fmt/core.h>
 
 #include "app/terminal.h"
 #include "core/errors.h"
