@@ -5,22 +5,15 @@
 #include <cmath>
 
 #include "core/trigonometry.h"
+#include "unit/stress/beds.h"
 
 namespace talus {
 namespace {
 
-constexpr double r = 0.5;
+using test::add_grain;
+using test::empty_bed;
 
-World empty_bed(double length, bool periodic) {
-  World world;
-  world.boundary.periodic = periodic;
-  world.boundary.length = length;
-  return world;
-}
-
-void add_grain(World& world, double x, double y, double radius = r, bool fixed = false) {
-  add_disk(world.grains, {x, y}, radius, 1.0, fixed);
-}
+constexpr double r = test::unit_radius;
 
 TEST(Bed, area_and_height_are_those_of_the_free_grains) {
   World world = empty_bed(10.0, true);

@@ -8,11 +8,15 @@
 
 #include "core/random.h"
 #include "core/trigonometry.h"
+#include "unit/stress/beds.h"
 
 namespace talus {
 namespace {
 
-constexpr double r = 0.5;
+using test::add_grain;
+using test::empty_bed;
+
+constexpr double r = test::unit_radius;
 
 /// Disks side by side from x = 0 to `length`, their tops on the line `height` + `slope` x.
 World bed(double length, bool periodic, double height, double slope) {
@@ -27,17 +31,6 @@ World bed(double length, bool periodic, double height, double slope) {
 double inclination(const World& world) { return surface_inclination(world.grains, world.boundary); }
 
 double volume(const World& world) { return bed_volume(world.grains, world.boundary); }
-
-World empty_bed(double length, bool periodic) {
-  World world;
-  world.boundary.periodic = periodic;
-  world.boundary.length = length;
-  return world;
-}
-
-void add_grain(World& world, double x, double y, double radius = r, bool fixed = false) {
-  add_disk(world.grains, {x, y}, radius, 1.0, fixed);
-}
 
 /// The free surface at the middle of each of the equal sections of a bed, over all disks and their images.
 std::vector<double> plain_surface(const World& world, std::size_t samples) {
