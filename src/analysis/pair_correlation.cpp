@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <tuple>
 #include <utility>
 
 #include "analysis/free_grains.h"
@@ -84,7 +85,6 @@ SortedRows sort_into_rows(const Points& points, double reach, double period) {
     std::size_t row;
     double x;
     std::size_t point;
-    auto operator<=>(const Entry&) const = default;
   };
   std::vector<Entry> entries;
   for (std::size_t i = 0; i < points.x.size(); ++i) {
@@ -94,7 +94,9 @@ SortedRows sort_into_rows(const Points& points, double reach, double period) {
     if (period > 0.0 && x < reach) entries.push_back({row, x + period, i});
     if (period > 0.0 && x >= period - reach) entries.push_back({row, x - period, i});
   }
-  std::ranges::sort(entries);
+  std::ranges::sort(entries, [](const Entry& a, const Entry& b) {
+    return std::tie(a.row, a.x, a.point) < std::tie(b.row, b.x, b.point);
+  });
   sorted.rows.resize(entries.back().row + 1);
   for (const Entry& entry : entries) {
     SortedRows::Row& row = sorted.rows[entry.row];
