@@ -18,6 +18,7 @@
 #include "ensemble/pool.h"
 #include "io/durable_file.h"
 #include "io/run_store.h"
+#include "io/signature.h"
 #include "session/analysis_parameters.h"
 
 namespace talus {
@@ -122,9 +123,9 @@ FigureInput read_figure_input(const std::vector<std::string>& paths, const std::
     const std::string averages = (fs::path(path) / "ensemble.h5").string();
     if (is_ensemble(path))
       add_ensemble(reading, path);
-    else if (is_averages_file(path))
+    else if (begins_with(path, hdf5_signature))
       add_values(reading, path);
-    else if (is_averages_file(averages))
+    else if (begins_with(averages, hdf5_signature))
       add_values(reading, averages);
     else
       add_run(reading, path);

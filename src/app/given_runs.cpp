@@ -5,7 +5,7 @@
 
 #include "app/terminal.h"
 #include "core/errors.h"
-#include "io/run_signature.h"
+#include "io/signature.h"
 
 namespace talus {
 

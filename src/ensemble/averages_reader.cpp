@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/core.h>
-#include <fstream>
 #include <iterator>
 
 #include "core/errors.h"
 #include "core/hash.h"
 #include "io/plain_file.h"
+#include "io/signature.h"
 
 namespace talus {
 namespace {
@@ -131,15 +131,8 @@ const StoredQuantity* find_quantity(const std::vector<StoredQuantity>& quantitie
 
 }  // namespace
 
-bool is_averages_file(const std::string& path) {
-  constexpr std::string_view signature = "\x89HDF\r\n\x1a\n";
-  std::string begin(signature.size(), '\0');
-  std::ifstream file(path, std::ios::binary);
-  return file.read(begin.data(), static_cast<std::streamsize>(begin.size())) && begin == signature;
-}
-
 bool holds_averages(const std::string& path) {
-  if (!is_averages_file(path)) return false;
+  if (!begins_with(path, hdf5_signature)) return false;
   const PlainFile file = read_plain_file(path);
   return std::ranges::any_of(file.texts,
                              [](const PlainTexts& texts) { return texts.path.starts_with("/variants"); });

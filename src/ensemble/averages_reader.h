@@ -29,9 +29,6 @@ struct StoredVariant {
   std::vector<StoredQuantity> before_failure;
 };
 
-/// Whether the file at `path` can be one of these rather than a run: it begins as HDF5 files do.
-bool is_averages_file(const std::string& path);
-
 /// Whether it is one of these, sound or not: an HDF5 file with variants, which those of other programs have
 /// not. Throws as read_plain_file does.
 bool holds_averages(const std::string& path);

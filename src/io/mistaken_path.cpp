@@ -1,10 +1,8 @@
 #include "io/mistaken_path.h"
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <fmt/core.h>
-#include <fstream>
 #include <vector>
 
 #include "core/errors.h"
@@ -12,7 +10,7 @@
 #include "core/trigonometry.h"
 #include "io/packed_file.h"
 #include "io/run_file.h"
-#include "io/run_signature.h"
+#include "io/signature.h"
 
 namespace talus {
 namespace {
@@ -49,20 +47,13 @@ std::string first_run_in(const std::string& folder) {
                           path, example));
 }
 
-bool is_hdf5(const std::string& path) {
-  constexpr std::string_view signature = "\x89HDF\r\n";
-  std::array<char, signature.size()> begin{};
-  std::ifstream(path, std::ios::binary).read(begin.data(), begin.size());
-  return std::string_view(begin.data(), begin.size()) == signature;
-}
-
 [[noreturn]] void refuse_file(const std::string& path) {
   const std::string what =
       fmt::format("{}: is not a Talus run file (it does not begin with '{}')", path, "talus run file 1");
   if (path.ends_with(".toml"))
     throw Error(ExitCode::bad_data,
                 fmt::format("{} but, by its name, a scenario; talus run {} computes its run", what, path));
-  if (is_hdf5(path))
+  if (begins_with(path, hdf5_signature))
     throw Error(ExitCode::bad_data,
                 fmt::format("{} but an HDF5 file of another kind; talus solve takes contact problems", what));
   throw Error(ExitCode::bad_data, what + "; expected one that talus run, view or replay has written");

@@ -9,7 +9,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fmt/core.h>
-#include <fstream>
+#include <span>
 #include <string_view>
 
 #include "core/descriptor.h"
@@ -18,12 +18,12 @@
 #include "core/version.h"
 #include "io/mistaken_path.h"
 #include "io/run_records.h"
-#include "io/run_signature.h"
+#include "io/signature.h"
 
 namespace talus {
 namespace {
 
-constexpr const char* seal_begin = "talus run file 1\n";
+constexpr std::string_view seal_begin = "talus run file 1\n";
 constexpr std::size_t read_size = std::size_t{1} << 20;
 
 std::vector<std::byte> seal_of(std::uint64_t size, std::uint64_t hash) {
@@ -64,20 +64,21 @@ bool is_run(const std::string& path) {
   std::error_code unknown;
   if (name.extension() == ".h5" || name.extension() == ".run" || std::filesystem::is_directory(name, unknown))
     return true;
-  if (!std::filesystem::is_regular_file(name, unknown)) return false;  // a pipe gives its bytes once
-  const std::string_view signatures[] = {seal_begin, "\x89HDF\r\n"};
-  std::string begin(std::string_view(seal_begin).size(), '\0');
-  std::ifstream file(path, std::ios::binary);
-  file.read(begin.data(), static_cast<std::streamsize>(begin.size()));
-  return std::ranges::any_of(signatures,
-                             [&begin](std::string_view signature) { return begin.starts_with(signature); });
+  return begins_as_run(path) || begins_with(path, hdf5_signature);
 }
 
-bool begins_as_run(const std::string& path) {
-  std::string begin(std::string_view(seal_begin).size(), '\0');
-  std::ifstream file(path, std::ios::binary);
-  return file.read(begin.data(), static_cast<std::streamsize>(begin.size())) && begin == seal_begin;
+bool begins_with(const std::string& path, std::string_view bytes) {
+  std::error_code unknown;
+  if (!std::filesystem::is_regular_file(path, unknown)) return false;  // a pipe gives its bytes once
+  const Descriptor file(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
+  if (file.get() < 0 && errno == EACCES) return false;  // who needs it will say so
+  if (file.get() < 0) throw system_error(ExitCode::missing_input, "open", path, errno);
+  std::string begin(bytes.size(), '\0');
+  begin.resize(read_at_most(file, std::as_writable_bytes(std::span(begin)), path));
+  return begin == bytes;
 }
+
+bool begins_as_run(const std::string& path) { return begins_with(path, seal_begin); }
 
 std::uint64_t sealed_size(std::span<const std::byte> file) {
   const std::string begin(reinterpret_cast<const char*>(file.data()), std::min(file.size(), seal_size));
@@ -102,7 +103,7 @@ void verify_seal(const std::string& path) {
   if (file.get() < 0) throw system_error(ExitCode::missing_input, "open", path, errno);
   std::vector<std::byte> block(seal_size);
   const std::size_t block_size = read_at_most(file, block, path);
-  if (std::memcmp(block.data(), seal_begin, std::strlen(seal_begin)) != 0) refuse_no_run(path);
+  if (std::memcmp(block.data(), seal_begin.data(), seal_begin.size()) != 0) refuse_no_run(path);
   Hasher hasher;
   std::uint64_t size = block_size;
   std::vector<std::byte> buffer(read_size);

@@ -116,6 +116,26 @@ TEST(EnsembleMembers, knows_the_bed_that_its_members_begin_with) {
   EXPECT_EQ(ensemble("0.3,0.5", "1", "1").out.find("e: 4 of 4 done"), 0u);
 }
 
+// Another process may be at its run, which ends; so a member that is refused its file is tried a second time.
+TEST(EnsembleMembers, that_are_refused_their_file_are_tried_again_before_they_count_as_failed) {
+  const TemporaryFolder folder;
+  write_file(folder, "bed.toml", tiny_bed);
+  std::filesystem::create_directories(folder.path("e/seed-1.h5"));
+  const Outcome outcome = run_talus(ensemble_of("e", "1-2"), folder.path());
+  EXPECT_EQ(outcome.exit_code, 73) << outcome.out << outcome.err;
+  EXPECT_NE(outcome.out.find("failed: seed-1, exit code 73"), std::string::npos) << outcome.out;
+  EXPECT_TRUE(std::filesystem::exists(folder.path("e/seed-2.csv")));
+  std::stringstream log;
+  log << std::ifstream(folder.path("e/seed-1.log")).rdbuf();
+  const std::string said = log.str();
+  const std::size_t first = said.find("talus: error: ");
+  ASSERT_NE(first, std::string::npos) << said;
+  EXPECT_NE(said.find("talus: error: ", first + 1), std::string::npos) << "twice: " << said;
+  std::filesystem::remove(folder.path("e/seed-1.h5"));
+  EXPECT_EQ(run_talus({"ensemble", "retry", "e"}, folder.path()).exit_code, 0);
+  EXPECT_EQ(run_talus(ensemble_of("e", "1-2"), folder.path()).exit_code, 0);
+}
+
 TEST(EnsembleMembers, removes_no_run_outside_of_its_folder) {
   const TemporaryFolder folder;
   write_file(folder, "bed.toml", tiny_bed);

@@ -1,6 +1,7 @@
 /// ensemble.h5 as it may be at rest: HDF5 may fail on it, and values may have changed; no figure shows these.
 
 #include <gtest/gtest.h>
+#include <hdf5.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -9,6 +10,7 @@
 #include "ensemble/averages_file.h"
 #include "ensemble/averages_reader.h"
 #include "ensemble/member_analysis.h"
+#include "io/hdf5_handle.h"
 #include "io/plain_file.h"
 #include "reliability/hostile_test.h"
 #include "scenario/scenario.h"
@@ -67,6 +69,23 @@ TEST_F(HostileAverages, cut_at_any_length_are_refused) {
   for (std::size_t size = 0; size < good.size(); size += step)
     EXPECT_TRUE(refusal(bad(Bytes(good.begin(), good.begin() + static_cast<std::ptrdiff_t>(size))), use))
         << size << " bytes";
+}
+
+// HDF5 would follow it, and a reader that skips it would miss a variant.
+TEST_F(HostileAverages, with_a_link_are_refused) {
+  for (const bool external : {false, true}) {
+    const std::string path = bad(good);
+    {
+      const hdf5::Handle file(H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose);
+      ASSERT_GE(external ? H5Lcreate_external(folder->path("good.h5").c_str(), "/variants/0", file.get(),
+                                              "/variants/1", H5P_DEFAULT, H5P_DEFAULT)
+                         : H5Lcreate_soft("/variants/0", file.get(), "/variants/1", H5P_DEFAULT, H5P_DEFAULT),
+                0);
+    }
+    const std::optional<std::string> said = refusal(path, use);
+    ASSERT_TRUE(said) << external;
+    EXPECT_NE(said->find("/variants/1 is a link to another place"), std::string::npos) << *said;
+  }
 }
 
 TEST(PlainFile, cut_short_on_its_way_is_refused) {

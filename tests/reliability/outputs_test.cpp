@@ -292,6 +292,22 @@ TEST_F(Outputs, a_full_disk_takes_no_run_away_that_is_overwritten) {
   }
 }
 
+TEST_F(Outputs, an_ensemble_on_a_full_disk_says_so) {
+  const Words words = {"ensemble", "bed.toml", "--seeds", "1-2", "--jobs", "1", "-o", "disk/e"};
+  for (const int kib : {12, 20, 28, 36, 48}) {  // of the members' logs on, or of their checkpoints
+    SCOPED_TRACE(kib);
+    const SmallDisk disk(folder_.path() / "disk", kib);
+    if (!disk.is_mounted()) GTEST_SKIP() << "needs root, to mount a small file system";
+    const Outcome full = talus(words);
+    EXPECT_EQ(full.exit_code, io_error) << full.out << full.err;
+    EXPECT_NE((full.out + full.err).find("o space"), std::string::npos) << full.out << full.err;
+    ASSERT_TRUE(disk.resize(ample));
+    talus({"ensemble", "retry", "disk/e"});  // nothing to do where the ensemble was not begun
+    const Outcome more = talus(words);
+    EXPECT_EQ(more.exit_code, done) << more.out << more.err;
+  }
+}
+
 TEST_F(Outputs, have_any_name_that_a_file_can_have) {
   for (const char* name : {"-dash.mp4", "12:30.mp4", "a%d.mp4", "file:x.mp4", "pipe:1.gif", "a'b \"c.webm"}) {
     SCOPED_TRACE(name);

@@ -98,10 +98,8 @@ TEST(ReadAverages, of_slopes_that_stand_has_no_angle_left) {
 TEST(ReadAverages, refuses_other_files) {
   const test::TemporaryFolder folder;
   write_text(folder.path("text"), "talus run file 1\n");
-  EXPECT_FALSE(is_averages_file(folder.path("text")));
-  EXPECT_FALSE(is_averages_file(folder.path("none")));
+  EXPECT_FALSE(holds_averages(folder.path("text")));
   write_plain_file(folder.path("other.h5"), {{"/x", {2}, "1", "", {1.0, 2.0}, {}}}, {});
-  EXPECT_TRUE(is_averages_file(folder.path("other.h5"))) << "it may be one";
   EXPECT_FALSE(holds_averages(folder.path("other.h5")));
   EXPECT_FALSE(holds_averages(folder.path("none")));
   EXPECT_EQ(test::exit_code_of([&] { read_averages(folder.path("other.h5")); }), ExitCode::bad_data);
@@ -120,6 +118,15 @@ TEST(ReadAverages, refuses_other_files) {
                    {{"/variants/0", "name", {""}, false}, {"/variants/0", "scenario", {""}, false}});
   EXPECT_EQ(test::exit_code_of([&] { read_averages(folder.path("whole.h5")); }), ExitCode::bad_data)
       << "numbers of another kind";
+}
+
+TEST(ReadAverages, refuses_an_infinite_value) {
+  const test::TemporaryFolder folder;
+  MemberResult broken = member(2, 4.5);
+  broken.series.series[0].values[1] = std::numeric_limits<double>::infinity();
+  write_averages(folder.path("e.h5"), {{"a", "seed = 1\n", averages_of({member(1, 2.5), broken}, 1.0)}},
+                 "0.1.0");
+  EXPECT_EQ(test::exit_code_of([&] { read_averages(folder.path("e.h5")); }), ExitCode::bad_data);
 }
 
 TEST(AnalysisOf, a_member_has_all_single_numbers_of_the_analysis_that_it_comes_from) {

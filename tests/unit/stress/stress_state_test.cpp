@@ -41,6 +41,11 @@ TEST(StressState, the_ratio_is_between_zero_and_one_in_compression) {
   EXPECT_EQ(stress_state({0.0, 0.0, 0.0, 2.0}).ratio, 1.0);
 }
 
+// s1 = 3, s2 = -1, as in a grain that is pulled across: docs/notation.md says so of gamma.
+TEST(StressState, the_ratio_is_above_one_where_one_principal_value_is_a_tension) {
+  EXPECT_NEAR(stress_state(tensor_of(3.0, -1.0, 0.4)).ratio, 2.0, 1e-14);
+}
+
 TEST(StressState, has_no_ratio_without_compression) {
   EXPECT_TRUE(std::isnan(stress_state({}).ratio));
   EXPECT_TRUE(std::isnan(stress_state({-1.0, 0.0, 0.0, -1.0}).ratio));
