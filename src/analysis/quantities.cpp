@@ -209,27 +209,27 @@ bool needs_threshold(const Quantity& quantity) { return quantity.shape.find('F')
 
 bool is_of_events(const Quantity& quantity) { return quantity.shape.find('E') != std::string::npos; }
 
-double scaled(const Quantity& quantity, double value, double mean_diameter) {
-  if (quantity.unit == "m") return value / mean_diameter;
-  return quantity.unit == "rad" ? degrees(value) : value;
+double scaled(std::string_view unit, double value, double mean_diameter) {
+  if (unit == "m") return value / mean_diameter;
+  return unit == "rad" ? degrees(value) : value;
 }
 
-double unscaled(const Quantity& quantity, double value, double mean_diameter) {
-  if (quantity.unit == "m") return value * mean_diameter;
-  return quantity.unit == "rad" ? radians(value) : value;
+double unscaled(std::string_view unit, double value, double mean_diameter) {
+  if (unit == "m") return value * mean_diameter;
+  return unit == "rad" ? radians(value) : value;
 }
 
-std::string scaled_unit(const Quantity& quantity) {
-  if (quantity.unit == "m") return "D";
-  return quantity.unit == "rad" ? "deg" : quantity.unit;
+std::string scaled_unit(std::string_view unit) {
+  if (unit == "m") return "D";
+  return std::string(unit == "rad" ? "deg" : unit);
 }
 
 double shown(const Quantity& quantity, double value, double mean_diameter) {
-  return quantity.display.percent ? 100.0 * value : scaled(quantity, value, mean_diameter);
+  return quantity.display.percent ? 100.0 * value : scaled(quantity.unit, value, mean_diameter);
 }
 
 std::string shown_title(const Quantity& quantity) {
-  const std::string unit = quantity.display.percent ? "%" : scaled_unit(quantity);
+  const std::string unit = quantity.display.percent ? "%" : scaled_unit(quantity.unit);
   return quantity.display.title + (unit == "1" ? "" : " in " + unit);
 }
 

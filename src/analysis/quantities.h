@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -94,12 +95,13 @@ bool needs_threshold(const Quantity& quantity);
 /// Whether there is one of it for each event: there is none of it in an analysis without events.
 bool is_of_events(const Quantity& quantity);
 
-/// In the unit of tables: lengths in mean diameters (m), angles in degrees, all else as it is.
-double scaled(const Quantity& quantity, double value, double mean_diameter);
-/// From that unit back to that of the table.
-double unscaled(const Quantity& quantity, double value, double mean_diameter);
-/// "D", "deg", or the unit of the table of quantities.
-std::string scaled_unit(const Quantity& quantity);
+/// From a unit of the table of quantities to that of tables for users: lengths in mean diameters (m), angles
+/// in degrees, all else as it is.
+double scaled(std::string_view unit, double value, double mean_diameter);
+/// And back.
+double unscaled(std::string_view unit, double value, double mean_diameter);
+/// "D", "deg", or the unit itself.
+std::string scaled_unit(std::string_view unit);
 
 /// In the unit of curves, which is that of tables but for small shares, in percent; and its title with the
 /// unit: "Volume strain ΔV/V in %".

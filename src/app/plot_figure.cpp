@@ -26,7 +26,7 @@ std::string meaning_of(const PlotSeries& series) {
 
 std::string unit_of(const PlotSeries& series) {
   if (!series.quantity) return "1";
-  return series.quantity->display.percent ? "%" : scaled_unit(*series.quantity);
+  return series.quantity->display.percent ? "%" : scaled_unit(series.quantity->unit);
 }
 
 /// The table of a figure with these places, made where there is none; tables are called `name`, "name-2", ...

@@ -21,7 +21,7 @@ void set_number_of_run(const Quantity& quantity, const MemberNumbers& numbers, d
                        Analysis& analysis) {
   auto values = std::get<std::vector<double>>(values_of(quantity, analysis));
   for (std::size_t k = 0; k < values.size(); ++k)
-    values[k] = unscaled(quantity, number_called(numbers, element_name(quantity.name, k)), mean_diameter);
+    values[k] = unscaled(quantity.unit, number_called(numbers, element_name(quantity.name, k)), mean_diameter);
   if (!values.empty()) set_values(quantity, values, analysis);
 }
 
@@ -32,7 +32,7 @@ void set_number_of_frames(const Quantity& quantity, const MemberSeries& series, 
     const auto found = std::ranges::find(series.series, element_name(quantity.name, f), &NamedSeries::name);
     if (found == series.series.end()) continue;
     for (std::size_t k = 0; k < analysis.frames.size(); ++k)
-      set_number(quantity, unscaled(quantity, found->values[k], mean_diameter), analysis.frames[k], f);
+      set_number(quantity, unscaled(quantity.unit, found->values[k], mean_diameter), analysis.frames[k], f);
   }
 }
 

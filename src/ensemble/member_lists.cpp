@@ -21,13 +21,13 @@ bool is_averaged(const Quantity& quantity) { return is_list_of_frame(quantity) &
 
 /// An empty list of the quantity.
 NamedList list_called(const Quantity& quantity, std::size_t f) {
-  return {element_name(quantity.name, f), scaled_unit(quantity), quantity.definition, 0, {}};
+  return {element_name(quantity.name, f), scaled_unit(quantity.unit), quantity.definition, 0, {}};
 }
 
 void append(NamedList& list, const Quantity& quantity, const std::vector<double>& values,
             double mean_diameter) {
   list.width = values.size();
-  for (const double value : values) list.values.push_back(scaled(quantity, value, mean_diameter));
+  for (const double value : values) list.values.push_back(scaled(quantity.unit, value, mean_diameter));
 }
 
 PlainArray array_of(const std::string& group, const NamedList& list) {
@@ -64,7 +64,7 @@ void set_lists(const MemberLists& lists, double mean_diameter, Analysis& analysi
   const auto part = [&](const Quantity& quantity, const NamedList& list, std::size_t row) {
     std::vector<double> values;
     for (std::size_t k = 0; k < list.width; ++k)
-      values.push_back(unscaled(quantity, list.values[row * list.width + k], mean_diameter));
+      values.push_back(unscaled(quantity.unit, list.values[row * list.width + k], mean_diameter));
     return values;
   };
   for (const Quantity& quantity : quantities()) {

@@ -36,8 +36,8 @@ void add_numbers(std::vector<NamedNumber>& numbers, const Quantity& quantity, co
   const auto* doubles = std::get_if<std::vector<double>>(&values);
   if (doubles == nullptr) return;
   for (std::size_t k = 0; k < doubles->size(); ++k)
-    numbers.push_back({element_name(quantity.name, k), scaled_unit(quantity),
-                       scaled(quantity, (*doubles)[k], mean_diameter)});
+    numbers.push_back({element_name(quantity.name, k), scaled_unit(quantity.unit),
+                       scaled(quantity.unit, (*doubles)[k], mean_diameter)});
 }
 
 std::string hash_of_file(const std::string& path) { return hash_text(hash_bytes(read_file(path))); }

@@ -43,10 +43,10 @@ MemberSeries member_series(const Analysis& analysis, double mean_diameter) {
     if (!is_number_of_frame(quantity)) continue;
     const std::size_t count = needs_threshold(quantity) ? analysis.thresholds.size() : 1;
     for (std::size_t f = 0; f < count; ++f) {
-      NamedSeries series{element_name(quantity.name, f), scaled_unit(quantity), {}};
+      NamedSeries series{element_name(quantity.name, f), scaled_unit(quantity.unit), {}};
       for (const FrameRecord* frame : frames)
         series.values.push_back(
-            scaled(quantity, number_on_one_side(quantity, *frame, f, other_side), mean_diameter));
+            scaled(quantity.unit, number_on_one_side(quantity, *frame, f, other_side), mean_diameter));
       found.series.push_back(std::move(series));
     }
   }

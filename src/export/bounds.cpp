@@ -4,8 +4,8 @@
 
 namespace talus {
 
-BedBounds bed_bounds(const ExportedFrame& of) {
-  const RunStatics& statics = of.run.statics;
+BedBounds bed_bounds(const GrainSource& of) {
+  const RunStatics& statics = of.statics;
   const double half = 0.5 * statics.mean_diameter;
   BedBounds bounds = {0.0, statics.length, 0.0, 0.0, -half, half};
   for (std::size_t i = 0; i < of.frame.y.size(); ++i) {

@@ -1,7 +1,7 @@
 #pragma once
 /// The box around a bed, as formats of molecular dynamics want one.
 
-#include "export/exported_frame.h"
+#include "analysis/frame_quantities.h"
 
 namespace talus {
 
@@ -10,6 +10,6 @@ namespace talus {
 struct BedBounds {
   double x_low = 0.0, x_high = 0.0, y_low = 0.0, y_high = 0.0, z_low = 0.0, z_high = 0.0;
 };
-BedBounds bed_bounds(const ExportedFrame& frame);
+BedBounds bed_bounds(const GrainSource& frame);
 
 }  // namespace talus

@@ -6,7 +6,6 @@
 
 #include "core/text.h"
 #include "export/fields.h"
-#include "export/number_text.h"
 
 namespace talus {
 namespace {
@@ -35,12 +34,12 @@ void append_columns(std::string& text, std::span<const FieldColumn> columns, std
 
 }  // namespace
 
-CsvRows frame_csv(const ExportedFrame& of) {
+CsvRows frame_csv(const GrainSource& of) {
   return {"frame,step,time (s),tilt (rad)\n",
           fmt::format("{},{},{},{}\n", of.number, of.frame.step, of.frame.time, of.frame.tilt)};
 }
 
-CsvRows grains_csv(const ExportedFrame& of) {
+CsvRows grains_csv(const GrainSource& of) {
   const std::vector<FieldColumn> all = grain_columns(of);
   const auto before = std::span(all).first(columns_before_centre),
              after = std::span(all).subspan(columns_before_centre);
@@ -58,7 +57,7 @@ CsvRows grains_csv(const ExportedFrame& of) {
   return csv;
 }
 
-CsvRows contacts_csv(const ExportedFrame& of) {
+CsvRows contacts_csv(const GrainSource& of) {
   const std::vector<FieldColumn> columns = contact_columns(of);
   CsvRows csv = {fmt::format("frame{}\n", heads_of(columns)), ""};
   for (std::size_t c = 0; c < of.frame.contacts.a.size(); ++c) {

@@ -5,8 +5,8 @@
 #include <span>
 #include <string>
 
+#include "analysis/frame_quantities.h"
 #include "core/observables.h"
-#include "export/exported_frame.h"
 
 namespace talus {
 
@@ -16,10 +16,10 @@ struct CsvRows {
 };
 
 /// A row for the frame: its number, step, time and tilt.
-CsvRows frame_csv(const ExportedFrame& frame);
+CsvRows frame_csv(const GrainSource& frame);
 /// A row for each grain, and for each contact; the first column is the number of the frame.
-CsvRows grains_csv(const ExportedFrame& frame);
-CsvRows contacts_csv(const ExportedFrame& frame);
+CsvRows grains_csv(const GrainSource& frame);
+CsvRows contacts_csv(const GrainSource& frame);
 
 /// All of a series.
 std::string observables_csv(std::span<const ObservableRow> rows);

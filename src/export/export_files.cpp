@@ -6,10 +6,12 @@
 #include <span>
 #include <string_view>
 
+#include "analysis/frame_analysis.h"
+#include "analysis/frame_quantities.h"
+#include "analysis/packing.h"
 #include "core/errors.h"
 #include "core/output_file.h"
 #include "export/csv.h"
-#include "export/exported_frame.h"
 #include "export/graphml.h"
 #include "export/lammps_dump.h"
 #include "export/vti.h"
@@ -17,6 +19,7 @@
 #include "export/xyz.h"
 #include "io/durable_file.h"
 #include "page/run_page.h"
+#include "session/analysis_input.h"
 
 namespace talus {
 namespace {
@@ -32,14 +35,25 @@ std::string frame_name(const char* what, std::size_t number, std::string_view en
 
 /// Calls `write` with each frame of the plan.
 void for_each_frame(const RunFile& run, const ExportPlan& plan, const Watch& watch,
-                    const std::function<void(const ExportedFrame&)>& write) {
-  const ExportedRun common = exported_run(run, plan.parameters);
+                    const std::function<void(const GrainSource&)>& write) {
+  if (run.frame_count() == 0)
+    throw Error(ExitCode::bad_data, "the run has no frames yet: the first is that of the bed at rest");
+  const RunStatics& statics = run.header().statics;
+  const double theta_c = find_value(run.checkpoint().results, "theta_c").value_or(not_known);
+  const Analysis analysis = begin_analysis(statics, plan.parameters, theta_c);
+  std::vector<double> factors;
+  for (const RunThreshold& threshold : analysis.thresholds) factors.push_back(threshold.factor);
+  const Frame first = run.frame(0);
   for (std::size_t done = 0; done < plan.frames.size(); ++done) {
     if (watch.stopped && watch.stopped())
       throw Error(ExitCode::stopped,
                   fmt::format("stopped after {} of {} frames; repeat the command with --overwrite", done,
                               plan.frames.size()));
-    write(exported_frame(run, common, plan.frames[done]));
+    const std::size_t k = plan.frames[done];
+    const Frame frame = run.frame(k), seen = analysed_frame(run, plan.parameters, k, frame);
+    const std::vector<FrameThreshold> thresholds =
+        analyse_thresholds({seen, statics}, plan.parameters, analysis, frame_volume({seen, statics}));
+    write({{frame, statics}, k, seen.gamma, &first, factors, thresholds});
     if (watch.progress) watch.progress(done + 1, plan.frames.size());
   }
 }
@@ -50,7 +64,7 @@ void write(OutputFile& file, std::string_view text) { file.write(std::as_bytes(s
 void export_paraview(const RunFile& run, const ExportPlan& plan, const Watch& watch) {
   prepare_folder(path_in(plan, "frames"));
   std::vector<PvdEntry> grains, contacts;
-  for_each_frame(run, plan, watch, [&](const ExportedFrame& frame) {
+  for_each_frame(run, plan, watch, [&](const GrainSource& frame) {
     grains.push_back({frame.frame.time, frame_name("frames/grains", frame.number, ".vtp")});
     contacts.push_back({frame.frame.time, frame_name("frames/contacts", frame.number, ".vtp")});
     write_text(path_in(plan, grains.back().file), grains_vtp(frame));
@@ -66,7 +80,7 @@ void export_fields(const RunFile& run, const ExportPlan& plan, const Watch& watc
   check_field_width(statics, width);
   prepare_folder(path_in(plan, "frames"));
   std::vector<PvdEntry> fields;
-  for_each_frame(run, plan, watch, [&](const ExportedFrame& frame) {
+  for_each_frame(run, plan, watch, [&](const GrainSource& frame) {
     fields.push_back({frame.frame.time, frame_name("frames/fields", frame.number, ".vti")});
     write_text(path_in(plan, fields.back().file), fields_vti(frame, width));
   });
@@ -75,11 +89,11 @@ void export_fields(const RunFile& run, const ExportPlan& plan, const Watch& watc
 
 /// All frames one after the other in one file, below a head.
 void export_series(const RunFile& run, const ExportPlan& plan, const Watch& watch, std::string_view head,
-                   std::string (*text_of)(const ExportedFrame&)) {
+                   std::string (*text_of)(const GrainSource&)) {
   prepare_folder_of(plan.output);
   OutputFile file(plan.output);
   write(file, head);
-  for_each_frame(run, plan, watch, [&](const ExportedFrame& frame) { write(file, text_of(frame)); });
+  for_each_frame(run, plan, watch, [&](const GrainSource& frame) { write(file, text_of(frame)); });
   file.commit();
 }
 
@@ -92,7 +106,7 @@ std::string network_path(const ExportPlan& plan, std::size_t number) {
 
 void export_networks(const RunFile& run, const ExportPlan& plan, const Watch& watch) {
   prepare_folder_of(network_path(plan, 0));
-  for_each_frame(run, plan, watch, [&](const ExportedFrame& frame) {
+  for_each_frame(run, plan, watch, [&](const GrainSource& frame) {
     write_text(network_path(plan, frame.number), graphml_text(frame));
   });
 }
@@ -117,7 +131,7 @@ void export_tables(const RunFile& run, const ExportPlan& plan, const Watch& watc
   prepare_folder(plan.output);
   CsvFile frames(path_in(plan, "frames.csv")), grains(path_in(plan, "grains.csv")),
       contacts(path_in(plan, "contacts.csv"));
-  for_each_frame(run, plan, watch, [&](const ExportedFrame& frame) {
+  for_each_frame(run, plan, watch, [&](const GrainSource& frame) {
     frames.add(frame_csv(frame));
     grains.add(grains_csv(frame));
     contacts.add(contacts_csv(frame));

@@ -8,7 +8,6 @@
 
 #include "core/version.h"
 #include "export/fields.h"
-#include "export/number_text.h"
 
 namespace talus {
 namespace {
@@ -71,11 +70,11 @@ void append_row(std::string& text, const std::vector<KeyedColumn>& columns, std:
       append_datum(text, of.keys[c], of.column.values[row * of.keys.size() + c], of.column.field.number);
 }
 
-void append_grains(std::string& text, const ExportedFrame& of, const std::vector<FieldColumn>& columns) {
+void append_grains(std::string& text, const GrainSource& of, const std::vector<FieldColumn>& columns) {
   const std::vector<KeyedColumn> keys = keyed("node", columns);
   for (std::size_t i = 0; i < of.frame.x.size(); ++i) {
     text += fmt::format("<node id=\"{}\"><data key=\"node.kind\">{}</data>", i,
-                        i < static_cast<std::size_t>(of.run.statics.free_count) ? "free" : "floor");
+                        i < static_cast<std::size_t>(of.statics.free_count) ? "free" : "floor");
     append_datum(text, "node.x", of.frame.x[i], FieldNumber::single);
     append_datum(text, "node.y", of.frame.y[i], FieldNumber::single);
     append_row(text, keys, i);
@@ -83,7 +82,7 @@ void append_grains(std::string& text, const ExportedFrame& of, const std::vector
   }
 }
 
-void append_planes(std::string& text, const ExportedFrame& of) {
+void append_planes(std::string& text, const GrainSource& of) {
   std::set<Index> planes;
   for (const Index b : of.frame.contacts.b)
     if (b >= of.frame.grain_count()) planes.insert(b);
@@ -91,7 +90,7 @@ void append_planes(std::string& text, const ExportedFrame& of) {
     text += fmt::format("<node id=\"{}\"><data key=\"node.kind\">plane</data></node>\n", plane);
 }
 
-void append_contacts(std::string& text, const ExportedFrame& of, const std::vector<FieldColumn>& columns) {
+void append_contacts(std::string& text, const GrainSource& of, const std::vector<FieldColumn>& columns) {
   const std::vector<KeyedColumn> keys = keyed("edge", columns);
   for (std::size_t c = 0; c < of.frame.contacts.a.size(); ++c) {
     text += fmt::format("<edge id=\"{}\" source=\"{}\" target=\"{}\">", c, of.frame.contacts.a[c],
@@ -103,7 +102,7 @@ void append_contacts(std::string& text, const ExportedFrame& of, const std::vect
 
 }  // namespace
 
-std::string graphml_text(const ExportedFrame& of) {
+std::string graphml_text(const GrainSource& of) {
   const std::vector<FieldColumn> grains = grain_columns(of), contacts = contact_columns(of);
   const auto graph_datum = [](std::string_view name, const auto& value) {
     return fmt::format("<data key=\"graph.{}\">{}</data>\n", name, value);
@@ -128,7 +127,7 @@ std::string graphml_text(const ExportedFrame& of) {
       .append(graph_datum("step", of.frame.step))
       .append(graph_datum("time", of.frame.time))
       .append(graph_datum("tilt", of.frame.tilt))
-      .append(graph_datum("period", of.run.statics.periodic ? of.run.statics.length : 0.0));
+      .append(graph_datum("period", of.statics.periodic ? of.statics.length : 0.0));
   append_grains(text, of, grains);
   append_planes(text, of);
   append_contacts(text, of, contacts);

@@ -3,12 +3,12 @@
 
 #include <string>
 
-#include "export/exported_frame.h"
+#include "analysis/frame_quantities.h"
 
 namespace talus {
 
 /// An undirected graph: grains, and planes that something touches, are nodes with their ids; contacts are
 /// edges, from a to b. Two grains of a short periodic bed may touch twice.
-std::string graphml_text(const ExportedFrame& frame);
+std::string graphml_text(const GrainSource& frame);
 
 }  // namespace talus

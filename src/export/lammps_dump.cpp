@@ -7,15 +7,9 @@
 #include "core/text.h"
 #include "export/bounds.h"
 #include "export/fields.h"
-#include "export/number_text.h"
 
 namespace talus {
 namespace {
-
-std::string names_of(const FieldColumn& column) {
-  return column.field.lammps.empty() ? joined(component_names(column), " ")
-                                     : std::string(column.field.lammps);
-}
 
 void append_column(std::string& text, const FieldColumn& column, std::size_t row) {
   const std::size_t width = components(column.field);
@@ -32,20 +26,20 @@ void append_centre(std::string& text, const Frame& frame, std::size_t i) {
   }
 }
 
-std::string head(const ExportedFrame& of, std::span<const FieldColumn> columns) {
+std::string head(const GrainSource& of, std::span<const FieldColumn> columns) {
   const BedBounds bounds = bed_bounds(of);
   return fmt::format(
       "ITEM: TIME\n{}\nITEM: TIMESTEP\n{}\nITEM: NUMBER OF ATOMS\n{}\n"
       "ITEM: BOX BOUNDS {} ff ff\n{} {}\n{} {}\n{} {}\nITEM: ATOMS {} x y {}\n",
-      of.frame.time, of.frame.step, of.frame.grain_count(), of.run.statics.periodic ? "pp" : "ff",
-      bounds.x_low, bounds.x_high, bounds.y_low, bounds.y_high, bounds.z_low, bounds.z_high,
-      joined(columns.first(columns_before_centre), " ", names_of),
-      joined(columns.subspan(columns_before_centre), " ", names_of));
+      of.frame.time, of.frame.step, of.frame.grain_count(), of.statics.periodic ? "pp" : "ff", bounds.x_low,
+      bounds.x_high, bounds.y_low, bounds.y_high, bounds.z_low, bounds.z_high,
+      joined(columns.first(columns_before_centre), " ", lammps_names),
+      joined(columns.subspan(columns_before_centre), " ", lammps_names));
 }
 
 }  // namespace
 
-std::string lammps_dump_text(const ExportedFrame& of) {
+std::string lammps_dump_text(const GrainSource& of) {
   const std::vector<FieldColumn> columns = grain_columns(of);
   std::string text = head(of, columns);
   for (std::size_t i = 0; i < of.frame.x.size(); ++i) {

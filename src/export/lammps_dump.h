@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "export/exported_frame.h"
+#include "analysis/frame_quantities.h"
 
 namespace talus {
 
@@ -14,6 +14,6 @@ inline constexpr std::string_view lammps_dump_head = "ITEM: UNITS\nsi\n";
 
 /// A frame, to follow the one before in the same file: SI units (`units si`), without a column z, by which
 /// OVITO knows that it is two-dimensional.
-std::string lammps_dump_text(const ExportedFrame& frame);
+std::string lammps_dump_text(const GrainSource& frame);
 
 }  // namespace talus

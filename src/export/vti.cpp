@@ -77,8 +77,8 @@ constexpr auto all_grid_fields = std::to_array<GridField>({
 
 std::span<const GridField> grid_fields() { return all_grid_fields; }
 
-FieldGrid field_grid(const ExportedFrame& frame, double width) {
-  const RunStatics& statics = frame.run.statics;
+FieldGrid field_grid(const GrainSource& frame, double width) {
+  const RunStatics& statics = frame.statics;
   const BedBounds bounds = bed_bounds(frame);
   const double spacing = width / points_across, margin = 0.5 * width;
   const double left = statics.periodic ? 0.0 : -margin;
@@ -101,8 +101,8 @@ void check_field_width(const RunStatics& statics, double width) {
                             width / statics.mean_diameter, statics.length / statics.mean_diameter));
 }
 
-std::string fields_vti(const ExportedFrame& frame, double width) {
-  const RunStatics& statics = frame.run.statics;
+std::string fields_vti(const GrainSource& frame, double width) {
+  const RunStatics& statics = frame.statics;
   check_field_width(statics, width);
   const FieldGrid grid = field_grid(frame, width);
   const CoarseFields fields({frame.frame, statics}, 0.5 * width);

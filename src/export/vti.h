@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "analysis/coarse_fields.h"
-#include "export/exported_frame.h"
+#include "analysis/frame_quantities.h"
 #include "export/fields.h"
 
 namespace talus {
@@ -32,12 +32,12 @@ struct FieldGrid {
 };
 /// `width`: diameter of the support of the coarse-graining function, m. Points are a tenth of it apart, or a
 /// little less along x, as a whole number goes around the period.
-FieldGrid field_grid(const ExportedFrame& frame, double width);
+FieldGrid field_grid(const GrainSource& frame, double width);
 
 /// Throws Error(usage) where `width` is not in (0, length of the bed].
 void check_field_width(const RunStatics& statics, double width);
 
 /// Throws as check_field_width.
-std::string fields_vti(const ExportedFrame& frame, double width);
+std::string fields_vti(const GrainSource& frame, double width);
 
 }  // namespace talus

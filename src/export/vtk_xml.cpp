@@ -43,7 +43,7 @@ std::string field_datum(const char* type, std::string_view name, const std::stri
       type, name, value, unit);
 }
 
-std::string field_data(const ExportedFrame& frame) {
+std::string field_data(const GrainSource& frame) {
   return fmt::format("<FieldData>\n{}{}{}{}</FieldData>\n",
                      field_datum("Float64", "TimeValue", fmt::format("{}", frame.frame.time), "s"),
                      field_datum("Float64", "tilt", fmt::format("{}", frame.frame.tilt), "rad"),
@@ -99,7 +99,7 @@ std::string vtk_field(const VtkArray& head, FieldShape shape, FieldNumber number
   return vtk_array(in_three, in_space<double>(values, width));
 }
 
-std::string vtk_file(const ExportedFrame& frame, std::string_view type, const std::string& attributes,
+std::string vtk_file(const GrainSource& frame, std::string_view type, const std::string& attributes,
                      const std::string& piece) {
   return fmt::format(
       "<?xml version=\"1.0\"?>\n"

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "export/exported_frame.h"
+#include "analysis/frame_quantities.h"
 #include "export/fields.h"
 
 namespace talus {
@@ -29,7 +29,7 @@ std::string vtk_field(const VtkArray& head, FieldShape shape, FieldNumber number
 
 /// A file with a data set of a type, "PolyData", whose `attributes` begin with a blank, and a piece of it;
 /// and with the time and the tilt of the frame.
-std::string vtk_file(const ExportedFrame& frame, std::string_view type, const std::string& attributes,
+std::string vtk_file(const GrainSource& frame, std::string_view type, const std::string& attributes,
                      const std::string& piece);
 
 /// "LittleEndian" or "BigEndian", as this machine is.

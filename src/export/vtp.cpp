@@ -26,7 +26,7 @@ std::string cells(std::string_view kind, std::size_t count, std::size_t size) {
                      vtk_array({"offsets"}, offsets));
 }
 
-std::string poly_data(const ExportedFrame& frame, const std::string& piece) {
+std::string poly_data(const GrainSource& frame, const std::string& piece) {
   return vtk_file(frame, "PolyData", "", piece);
 }
 
@@ -38,14 +38,14 @@ std::string piece_head(std::size_t points, std::size_t vertices, std::size_t lin
 }
 
 /// Centre of a, and where the line to b ends.
-std::vector<double> line_ends(const ExportedFrame& of) {
+std::vector<double> line_ends(const GrainSource& of) {
   const Frame& frame = of.frame;
   const FrameContacts& contacts = frame.contacts;
   std::vector<double> ends;
   for (std::size_t c = 0; c < contacts.a.size(); ++c) {
     const auto a = static_cast<std::size_t>(contacts.a[c]), b = static_cast<std::size_t>(contacts.b[c]);
     const bool is_grain = b < frame.x.size();
-    const double x = is_grain ? frame.x[b] + contacts.shift[c] * of.run.statics.length : contacts.px[c];
+    const double x = is_grain ? frame.x[b] + contacts.shift[c] * of.statics.length : contacts.px[c];
     const double y = is_grain ? frame.y[b] : contacts.py[c];
     ends.insert(ends.end(), {frame.x[a], frame.y[a], 0.0, x, y, 0.0});
   }
@@ -54,7 +54,7 @@ std::vector<double> line_ends(const ExportedFrame& of) {
 
 }  // namespace
 
-std::string grains_vtp(const ExportedFrame& frame) {
+std::string grains_vtp(const GrainSource& frame) {
   const std::size_t count = frame.frame.x.size();
   std::vector<float> centres;
   for (std::size_t i = 0; i < count; ++i)
@@ -70,7 +70,7 @@ std::string grains_vtp(const ExportedFrame& frame) {
   return poly_data(frame, piece);
 }
 
-std::string contacts_vtp(const ExportedFrame& frame) {
+std::string contacts_vtp(const GrainSource& frame) {
   const FrameContacts& contacts = frame.frame.contacts;
   const std::size_t count = contacts.a.size();
   std::vector<float> force_at_ends;

@@ -4,17 +4,17 @@
 #include <span>
 #include <string>
 
-#include "export/exported_frame.h"
+#include "analysis/frame_quantities.h"
 
 namespace talus {
 
 /// Grains as points (vertices), m, with their fields as point data.
-std::string grains_vtp(const ExportedFrame& frame);
+std::string grains_vtp(const GrainSource& frame);
 
 /// Contacts as lines, m, each with end points of its own: from the centre of a to that of b, or to the
 /// contact point where b is a plane. Across the periodic edge a line goes on to the image of b. Fields are
 /// cell data, and normal forces point data too, as filters that draw tubes want them.
-std::string contacts_vtp(const ExportedFrame& frame);
+std::string contacts_vtp(const GrainSource& frame);
 
 /// A file of a series.
 struct PvdEntry {

@@ -5,37 +5,34 @@
 
 #include "export/bounds.h"
 #include "export/fields.h"
-#include "export/number_text.h"
 
 namespace talus {
 namespace {
 
 /// Vectors have three components here, tensors four.
-std::size_t width_of(const Field& field) { return field.shape == FieldShape::vector ? 3 : components(field); }
-
-std::string name_of(const FieldColumn& column) {
-  return std::string(column.field.xyz.empty() ? column.field.name : column.field.xyz) + column.ending;
+std::size_t width_of(const FrameQuantity& field) {
+  return field.shape == FieldShape::vector ? 3 : components(field);
 }
 
 /// "pos:R:3:radius:R:1": names, kinds and numbers of columns.
 std::string properties(const std::vector<FieldColumn>& columns) {
   std::string text = "species:S:1:pos:R:3";
   for (const FieldColumn& column : columns)
-    text += fmt::format(":{}:{}:{}", name_of(column), column.field.number == FieldNumber::integer ? 'I' : 'R',
-                        width_of(column.field));
+    text += fmt::format(":{}:{}:{}", xyz_name(column),
+                        column.field.number == FieldNumber::integer ? 'I' : 'R', width_of(column.field));
   return text;
 }
 
-std::string box_line(const ExportedFrame& of, const std::vector<FieldColumn>& columns) {
+std::string box_line(const GrainSource& of, const std::vector<FieldColumn>& columns) {
   const BedBounds bounds = bed_bounds(of);
-  const double d = of.run.statics.mean_diameter;
+  const double d = of.statics.mean_diameter;
   return fmt::format(
       "Lattice=\"{} 0 0 0 {} 0 0 0 {}\" Origin=\"{} {} {}\" Properties={} pbc=\"{} F F\" Time={} tilt={} "
       "step={} "
       "frame={} mean_diameter={} units=\"lengths in mean diameters; all else SI, per metre of thickness\"\n",
       (bounds.x_high - bounds.x_low) / d, (bounds.y_high - bounds.y_low) / d,
       (bounds.z_high - bounds.z_low) / d, bounds.x_low / d, bounds.y_low / d, bounds.z_low / d,
-      properties(columns), of.run.statics.periodic ? 'T' : 'F', of.frame.time, of.frame.tilt, of.frame.step,
+      properties(columns), of.statics.periodic ? 'T' : 'F', of.frame.time, of.frame.tilt, of.frame.step,
       of.number, d);
 }
 
@@ -53,8 +50,8 @@ void append_column(std::string& text, const FieldColumn& column, std::size_t row
 
 }  // namespace
 
-std::string xyz_text(const ExportedFrame& of) {
-  const double d = of.run.statics.mean_diameter;
+std::string xyz_text(const GrainSource& of) {
+  const double d = of.statics.mean_diameter;
   const std::vector<FieldColumn> columns = grain_columns(of);
   std::string text = fmt::format("{}\n{}", of.frame.grain_count(), box_line(of, columns));
   for (std::size_t i = 0; i < of.frame.x.size(); ++i) {

@@ -21,7 +21,7 @@ std::vector<FrameColumn> shown_columns() {
   for (const Quantity& quantity : quantities()) {
     if (!is_number_of_frame(quantity) || quantity.display.title.empty()) continue;
     columns.push_back(
-        {quantity.name, quantity.display.percent ? "%" : scaled_unit(quantity), quantity.definition,
+        {quantity.name, quantity.display.percent ? "%" : scaled_unit(quantity.unit), quantity.definition,
          [quantity](const FigureRun& run, std::size_t frame) {
            return shown(quantity, number_of(quantity, run.analysis.frames.at(frame)), run.mean_diameter);
          },

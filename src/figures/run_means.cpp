@@ -128,9 +128,9 @@ bool stands_at(const FigureRun& run, double tilt) {
 }
 
 FrameColumn column_of(const std::string& name, const Quantity& quantity, std::size_t f) {
-  return {name, scaled_unit(quantity), quantity.definition,
+  return {name, scaled_unit(quantity.unit), quantity.definition,
           [quantity, f](const FigureRun& run, std::size_t frame) {
-            return scaled(quantity, number_of(quantity, run.analysis.frames.at(frame), f), run.mean_diameter);
+            return scaled(quantity.unit, number_of(quantity, run.analysis.frames.at(frame), f), run.mean_diameter);
           },
           has_side(quantity)};
 }

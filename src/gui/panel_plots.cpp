@@ -92,7 +92,7 @@ void draw_more(Gui& gui) {
     if (ImGui::IsItemHovered()) {
       ImGui::BeginTooltip();
       ImGui::PushTextWrapPos(25.0f * gui.em);
-      ImGui::TextUnformatted((quantity->definition + " [" + scaled_unit(*quantity) + "]").c_str());
+      ImGui::TextUnformatted((quantity->definition + " [" + scaled_unit(quantity->unit) + "]").c_str());
       ImGui::PopTextWrapPos();
       ImGui::EndTooltip();
     }

@@ -21,14 +21,14 @@ void offer_names(Gui& gui) {
   const bool open = ImGui::BeginCombo("##names", "names", ImGuiComboFlags_HeightLarge);
   note_place(gui, "names");
   if (!open) return;
-  for (const GrainQuantity& quantity : grain_quantities()) {
-    const std::string name(quantity.name);
-    if (ImGui::Selectable(head_of(quantity).c_str())) {
+  for (const GrainNumber& number : grain_numbers()) {
+    const std::string& name = number.name;
+    if (ImGui::Selectable(head_of(number).c_str())) {
       const bool apart = !selecting.condition.empty() && !selecting.condition.ends_with(' ');
       selecting.condition += (apart ? " " : "") + name;
     }
     note_place(gui, "name " + name);
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", std::string(quantity.definition).c_str());
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", std::string(number.quantity->definition).c_str());
   }
   if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false)) ImGui::CloseCurrentPopup();
   ImGui::EndCombo();
@@ -72,19 +72,19 @@ void choose_quantity(Gui& gui) {
   std::string& name = gui.model.state.selecting.quantity;
   std::vector<std::string> heads;
   int chosen = 0;
-  for (const GrainQuantity& quantity : grain_quantities()) {
-    if (quantity.name == name) chosen = static_cast<int>(heads.size());
-    heads.push_back(head_of(quantity));
+  for (const GrainNumber& number : grain_numbers()) {
+    if (number.name == name) chosen = static_cast<int>(heads.size());
+    heads.push_back(head_of(number));
   }
   ImGui::SetNextItemWidth(-1.0f);
   if (named_choice(gui, "quantity", "", heads, chosen))
-    name = grain_quantities()[static_cast<std::size_t>(chosen)].name;
+    name = grain_numbers()[static_cast<std::size_t>(chosen)].name;
 }
 
 void draw_histogram(Gui& gui, const std::vector<Index>& grains) {
   choose_quantity(gui);
-  const GrainQuantity& quantity = grain_quantity(gui.model.state.selecting.quantity);
-  const std::vector<double>& values = gui.model.grain_values(quantity);
+  const GrainNumber& number = grain_number(gui.model.state.selecting.quantity);
+  const std::vector<double>& values = gui.model.grain_values(number);
   const GrainStatistics of = statistics_of(grains, values);
   if (of.count > 0) {
     fact("mean", std::isnan(of.deviation) ? fmt::format("{:.4g}", of.mean)
@@ -94,27 +94,28 @@ void draw_histogram(Gui& gui, const std::vector<Index>& grains) {
   if (of.count < grains.size()) fact("without a value", fmt::format("{}", grains.size() - of.count));
   std::vector<Index> all(static_cast<std::size_t>(gui.model.statics().free_count));
   std::iota(all.begin(), all.end(), 0);
-  const Plot plot = histogram_of(quantity, grains, all, values);
+  const Plot plot = histogram_of(number, grains, all, values);
   if (!plot.series.empty()) draw_plot(gui, plot, {ImGui::GetContentRegionAvail().x, 10.0f * gui.em}, {});
 }
 
-std::string cell_text(const GrainQuantity& quantity, double value) {
+std::string cell_text(const GrainNumber& number, double value) {
   if (std::isnan(value)) return "–";
-  return quantity.whole ? fmt::format("{:.0f}", value) : fmt::format("{:.4g}", value);
+  return number.quantity->number == FieldNumber::integer ? fmt::format("{:.0f}", value)
+                                                         : fmt::format("{:.4g}", value);
 }
 
 /// The columns that are shown: the quantity of the histogram, and what is mostly wanted.
-std::vector<const GrainQuantity*> shown_columns(const std::string& chosen) {
-  std::vector<const GrainQuantity*> columns = {&grain_quantity("id")};
+std::vector<const GrainNumber*> shown_columns(const std::string& chosen) {
+  std::vector<const GrainNumber*> columns = {&grain_number("id")};
   for (const std::string_view name : {std::string_view(chosen), std::string_view("x"), std::string_view("y"),
                                       std::string_view("gamma"), std::string_view("coordination")})
-    if (std::ranges::find(columns, name, &GrainQuantity::name) == columns.end())
-      columns.push_back(&grain_quantity(name));
+    if (std::ranges::find(columns, name, &GrainNumber::name) == columns.end())
+      columns.push_back(&grain_number(name));
   return columns;
 }
 
 /// A click on a row shows its grain in the inspector; what is selected stays.
-void draw_rows(Gui& gui, const std::vector<Index>& grains, const std::vector<const GrainQuantity*>& columns) {
+void draw_rows(Gui& gui, const std::vector<Index>& grains, const std::vector<const GrainNumber*>& columns) {
   ViewState& state = gui.model.state;
   ImGuiListClipper clipper;
   clipper.Begin(static_cast<int>(grains.size()));
@@ -122,11 +123,11 @@ void draw_rows(Gui& gui, const std::vector<Index>& grains, const std::vector<con
     for (int row = clipper.DisplayStart; row < clipper.DisplayEnd; ++row) {
       const Index grain = grains[static_cast<std::size_t>(row)];
       ImGui::TableNextRow();
-      for (const GrainQuantity* quantity : columns) {
+      for (const GrainNumber* number : columns) {
         ImGui::TableNextColumn();
         const std::string text =
-            cell_text(*quantity, gui.model.grain_values(*quantity)[static_cast<std::size_t>(grain)]);
-        if (quantity != columns.front()) {
+            cell_text(*number, gui.model.grain_values(*number)[static_cast<std::size_t>(grain)]);
+        if (number != columns.front()) {
           ImGui::TextUnformatted(text.c_str());
           continue;
         }
@@ -145,18 +146,18 @@ void draw_table(Gui& gui, const std::vector<Index>& grains) {
   const float height = 14.0f * gui.em;
   if (!ImGui::BeginTable("selected grains", static_cast<int>(columns.size()), flags, {0.0f, height})) return;
   ImGui::TableSetupScrollFreeze(1, 1);
-  for (const GrainQuantity* quantity : columns)  // its own id, so that a sorting stays with its quantity
-    ImGui::TableSetupColumn(head_of(*quantity).c_str());
+  for (const GrainNumber* number : columns)  // its own id, so that a sorting stays with its quantity
+    ImGui::TableSetupColumn(head_of(*number).c_str());
   ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
   for (int k = 0; k < static_cast<int>(columns.size()); ++k) {
     ImGui::TableSetColumnIndex(k);
     ImGui::TableHeader(ImGui::TableGetColumnName(k));
-    note_place(gui, "sort by " + std::string(columns[static_cast<std::size_t>(k)]->name));
+    note_place(gui, "sort by " + columns[static_cast<std::size_t>(k)]->name);
   }
   std::vector<Index> rows = grains;
   const ImGuiTableSortSpecs* sorting = ImGui::TableGetSortSpecs();
   if (sorting != nullptr && sorting->SpecsCount > 0) {
-    const GrainQuantity& by = *columns[static_cast<std::size_t>(sorting->Specs[0].ColumnIndex)];
+    const GrainNumber& by = *columns[static_cast<std::size_t>(sorting->Specs[0].ColumnIndex)];
     rows = sorted_by(rows, gui.model.grain_values(by),
                      sorting->Specs[0].SortDirection == ImGuiSortDirection_Descending);
   }

@@ -76,7 +76,7 @@ std::string curve_json(const PageCurve& curve) {
 /// As curves have it, or for a quantity that none shows its name and unit.
 std::string title_of(const Quantity& quantity) {
   if (!quantity.display.symbol.empty()) return shown_title(quantity);
-  const std::string unit = scaled_unit(quantity);
+  const std::string unit = scaled_unit(quantity.unit);
   return unit == "1" ? quantity.name : fmt::format("{} in {}", quantity.name, unit);
 }
 

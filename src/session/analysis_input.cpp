@@ -39,10 +39,14 @@ void average_moments(const RunFile& run, double half_window, std::size_t k, Fram
 
 }  // namespace
 
-Frame analysed_frame(const RunFile& run, const AnalysisParameters& parameters, std::size_t k) {
-  Frame frame = run.frame(k);
-  if (parameters.averaging > 0.0) average_moments(run, 0.5 * radians(parameters.averaging), k, frame);
+Frame analysed_frame(const RunFile& run, const AnalysisParameters& parameters, std::size_t k, Frame frame) {
+  if (parameters.averaging > 0.0 && k < run.frame_count())
+    average_moments(run, 0.5 * radians(parameters.averaging), k, frame);
   return with_analysed_gamma(std::move(frame), run.header().statics, parameters);
+}
+
+Frame analysed_frame(const RunFile& run, const AnalysisParameters& parameters, std::size_t k) {
+  return analysed_frame(run, parameters, k, run.frame(k));
 }
 
 }  // namespace talus

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <fmt/core.h>
 
 #include "analysis/histogram.h"
+#include "analysis/quantities.h"
 #include "core/trigonometry.h"
 
 namespace talus {
@@ -72,13 +72,13 @@ std::vector<Index> sorted_by(std::vector<Index> grains, std::span<const double> 
   return grains;
 }
 
-Plot histogram_of(const GrainQuantity& quantity, std::span<const Index> selected, std::span<const Index> all,
+Plot histogram_of(const GrainNumber& number, std::span<const Index> selected, std::span<const Index> all,
                   std::span<const double> values) {
   Plot plot;
-  plot.name = fmt::format("histogram of {}", quantity.name);
+  plot.name = fmt::format("histogram of {}", number.name);
   plot.title = "Density";
-  plot.x_title = fmt::format("{}{}{}", quantity.name, quantity.unit == "1" ? "" : " in ",
-                             quantity.unit == "1" ? "" : quantity.unit);
+  const std::string unit = scaled_unit(number.quantity->unit);
+  plot.x_title = number.name + (unit == "1" ? "" : " in " + unit);
   std::ranges::replace(plot.x_title, '_', ' ');  // which would set a subscript
   plot.along_run = false;
   const GrainStatistics of = statistics_of(all, values);
@@ -94,17 +94,14 @@ Plot histogram_of(const GrainQuantity& quantity, std::span<const Index> selected
 std::string grains_table(const Frame& frame, std::span<const Index> grains,
                          std::span<const GrainColumn> columns) {
   std::string text = "time (s),tilt (deg)";
-  for (const GrainColumn& column : columns) text.append(1, ',').append(head_of(column.quantity));
+  for (const GrainColumn& column : columns) text.append(1, ',').append(head_of(column.number));
   text += '\n';
   const std::string instant = fmt::format("{},{}", frame.time, degrees(frame.tilt));
   for (const Index grain : grains) {
     text += instant;
     for (const GrainColumn& column : columns) {
-      const double value = value_of(column.values, grain);
       text += ',';
-      if (std::isnan(value)) continue;
-      text += column.quantity.whole ? fmt::format("{}", static_cast<std::int64_t>(value))
-                                    : fmt::format("{}", value);
+      append_number(text, value_of(column.values, grain), column.number.quantity->number, "");
     }
     text += '\n';
   }

@@ -27,12 +27,12 @@ std::vector<Index> sorted_by(std::vector<Index> grains, std::span<const double> 
 /// "histogram of NAME": the probability densities of a quantity over the selected grains and over `all`, in
 /// equal bins between the least and the largest value of all; curves are stairs. Empty where there are no
 /// values.
-Plot histogram_of(const GrainQuantity& quantity, std::span<const Index> selected, std::span<const Index> all,
+Plot histogram_of(const GrainNumber& number, std::span<const Index> selected, std::span<const Index> all,
                   std::span<const double> values);
 
 /// A quantity with its values of all grains, by their ids.
 struct GrainColumn {
-  const GrainQuantity& quantity;
+  const GrainNumber& number;
   std::span<const double> values;
 };
 

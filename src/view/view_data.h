@@ -122,6 +122,7 @@ struct ViewModel::Data {
   struct {
     std::shared_ptr<const Frame> frame;
     OverloadRule rule;
+    std::optional<FrameThreshold> judged;  ///< l_c and clusters at the threshold of the rule
     std::map<std::string_view, std::vector<double>> of;
   } grain_values;
   std::shared_ptr<const Frame> first_frame;      ///< of the run; null where it has not been asked for
@@ -189,9 +190,10 @@ struct ViewModel::Data {
   const Clusters& shown_clusters(const MapSettings& settings);
   const Inspection* inspect_selected(const ViewState& asked);
   /// view_selection.cpp: what conditions and tables of grains go by.
+  /// Its values are those of `judged`, at the threshold of the map.
   GrainSource grain_source(const MapSettings& settings);
   SelectionMarks selection_marks(const ViewState& asked) const;
-  const std::vector<double>& values_of_grains(const GrainQuantity& quantity, const ViewState& asked);
+  const std::vector<double>& values_of_grains(const GrainNumber& number, const ViewState& asked);
   /// mu between grains at a step, as commands have set it.
   double friction_at(std::int64_t step) const;
   /// Reads what trails and the selected contact need; true where something has come in.

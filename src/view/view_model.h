@@ -180,7 +180,7 @@ class ViewModel {
   /// find_contact, in the frame shown.
   std::optional<ContactKey> contact_at(double x, double y, double reach) const;
   /// Of all grains of the frame shown, by their ids. Made once for a frame and an overload rule.
-  const std::vector<double>& grain_values(const GrainQuantity& quantity) const;
+  const std::vector<double>& grain_values(const GrainNumber& number) const;
 
   /// Of the selected contact in the frame shown; none where none is selected.
   std::optional<ContactInspection> contact_inspection() const;

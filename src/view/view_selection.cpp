@@ -19,25 +19,25 @@ GrainSource ViewModel::Data::grain_source(const MapSettings& settings) {
       first_frame = recorded->all().front();
   }
   const OverloadRule& rule = settings;
-  const double threshold = threshold_of(rule);
-  return {*stored,
-          *frame,
-          first_frame.get(),
-          statics(),
-          shown_clusters(settings),
-          {.threshold = threshold,
-           .end_ratio = threshold,
-           .l_min = l_min * statics().mean_diameter,
-           .cut = length_cut(statics(), l_min)}};
+  if (grain_values.frame != frame || !(grain_values.rule == rule)) grain_values = {frame, rule, {}, {}};
+  if (!grain_values.judged) {
+    const double threshold = threshold_of(rule);
+    const std::vector<double> length =
+        coarse_graining({*frame, statics()}, {.threshold = threshold,
+                                              .end_ratio = threshold,
+                                              .l_min = l_min * statics().mean_diameter,
+                                              .cut = length_cut(statics(), l_min)})
+            .length;
+    grain_values.judged = {.lc = {length.begin(), length.end()}, .cluster = shown_clusters(settings).label};
+  }
+  return {{*stored, statics()}, 0, frame->gamma, first_frame.get(), {}, {&*grain_values.judged, 1}};
 }
 
-const std::vector<double>& ViewModel::Data::values_of_grains(const GrainQuantity& quantity,
+const std::vector<double>& ViewModel::Data::values_of_grains(const GrainNumber& number,
                                                              const ViewState& asked) {
-  const MapSettings settings = map_settings(asked);
-  const OverloadRule& rule = settings;
-  if (grain_values.frame != frame || !(grain_values.rule == rule)) grain_values = {frame, rule, {}};
-  const auto [place, fresh] = grain_values.of.try_emplace(quantity.name);
-  if (fresh) place->second = quantity.values(grain_source(settings));
+  const GrainSource source = grain_source(map_settings(asked));
+  const auto [place, fresh] = grain_values.of.try_emplace(number.name);
+  if (fresh) place->second = values_of(number, source);
   return place->second;
 }
 
@@ -178,8 +178,8 @@ std::optional<ContactKey> ViewModel::contact_at(double x, double y, double reach
   return found ? std::optional(key_of(data_->frame->contacts, *found)) : std::nullopt;
 }
 
-const std::vector<double>& ViewModel::grain_values(const GrainQuantity& quantity) const {
-  return data_->values_of_grains(quantity, state);
+const std::vector<double>& ViewModel::grain_values(const GrainNumber& number) const {
+  return data_->values_of_grains(number, state);
 }
 
 void ViewModel::write_selected(const std::string& path) {
@@ -191,8 +191,7 @@ void ViewModel::write_selected(const std::string& path) {
   try {
     output_target(path, {.overwrite = false});
     std::vector<GrainColumn> columns;
-    for (const GrainQuantity& quantity : grain_quantities())
-      columns.push_back({quantity, grain_values(quantity)});
+    for (const GrainNumber& number : grain_numbers()) columns.push_back({number, grain_values(number)});
     write_text(path, grains_table(frame(), grains, columns));
     state.message = fmt::format("written: {}, {} grains", path, grains.size());
   } catch (const Error& error) {

@@ -57,11 +57,12 @@ std::string rows_of(std::span<const GridField> fields) {
   return rows;
 }
 
-std::string rows_of(std::span<const Field> fields) {
+std::string rows_of(std::span<const FrameQuantity> fields) {
   std::string rows;
-  for (const Field& field : fields)
-    rows += fmt::format("| `{}{}` | {} | {} | {} | {} |\n", field.name, field.by_threshold ? "_FACTOR" : "",
-                        text_of(field.shape), text_of(field.number), field.unit, field.definition);
+  for (const FrameQuantity& field : fields)
+    if (!field.name.empty())
+      rows += fmt::format("| `{}{}` | {} | {} | {} | {} |\n", field.name, field.by_threshold ? "_FACTOR" : "",
+                          text_of(field.shape), text_of(field.number), field.unit, field.definition);
   return rows;
 }
 
@@ -76,9 +77,10 @@ TEST(ExportPage, lists_the_formats) {
 
 TEST(ExportPage, lists_the_fields) {
   const std::string head = "|---|---|---|---|---|\n";
-  EXPECT_NE(page().find(head + rows_of(grain_fields()) + "\n"), std::string::npos) << rows_of(grain_fields());
-  EXPECT_NE(page().find(head + rows_of(contact_fields()) + "\n"), std::string::npos)
-      << rows_of(contact_fields());
+  EXPECT_NE(page().find(head + rows_of(grain_quantities()) + "\n"), std::string::npos)
+      << rows_of(grain_quantities());
+  EXPECT_NE(page().find(head + rows_of(contact_quantities()) + "\n"), std::string::npos)
+      << rows_of(contact_quantities());
   EXPECT_NE(page().find("|---|---|---|---|\n" + rows_of(grid_fields()) + "\n"), std::string::npos)
       << rows_of(grid_fields());
 }

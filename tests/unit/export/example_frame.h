@@ -3,30 +3,35 @@
 
 #include <cmath>
 
-#include "export/exported_frame.h"
+#include "analysis/frame_quantities.h"
 
 namespace talus::test {
 
-inline ExportedRun example_run() {
-  ExportedRun run;
-  run.statics = {.free_count = 2,
-                 .radius = {0.05, 0.06, 0.05},
-                 .mass = {1.0, 1.5, 1.0},
-                 .periodic = true,
-                 .length = 1.0,
-                 .depth = 0.2,
-                 .mean_diameter = 0.125,
-                 .gravity = 9.81,
-                 .friction = 0.5};
-  run.analysis.thresholds = {{.factor = 1.0, .gamma = 0.3}, {.factor = 1.5, .gamma = 0.45}};
-  run.first.x = {0.1, 0.9, 0.5};
-  run.first.y = {0.2, 0.1, -0.05};
-  run.first.image = {0, 0, 0};
-  return run;
-}
+/// What a GrainSource points to.
+struct ExampleFrame {
+  RunStatics statics;
+  Frame first, frame;
+  std::vector<double> gamma, factors;
+  std::vector<FrameThreshold> thresholds;
 
-inline ExportedFrame example_frame(const ExportedRun& run) {
-  ExportedFrame of = {run, 7, {}, {}, {}};
+  GrainSource source() const { return {{frame, statics}, 7, gamma, &first, factors, thresholds}; }
+};
+
+inline ExampleFrame example_frame() {
+  ExampleFrame of;
+  of.statics = {.free_count = 2,
+                .radius = {0.05, 0.06, 0.05},
+                .mass = {1.0, 1.5, 1.0},
+                .periodic = true,
+                .length = 1.0,
+                .depth = 0.2,
+                .mean_diameter = 0.125,
+                .gravity = 9.81,
+                .friction = 0.5};
+  of.factors = {1.0, 1.5};
+  of.first.x = {0.1, 0.9, 0.5};
+  of.first.y = {0.2, 0.1, -0.05};
+  of.first.image = {0, 0, 0};
   of.frame.step = 1200;
   of.frame.time = 0.1;
   of.frame.tilt = 0.25;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 #include <set>
 
@@ -23,18 +24,20 @@ class Fields : public testing::Test {
     return {};
   }
 
-  ExportedRun run_ = example_run();
-  ExportedFrame frame_ = example_frame(run_);
+  ExampleFrame example_ = example_frame();
+  GrainSource frame_ = example_.source();
 };
 
 TEST_F(Fields, of_grains_are_those_of_the_frame_and_its_run) {
   EXPECT_EQ(grain("id"), (Values{0, 1, 2}));
   EXPECT_EQ(grain("type"), (Values{1, 1, 2}));
-  EXPECT_EQ(grain("radius"), run_.statics.radius);
+  EXPECT_EQ(grain("radius"), example_.statics.radius);
   EXPECT_EQ(grain("image"), (Values{-1, 0, 0, 0, 0, 0}));
   EXPECT_EQ(grain("velocity"), (Values{0.5, -1.0, -0.25, 0.0, 0.0, 0.0}));
   EXPECT_EQ(grain("internal_moment"), (Values{3.0, 0.5, 0.25, 1.0, 1.0, 0, 0, 1.0, 0, 0, 0, 0}));
+  EXPECT_DOUBLE_EQ(grain("speed")[0], std::hypot(0.5, 1.0));
   EXPECT_EQ(grain("coordination"), (Values{1, 3, 1}));
+  EXPECT_EQ(grain("sliding"), (Values{0, 1, 1}));
   EXPECT_EQ(grain("gamma_neighbourhood")[0], 0.5);
   EXPECT_DOUBLE_EQ(grain("pressure")[0], 4.0 / (std::numbers::pi * 0.05 * 0.05));
 }
@@ -51,7 +54,7 @@ TEST_F(Fields, of_thresholds_are_there_for_each_of_them) {
   EXPECT_EQ(grain("overloaded_1_5"), (Values{0, 0, 0}));
   EXPECT_EQ(grain("cluster_1"), (Values{0, -1, -1}));
   EXPECT_EQ(grain("lc_1")[0], 0.5);
-  frame_.thresholds.clear();
+  frame_.thresholds = {};
   for (const FieldColumn& column : grain_columns(frame_)) EXPECT_FALSE(column.field.by_threshold);
 }
 

@@ -8,7 +8,6 @@
 #include "export/csv.h"
 #include "export/graphml.h"
 #include "export/lammps_dump.h"
-#include "export/number_text.h"
 #include "export/xyz.h"
 #include "unit/export/example_frame.h"
 
@@ -41,8 +40,8 @@ TEST(NumberText, is_the_shortest_that_reads_back) {
 }
 
 TEST(Xyz, has_a_box_and_lengths_in_mean_diameters) {
-  const ExportedRun run = example_run();
-  const std::vector<std::string> lines = lines_of(xyz_text(example_frame(run)));
+  const ExampleFrame example = example_frame();
+  const std::vector<std::string> lines = lines_of(xyz_text(example.source()));
   ASSERT_EQ(lines.size(), 5U);
   EXPECT_EQ(lines[0], "3");
   EXPECT_EQ(
@@ -63,8 +62,8 @@ TEST(Xyz, has_a_box_and_lengths_in_mean_diameters) {
 }
 
 TEST(LammpsDump, has_the_items_of_a_frame) {
-  const ExportedRun run = example_run();
-  const std::vector<std::string> lines = lines_of(lammps_dump_text(example_frame(run)));
+  const ExampleFrame example = example_frame();
+  const std::vector<std::string> lines = lines_of(lammps_dump_text(example.source()));
   ASSERT_EQ(lines.size(), 14U);
   const std::vector<std::string> head = {"ITEM: TIME",
                                          "0.1",
@@ -86,8 +85,8 @@ TEST(LammpsDump, has_the_items_of_a_frame) {
 }
 
 TEST(Graphml, has_nodes_for_grains_and_for_planes_that_something_touches) {
-  const ExportedRun run = example_run();
-  const std::string text = graphml_text(example_frame(run));
+  const ExampleFrame example = example_frame();
+  const std::string text = graphml_text(example.source());
   EXPECT_NE(text.find("<graph edgedefault=\"undirected\">\n<data key=\"graph.frame\">7</data>\n"),
             std::string::npos);
   EXPECT_NE(text.find("<data key=\"graph.period\">1</data>"), std::string::npos);
@@ -107,8 +106,8 @@ TEST(Graphml, has_nodes_for_grains_and_for_planes_that_something_touches) {
 }
 
 TEST(Csv, names_units_and_leaves_fields_empty_without_a_number) {
-  const ExportedRun run = example_run();
-  const ExportedFrame frame = example_frame(run);
+  const ExampleFrame example = example_frame();
+  const GrainSource frame = example.source();
   EXPECT_EQ(frame_csv(frame).rows, "7,1200,0.1,0.25\n");
   const CsvRows grains = grains_csv(frame), contacts = contacts_csv(frame);
   EXPECT_EQ(
@@ -118,7 +117,7 @@ TEST(Csv, names_units_and_leaves_fields_empty_without_a_number) {
   const std::vector<std::string> rows = lines_of(grains.rows);
   ASSERT_EQ(rows.size(), 3U);
   EXPECT_EQ(rows[0].find("7,0,1,0.9375,0.1875,0.05,1,-1,0,0.5,-1,0,2,"), 0U) << rows[0];
-  EXPECT_NE(rows[0].find(",0.6,0.5,1,1,0,0.5,,0,-1"), std::string::npos) << rows[0];
+  EXPECT_NE(rows[0].find(",0.6,0.5,1,0,1.118034,1,0,0.5,,0,-1"), std::string::npos) << rows[0];
   EXPECT_EQ(
       contacts.head,
       "frame,a,b,shift,point_x (m),point_y (m),normal_x,normal_y,normal_force (N/m),tangential_force (N/m),"

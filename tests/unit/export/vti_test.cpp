@@ -12,8 +12,8 @@ namespace talus::test {
 namespace {
 
 TEST(Vti, has_an_array_for_each_field_with_its_unit) {
-  const ExportedRun run = example_run();
-  const std::string text = fields_vti(example_frame(run), 0.5);
+  const ExampleFrame example = example_frame();
+  const std::string text = fields_vti(example.source(), 0.5);
   std::set<std::string_view> names;
   for (const GridField& field : grid_fields()) {
     names.insert(field.name);
@@ -26,13 +26,13 @@ TEST(Vti, has_an_array_for_each_field_with_its_unit) {
 }
 
 TEST(Vti, grid_goes_once_around_the_period_and_beyond_walls) {
-  ExportedRun run = example_run();
-  const FieldGrid around = field_grid(example_frame(run), 0.3);  // a period of 1 m: 34 points, not 33.3
+  ExampleFrame example = example_frame();
+  const FieldGrid around = field_grid(example.source(), 0.3);  // a period of 1 m: 34 points, not 33.3
   EXPECT_EQ(around.columns, 34);
   EXPECT_DOUBLE_EQ(around.dx, 1.0 / 34.0);
   EXPECT_DOUBLE_EQ(around.x, 0.5 / 34.0);
-  run.statics.periodic = false;
-  const FieldGrid walled = field_grid(example_frame(run), 0.5);
+  example.statics.periodic = false;
+  const FieldGrid walled = field_grid(example.source(), 0.5);
   EXPECT_EQ(walled.columns, 30);
   EXPECT_DOUBLE_EQ(walled.x - 0.5 * walled.dx, -0.25);
   EXPECT_DOUBLE_EQ(walled.y - 0.5 * walled.dy, -0.0625 - 0.05 - 0.25) << "below the floor grain";
@@ -40,9 +40,9 @@ TEST(Vti, grid_goes_once_around_the_period_and_beyond_walls) {
 }
 
 TEST(Vti, width_is_that_of_the_bed_at_most) {
-  const ExportedRun run = example_run();
+  const ExampleFrame example = example_frame();
   for (const double width : {0.0, -1.0, 1.01, std::nan("")})
-    EXPECT_EQ(test::exit_code_of([&] { fields_vti(example_frame(run), width); }), ExitCode::usage) << width;
+    EXPECT_EQ(test::exit_code_of([&] { fields_vti(example.source(), width); }), ExitCode::usage) << width;
 }
 
 }  // namespace

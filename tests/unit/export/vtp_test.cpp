@@ -15,8 +15,8 @@ int count_of(const std::string& text, const std::string& part) {
 }
 
 TEST(Vtp, has_an_array_for_each_field_with_its_unit) {
-  const ExportedRun run = example_run();
-  const std::string grains = grains_vtp(example_frame(run)), contacts = contacts_vtp(example_frame(run));
+  const ExampleFrame example = example_frame();
+  const std::string grains = grains_vtp(example.source()), contacts = contacts_vtp(example.source());
   EXPECT_NE(grains.find("NumberOfPoints=\"3\" NumberOfVerts=\"3\" NumberOfLines=\"0\""), std::string::npos);
   EXPECT_NE(contacts.find("NumberOfPoints=\"6\" NumberOfVerts=\"0\" NumberOfLines=\"3\""), std::string::npos);
   for (const char* array : {"Int32\" Name=\"id\"", "Float64\" Name=\"radius\"", "Float32\" Name=\"velocity\"",

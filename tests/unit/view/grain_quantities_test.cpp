@@ -6,14 +6,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
-#include <sstream>
 
+#include "analysis/frame_analysis.h"
 #include "core/trigonometry.h"
-#include "export/fields.h"
 #include "io/run_schema.h"
 #include "pictures/overload_rule.h"
-#include "support/places.h"
+#include "session/analysis_input.h"
 #include "support/temporary_folder.h"
 #include "unit/view/example_bed.h"
 #include "unit/view/opened_view.h"
@@ -28,13 +26,9 @@ class GrainQuantities : public testing::Test {
     frame_.vx[4] = 3.0;
     frame_.vy[4] = -4.0;
     frame_.contacts.status[0] = ContactStatus::sliding;
-    clusters_ = overloaded_clusters({frame_, statics_}, rule_);
+    judged_.cluster = overloaded_clusters({frame_, statics_}, rule_).label;
   }
-  GrainSource source() {
-    const double threshold = threshold_of(rule_);
-    return {frame_,   frame_,    &first_,
-            statics_, clusters_, {threshold, threshold, 0.0, length_cut(statics_, 0.0)}};
-  }
+  GrainSource source() { return {{frame_, statics_}, 2, frame_.gamma, &first_, {}, {&judged_, 1}}; }
   std::vector<Index> where(const std::string& condition) {
     return grains_where(parse_condition(condition, grain_names()), source());
   }
@@ -42,7 +36,7 @@ class GrainQuantities : public testing::Test {
   RunStatics statics_ = example::bed_statics();
   Frame first_ = example::bed_frame(0.0, 0), frame_ = example::bed_frame(10.0, 2);
   OverloadRule rule_{.theta_c = radians(20.0), .l_min = 0.0};
-  Clusters clusters_;
+  FrameThreshold judged_;
 };
 
 TEST_F(GrainQuantities, a_condition_finds_free_grains) {
@@ -56,48 +50,42 @@ TEST_F(GrainQuantities, a_condition_finds_free_grains) {
 }
 
 TEST_F(GrainQuantities, all_have_a_value_for_each_grain) {
-  for (const GrainQuantity& quantity : grain_quantities())
-    EXPECT_EQ(quantity.values(source()).size(), frame_.x.size()) << quantity.name;
+  for (const GrainNumber& number : grain_numbers())
+    EXPECT_EQ(values_of(number, source()).size(), frame_.x.size()) << number.name;
 }
 
 TEST_F(GrainQuantities, without_a_first_frame_nothing_is_said_of_displacements) {
-  const GrainSource of = {frame_, frame_, nullptr, statics_, clusters_, {}};
-  EXPECT_TRUE(std::isnan(grain_quantity("displacement_x").values(of)[3]));
-  EXPECT_TRUE(std::isnan(grain_quantity("displacement_y").values(of)[3]));
+  const GrainSource of = {{frame_, statics_}};
+  EXPECT_TRUE(std::isnan(values_of(grain_number("displacement_x"), of)[3]));
+  EXPECT_TRUE(std::isnan(values_of(grain_number("displacement_y"), of)[3]));
 }
 
-TEST(GrainQuantitiesOfARun, are_those_that_export_writes) {
+TEST(GrainQuantitiesOfARun, are_judged_as_the_analysis_does) {
   const test::TemporaryFolder folder;
   example::write_bed_run(folder.path("run.h5"), 20.0);
   const RunFile file = RunFile::open(folder.path("run.h5"));
   AnalysisParameters parameters;
   parameters.l_min = 0.0;
   parameters.threshold_factors = {1.0};
-  const ExportedRun run = exported_run(file, parameters);
-  const ExportedFrame exported = exported_frame(file, run, 2);
+  const RunStatics& statics = file.header().statics;
+  const Frame frame = analysed_frame(file, parameters, 2);
+  const FrameThreshold judged = analyse_thresholds({frame, statics}, parameters,
+                                                   begin_analysis(statics, parameters, radians(20.0)), 1.0)
+                                    .at(0);
   ViewModel model = example::opened(folder.path("run.h5"));
   model.go_to(2);
-  int compared = 0;
-  for (const FieldColumn& column : grain_columns(exported)) {
-    if (column.field.name == "type" || column.field.name == "image") continue;  // of no use to conditions
-    const std::vector<std::string> parts = component_names({column.field, "", {}});
-    for (std::size_t part = 0; part < parts.size(); ++part, ++compared) {
-      const GrainQuantity& quantity = grain_quantity(parts[part]);
-      const double unit = column.field.unit == "m" ? 1.0 : column.field.unit == "rad" ? degrees(1.0) : 1.0;
-      EXPECT_EQ(quantity.unit, column.field.unit == "m"     ? "D"
-                               : column.field.unit == "rad" ? "deg"
-                                                            : column.field.unit);
-      const std::vector<double>& values = model.grain_values(quantity);
-      const auto free = static_cast<std::size_t>(run.statics.free_count);
-      for (std::size_t i = 0; i < free; ++i) {
-        const double value = column.values[i * parts.size() + part] * unit;
-        EXPECT_TRUE(std::isnan(value) ? std::isnan(values[i])
-                                      : std::abs(values[i] - value) <= 1e-6 * std::abs(value))
-            << parts[part] << " of grain " << i << ": " << values[i] << ", not " << value;
-      }
-    }
+  const auto values = [&](const char* name) { return model.grain_values(grain_number(name)); };
+  int overloaded = 0;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(statics.free_count); ++i) {
+    EXPECT_EQ(values("gamma_neighbourhood")[i], frame.gamma[i]) << i;
+    EXPECT_EQ(values("cluster")[i], judged.cluster[i]) << i;
+    EXPECT_EQ(values("overloaded")[i], judged.cluster[i] >= 0 ? 1.0 : 0.0) << i;
+    EXPECT_EQ(std::isnan(values("lc")[i]), judged.cluster[i] < 0) << i;
+    if (judged.cluster[i] < 0) continue;
+    ++overloaded;
+    EXPECT_DOUBLE_EQ(values("lc")[i] * statics.mean_diameter, judged.lc[i]) << i;
   }
-  EXPECT_GE(compared, 19);
+  EXPECT_GT(overloaded, 0);
 }
 
 /// What the window says in SI units has the unit of the attribute of its data set: per metre of thickness.
@@ -111,7 +99,7 @@ TEST(GrainQuantitiesOfARun, have_the_units_of_the_run_file) {
       {"internal_moment_yx", "/particles/grains/internal_moment/value"},
       {"pressure", "/observables/sigma_n"}};
   for (const auto& [name, data_set] : same)
-    EXPECT_EQ(std::string(grain_quantity(name).unit), field_of(data_set).unit) << name;
+    EXPECT_EQ(std::string(grain_number(name).quantity->unit), field_of(data_set).unit) << name;
   const std::pair<const char*, const char*> per_metre[] = {{"/contacts/force", "N/m"},
                                                            {"/observables/kinetic_energy", "J/m"},
                                                            {"/particles/grains/internal_moment/value", "J/m"},
@@ -120,22 +108,6 @@ TEST(GrainQuantitiesOfARun, have_the_units_of_the_run_file) {
                                                            {"/branch/contact_force", "N/m"},
                                                            {"/branch/mass", "kg/m"}};
   for (const auto& [data_set, unit] : per_metre) EXPECT_EQ(field_of(data_set).unit, unit) << data_set;
-}
-
-TEST(GrainQuantitiesOfARun, are_listed_in_the_document) {
-  std::ifstream file(test::source_folder() + "/docs/view.md");
-  std::stringstream page;
-  page << file.rdbuf();
-  for (const GrainQuantity& quantity : grain_quantities()) {
-    const std::string row = std::string("| `")
-                                .append(quantity.name)
-                                .append("` | ")
-                                .append(quantity.unit)
-                                .append(" | ")
-                                .append(quantity.definition)
-                                .append(" |\n");
-    EXPECT_NE(page.str().find(row), std::string::npos) << row;
-  }
 }
 
 }  // namespace

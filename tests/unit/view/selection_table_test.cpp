@@ -33,7 +33,7 @@ TEST(TableOfGrains, is_sorted_with_those_without_a_value_at_its_end) {
 
 TEST(TableOfGrains, histograms_are_densities) {
   const std::vector<Index> all = {0, 1, 2, 3, 4, 5};
-  const Plot plot = histogram_of(grain_quantity("lc"), grains, all, values);
+  const Plot plot = histogram_of(grain_number("lc"), grains, all, values);
   ASSERT_EQ(plot.series.size(), 2u);
   EXPECT_EQ(plot.x_title, "lc in D");
   for (const PlotSeries& series : plot.series) {
@@ -43,8 +43,8 @@ TEST(TableOfGrains, histograms_are_densities) {
     EXPECT_EQ(series.x.front(), 1.0);
     EXPECT_EQ(series.x.back(), 100.0);
   }
-  EXPECT_TRUE(histogram_of(grain_quantity("lc"), grains, std::vector<Index>{1}, values).series.empty());
-  EXPECT_EQ(histogram_of(grain_quantity("lc"), grains, std::vector<Index>{0}, values).series.size(), 2u)
+  EXPECT_TRUE(histogram_of(grain_number("lc"), grains, std::vector<Index>{1}, values).series.empty());
+  EXPECT_EQ(histogram_of(grain_number("lc"), grains, std::vector<Index>{0}, values).series.size(), 2u)
       << "one value has a bin, too";
 }
 
@@ -53,7 +53,7 @@ TEST(TableOfGrains, is_csv_with_units) {
   frame.time = 2.5;
   frame.tilt = radians(10.0);
   const std::vector<double> ids = {0, 1, 2, 3, 4, 5};
-  const std::vector<GrainColumn> columns = {{grain_quantity("id"), ids}, {grain_quantity("lc"), values}};
+  const std::vector<GrainColumn> columns = {{grain_number("id"), ids}, {grain_number("lc"), values}};
   const std::string tilt = "2.5,10";
   EXPECT_EQ(grains_table(frame, std::vector<Index>{0, 1}, columns),
             "time (s),tilt (deg),id,lc (D)\n" + tilt + ",0,3\n" + tilt + ",1,\n");
