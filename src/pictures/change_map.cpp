@@ -18,18 +18,8 @@ constexpr Colour gained_colour{0, 105, 60}, lost_colour{215, 30, 150};
 constexpr double gained_half_width = 0.10, lost_half_width = 0.10;  // D
 
 bool gives_numbers(MapKind kind) {
-  switch (kind) {
-    case MapKind::overloaded:
-    case MapKind::clusters:
-    case MapKind::forces:
-    case MapKind::critical:
-    case MapKind::rigid:
-    case MapKind::size:  // does not change
-    case MapKind::dyed:
-      return false;
-    default:
-      return true;
-  }
+  const bool changes = kind != MapKind::size && kind != MapKind::dyed;
+  return changes && !map_reading(kind).symbol.empty();
 }
 
 /// " 12.00° minus 5.00°" in a title.
@@ -141,7 +131,7 @@ std::vector<MapLayer> change_layers(const MapFrame& frame, const MapSettings& se
     MapFrame moved = frame;
     moved.reference = &before;
     moved.per_degree = false;
-    layers.push_back(motion_layer(kind, moved, settings.motion, {}));
+    layers.push_back(value_layer(kind, moved, settings, {}));
   } else {
     layers.push_back(difference_layer(frame, before, of_kind, extent));
   }

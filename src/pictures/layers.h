@@ -46,20 +46,20 @@ FrameView compose_map(const MapFrame& frame, const MapSettings& settings, const 
 // stress_layers.cpp
 MapLayer gamma_layer(const MapFrame& of, const MapSettings& settings, const ScaleChoice& choice);
 MapLayer coarse_layer(const MapFrame& of, const MapSettings& settings, const ScaleChoice& choice);
-MapLayer pressure_layer(const MapFrame& of, const ScaleChoice& choice);
 
 // overload_layers.cpp; `over_grains`: as marks in grains that another layer fills.
 MapLayer overloaded_layer(const MapFrame& of, const MapSettings& settings, bool over_grains);
 MapLayer clusters_layer(const MapFrame& of, const MapSettings& settings, bool over_grains);
 
-// motion_layers.cpp; a map with needs_reference
-MapLayer motion_layer(MapKind kind, const MapFrame& of, const MotionRanges& motion,
-                      const ScaleChoice& choice);
-
-/// The range that fits the frames drawn, or the fixed one, of a map of motion (fits_frames).
-ScaleRange motion_range(MapKind kind, const MotionRanges& motion, bool per_degree);
-/// ", 5 to 99 % of grains" if the range is one that fits; empty if it is fixed or chosen.
-std::string fitted_text(MapKind kind, const MotionRanges& motion, bool per_degree, const ScaleChoice& choice);
+// value_layers.cpp
+/// A map that is a number of each grain and a rule of scale. Throws Error(internal) for others.
+MapLayer value_layer(MapKind kind, const MapFrame& of, const MapSettings& settings,
+                     const ScaleChoice& choice);
+/// What it shows of each free grain, in the unit of map_reading, and per degree where motion_span is; NaN
+/// where there is no value, 0 or NaN without a reference that it needs.
+std::vector<double> map_values(MapKind kind, const MapFrame& of, const MapSettings& settings);
+/// Whether its scale goes to either side of 0.
+bool is_signed(MapKind kind);
 
 // grain_layers.cpp
 MapLayer size_layer(const MapFrame& of, const ScaleChoice& choice);
@@ -73,19 +73,11 @@ inline constexpr double line_border = 0.06;
 /// Gives lines that cannot be seen through a white border of that width, m, below all of them.
 void add_borders(std::vector<Line>& lines, double border);
 
+// motion_layers.cpp
 /// Of every free grain; or of one in each square of `spacing` (m) where that is more than D, and longer by
 /// it. Lengths are the displacements times a round number, which the legend says; the longest are cut.
 MapLayer displacement_arrows(const MapFrame& of, const MotionRanges& motion, const OverColour& over,
                              double spacing);
-
-// field_layers.cpp; velocities, and the bed as a continuum, at the centre of each grain
-MapLayer speed_layer(const MapFrame& of, const MapSettings& settings, const ScaleChoice& choice);
-/// What the maps speed, shear_rate and temperature show of each free grain. Throws Error(internal) for
-/// others.
-std::vector<double> velocity_values(MapKind kind, const MapFrame& of, const MapSettings& settings);
-MapLayer cells_layer(const MapFrame& of, const ScaleChoice& choice);
-MapLayer field_layer(MapKind kind, const MapFrame& of, const MapSettings& settings,
-                     const ScaleChoice& choice);
 
 // contact_layers.cpp
 /// D: half the width of the line of a contact with the mean force, and the largest force that is told from
@@ -98,7 +90,6 @@ MapLayer critical_layer(const MapFrame& of, const OverColour& over);
 
 // support_layers.cpp: how contacts hold each grain; `over_grains` as above
 MapLayer coordination_layer(const MapFrame& of, const ScaleChoice& choice);
-MapLayer mobilised_layer(const MapFrame& of, const ScaleChoice& choice);
 MapLayer rigid_layer(const MapFrame& of, bool over_grains);
 
 /// What coarse maps average over, m, a diameter. Throws Error(usage) where it is more than the bed.

@@ -12,37 +12,63 @@
 namespace talus {
 namespace {
 
+/// What a map has to do with; one may have several.
+enum Trait : unsigned {
+  none = 0,
+  theta_c = 1,  ///< its scale or its threshold is Gamma_c
+  gamma = 2,    ///< shows the gamma of grains, or what follows from it
+  coarse = 4,   ///< an average of a chosen width
+  earlier = 8,  ///< measured from an earlier frame
+  fitted = 16   ///< its range fits the frames that are drawn
+};
+
 struct MapEntry {
   MapKind kind;
-  std::string_view name, help;
+  std::string_view name, help, symbol, unit;
+  unsigned traits;
 };
 
 constexpr auto entries = std::to_array<MapEntry>({
-    {MapKind::gamma, "gamma", "stress ratio of each grain and its neighbours, or of the grain alone"},
-    {MapKind::overloaded, "overloaded", "overloaded grains, gamma >= Gamma_c"},
-    {MapKind::clusters, "clusters", "clusters of overloaded grains, each in a colour of its own"},
-    {MapKind::coarse, "coarse", "stress ratio of the neighbourhood of each grain"},
-    {MapKind::pressure, "pressure", "pressure in each grain, over rho g D"},
-    {MapKind::displacement, "displacement", "how far each grain has moved; over another map: arrows"},
-    {MapKind::rotation, "rotation", "how far each grain has turned"},
-    {MapKind::forces, "forces", "force chains: lines between centres, as wide as the normal force is large"},
-    {MapKind::critical, "critical", "contacts with fully mobilised friction"},
-    {MapKind::speed, "speed", "speed of each grain, over sqrt(g D)"},
+    {MapKind::gamma, "gamma", "stress ratio of each grain and its neighbours, or of the grain alone", "γ", "",
+     theta_c | gamma},
+    {MapKind::overloaded, "overloaded", "overloaded grains, gamma >= Gamma_c", "", "", theta_c | gamma},
+    {MapKind::clusters, "clusters", "clusters of overloaded grains, each in a colour of its own", "", "",
+     theta_c | gamma},
+    {MapKind::coarse, "coarse", "stress ratio of the neighbourhood of each grain", "γ_l", "",
+     theta_c | coarse},
+    {MapKind::pressure, "pressure", "pressure in each grain, over rho g D", "P", "ρgD", none},
+    {MapKind::displacement, "displacement", "how far each grain has moved; over another map: arrows",
+     "displacement", "D", earlier | fitted},
+    {MapKind::rotation, "rotation", "how far each grain has turned", "rotation", "°", earlier | fitted},
+    {MapKind::forces, "forces", "force chains: lines between centres, as wide as the normal force is large",
+     "", "", none},
+    {MapKind::critical, "critical", "contacts with fully mobilised friction", "", "", none},
+    {MapKind::speed, "speed", "speed of each grain, over sqrt(g D)", "speed", "√(gD)", fitted},
     {MapKind::nonaffine, "nonaffine",
-     "non-affine displacement: how far a grain's neighbours have moved beside their common strain"},
-    {MapKind::shear, "shear", "shear strain of the neighbourhood of each grain"},
-    {MapKind::dilation, "dilation", "change of area of the neighbourhood of each grain"},
-    {MapKind::vorticity, "vorticity", "how far the neighbourhood of each grain has turned, twice"},
-    {MapKind::coordination, "coordination", "contacts of each grain that carry force"},
-    {MapKind::mobilised, "mobilised", "mobilised friction of each grain, the mean over its contacts"},
-    {MapKind::rigid, "rigid", "grains that can only move as one: the largest rigid cluster, and others"},
-    {MapKind::size, "size", "diameter of each grain"},
-    {MapKind::cells, "cells", "local solid fraction: the share of its cell that each grain fills"},
-    {MapKind::density, "density", "coarse-grained solid fraction"},
-    {MapKind::stress, "stress", "coarse-grained pressure, over rho g D"},
-    {MapKind::shear_rate, "shear_rate", "coarse-grained shear rate, over sqrt(g / D)"},
-    {MapKind::temperature, "temperature", "granular temperature, over g D"},
-    {MapKind::dyed, "dyed", "layers and columns as they were when the tilt began"},
+     "non-affine displacement: how far a grain's neighbours have moved beside their common strain", "D_m_i_n",
+     "D", earlier | fitted},
+    {MapKind::shear, "shear", "shear strain of the neighbourhood of each grain", "shear strain", "",
+     earlier | fitted},
+    {MapKind::dilation, "dilation", "change of area of the neighbourhood of each grain", "ΔA/A", "",
+     earlier | fitted},
+    {MapKind::vorticity, "vorticity", "how far the neighbourhood of each grain has turned, twice",
+     "vorticity", "rad", earlier | fitted},
+    {MapKind::coordination, "coordination", "contacts of each grain that carry force", "contacts", "", none},
+    {MapKind::mobilised, "mobilised", "mobilised friction of each grain, the mean over its contacts",
+     "|f_t| / μf_n", "", none},
+    {MapKind::rigid, "rigid", "grains that can only move as one: the largest rigid cluster, and others", "",
+     "", none},
+    {MapKind::size, "size", "diameter of each grain", "diameter", "D", none},
+    {MapKind::cells, "cells", "local solid fraction: the share of its cell that each grain fills",
+     "solid fraction", "", none},
+    {MapKind::density, "density", "coarse-grained solid fraction", "solid fraction", "", coarse},
+    {MapKind::stress, "stress", "coarse-grained pressure, over rho g D", "P", "ρgD", coarse},
+    {MapKind::shear_rate, "shear_rate", "coarse-grained shear rate, over sqrt(g / D)", "shear rate", "√(g/D)",
+     coarse | fitted},
+    {MapKind::temperature, "temperature", "granular temperature, over g D", "temperature", "gD",
+     coarse | fitted},
+    {MapKind::dyed, "dyed", "layers and columns as they were when the tilt began", "height as the tilt began",
+     "D", none},
 });
 
 constexpr auto kinds = [] {
@@ -52,6 +78,8 @@ constexpr auto kinds = [] {
 }();
 
 const MapEntry& entry_of(MapKind kind) { return entries[static_cast<std::size_t>(kind)]; }
+
+bool has(MapKind kind, Trait trait) { return (entry_of(kind).traits & trait) != 0; }
 
 MapKind layer_of(std::string_view name, std::string_view whole) {
   const auto found = std::ranges::find(entries, name, &MapEntry::name);
@@ -71,85 +99,15 @@ std::string_view map_name(MapKind kind) { return entry_of(kind).name; }
 
 std::string_view map_help(MapKind kind) { return entry_of(kind).help; }
 
-MapReading map_reading(MapKind kind) {
-  switch (kind) {
-    case MapKind::gamma:
-      return {"γ", ""};
-    case MapKind::coarse:
-      return {"γ_l", ""};
-    case MapKind::pressure:
-    case MapKind::stress:
-      return {"P", "ρgD"};
-    case MapKind::displacement:
-      return {"displacement", "D"};
-    case MapKind::rotation:
-      return {"rotation", "°"};
-    case MapKind::speed:
-      return {"speed", "√(gD)"};
-    case MapKind::nonaffine:
-      return {"D_m_i_n", "D"};
-    case MapKind::shear:
-      return {"shear strain", ""};
-    case MapKind::dilation:
-      return {"ΔA/A", ""};
-    case MapKind::vorticity:
-      return {"vorticity", "rad"};
-    case MapKind::coordination:
-      return {"contacts", ""};
-    case MapKind::mobilised:
-      return {"|f_t| / μf_n", ""};
-    case MapKind::size:
-      return {"diameter", "D"};
-    case MapKind::cells:
-    case MapKind::density:
-      return {"solid fraction", ""};
-    case MapKind::shear_rate:
-      return {"shear rate", "√(g/D)"};
-    case MapKind::temperature:
-      return {"temperature", "gD"};
-    case MapKind::dyed:
-      return {"height as the tilt began", "D"};
-    case MapKind::overloaded:
-    case MapKind::clusters:
-    case MapKind::forces:
-    case MapKind::critical:
-    case MapKind::rigid:
-      break;
-  }
-  return {"", ""};
-}
+MapReading map_reading(MapKind kind) { return {entry_of(kind).symbol, entry_of(kind).unit}; }
 
 std::string list_of_maps() { return joined(entries, ", ", &MapEntry::name); }
 
-bool needs_theta_c(MapKind kind) { return shows_gamma(kind) || kind == MapKind::coarse; }
-
-bool shows_gamma(MapKind kind) {
-  return kind == MapKind::gamma || kind == MapKind::overloaded || kind == MapKind::clusters;
-}
-
-bool needs_reference(MapKind kind) {
-  switch (kind) {
-    case MapKind::displacement:
-    case MapKind::rotation:
-    case MapKind::nonaffine:
-    case MapKind::shear:
-    case MapKind::dilation:
-    case MapKind::vorticity:
-      return true;
-    default:
-      return false;
-  }
-}
-
-bool fits_frames(MapKind kind) {
-  return needs_reference(kind) || kind == MapKind::speed || kind == MapKind::shear_rate ||
-         kind == MapKind::temperature;
-}
-
-bool is_coarse(MapKind kind) {
-  return kind == MapKind::coarse || kind == MapKind::density || kind == MapKind::stress ||
-         kind == MapKind::shear_rate || kind == MapKind::temperature;
-}
+bool needs_theta_c(MapKind kind) { return has(kind, theta_c); }
+bool shows_gamma(MapKind kind) { return has(kind, gamma); }
+bool is_coarse(MapKind kind) { return has(kind, coarse); }
+bool needs_reference(MapKind kind) { return has(kind, earlier); }
+bool fits_frames(MapKind kind) { return has(kind, fitted); }
 
 bool shows(const MapLayers& layers, MapKind kind) { return std::ranges::count(layers, kind) > 0; }
 

@@ -23,9 +23,7 @@ bool fills_grains(const MapLayers& layers, std::size_t k) {
 }
 
 bool has_bar(const MapLayers& layers, std::size_t k) {
-  const MapKind kind = layers[k];
-  return fills_grains(layers, k) && kind != MapKind::overloaded && kind != MapKind::clusters &&
-         kind != MapKind::rigid;
+  return fills_grains(layers, k) && !map_reading(layers[k]).symbol.empty();
 }
 
 /// What was chosen for the first layer with a bar; nothing for the other.
@@ -89,8 +87,7 @@ std::string joint_title(std::span<const MapLayer> layers) {
 
 Colour colour_over(const MapSettings& settings, std::size_t k) {
   const MapKind kind = settings.layers[k];
-  const bool is_signed = needs_reference(kind) && motion_map(kind).is_signed;
-  const ColourMap own = is_signed ? ColourMap::diverging : ColourMap::gray;
+  const ColourMap own = is_signed(kind) ? ColourMap::diverging : ColourMap::gray;
   const bool light = kind == MapKind::clusters || kind == MapKind::rigid ||
                      choice_of(settings, k).colours.value_or(own) == ColourMap::diverging;
   return light ? black : Colour{255, 60, 130};
@@ -117,42 +114,24 @@ MapLayer bare_layer(const MapFrame& of, const MapSettings& settings, double spac
       return clusters_layer(of, settings, over_grains && k == 1);
     case MapKind::coarse:
       return coarse_layer(of, settings, choice);
-    case MapKind::pressure:
-      return pressure_layer(of, choice);
-    case MapKind::displacement:
-      if (k > 0) return displacement_arrows(of, settings.motion, over, spacing);
-      [[fallthrough]];
-    case MapKind::rotation:
-    case MapKind::nonaffine:
-    case MapKind::shear:
-    case MapKind::dilation:
-    case MapKind::vorticity:
-      return motion_layer(settings.layers[k], of, settings.motion, choice);
     case MapKind::forces:
       return forces_layer(of, over);
     case MapKind::critical:
       return critical_layer(of, over);
-    case MapKind::speed:
-      return speed_layer(of, settings, choice);
     case MapKind::coordination:
       return coordination_layer(of, choice);
-    case MapKind::mobilised:
-      return mobilised_layer(of, choice);
     case MapKind::rigid:
       return rigid_layer(of, over_grains && k == 1);
     case MapKind::size:
       return size_layer(of, choice);
-    case MapKind::cells:
-      return cells_layer(of, choice);
-    case MapKind::density:
-    case MapKind::stress:
-    case MapKind::shear_rate:
-    case MapKind::temperature:
-      return field_layer(settings.layers[k], of, settings, choice);
     case MapKind::dyed:
       return dyed_layer(of, choice);
+    case MapKind::displacement:
+      if (k > 0) return displacement_arrows(of, settings.motion, over, spacing);
+      [[fallthrough]];
+    default:
+      return value_layer(settings.layers[k], of, settings, choice);
   }
-  throw Error(ExitCode::internal, "a map of no kind");
 }
 
 }  // namespace

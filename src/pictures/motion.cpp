@@ -4,8 +4,6 @@
 #include <cmath>
 #include <fmt/core.h>
 
-#include "analysis/local_deformation.h"
-#include "core/errors.h"
 #include "core/trigonometry.h"
 #include "pictures/layers.h"
 #include "pictures/texts.h"
@@ -35,75 +33,6 @@ std::optional<ScaleRange> signed_range(const LogHistogram& turned) {
   return ScaleRange{-rounded(largest), rounded(largest)};
 }
 
-bool is_signed(MapKind kind) { return needs_reference(kind) && motion_map(kind).is_signed; }
-
-std::vector<double> distances(const MapFrame& of, const MotionSpan& span) {
-  std::vector<double> values;
-  for (const Vec2& moved : displacements(of, span)) values.push_back(std::hypot(moved.x, moved.y));
-  return values;
-}
-
-/// In degrees.
-std::vector<double> turns(const MapFrame& of, const MotionSpan& span) {
-  std::vector<double> turned(static_cast<std::size_t>(of.statics.free_count), 0.0);
-  if (of.reference != nullptr)
-    for (std::size_t i = 0; i < turned.size(); ++i)
-      turned[i] = degrees(of.frame.angle[i] - of.reference->angle[i]) / span.degrees;
-  return turned;
-}
-
-/// What `value` says of the neighbourhood of each grain, over `unit`; 0 without a reference.
-template <typename Value>
-std::vector<double> of_neighbourhoods(const MapFrame& of, double unit, const Value& value) {
-  std::vector<double> values(static_cast<std::size_t>(of.statics.free_count), 0.0);
-  if (of.reference == nullptr) return values;
-  const std::vector<LocalDeformation> all = local_deformations(*of.reference, of);
-  std::ranges::transform(all, values.begin(),
-                         [&](const LocalDeformation& each) { return value(each) / unit; });
-  return values;
-}
-
-std::vector<double> nonaffine_displacements(const MapFrame& of, const MotionSpan& span) {
-  return of_neighbourhoods(of, of.statics.mean_diameter * span.degrees,
-                           [](const LocalDeformation& each) { return std::sqrt(each.nonaffine); });
-}
-
-template <double (*strain)(const Tensor2&)>
-std::vector<double> strains(const MapFrame& of, const MotionSpan& span) {
-  return of_neighbourhoods(of, span.degrees,
-                           [](const LocalDeformation& each) { return strain(each.gradient); });
-}
-
-const std::array<MotionMap, 6> motion_maps = {{
-    {MapKind::displacement, "Displacement", "in D", "", false, {10.0, 10.0}, {1e-3, 1e-4}, distances},
-    {MapKind::rotation, "Rotation", "in °", ", counter-clockwise positive", true, {30.0, 10.0}, {}, turns},
-    {MapKind::nonaffine,
-     "Non-affine displacement",
-     "D_m_i_n in D",
-     "",
-     false,
-     {1.0, 1.0},
-     {1e-4, 1e-5},
-     nonaffine_displacements},
-    {MapKind::shear,
-     "Shear strain",
-     "s_1 − s_2 of neighbourhoods",
-     "",
-     false,
-     {1.0, 1.0},
-     {1e-4, 1e-5},
-     strains<shear_strain>},
-    {MapKind::dilation, "Dilation", "ΔA/A of neighbourhoods", "", true, {0.2, 0.1}, {}, strains<area_strain>},
-    {MapKind::vorticity,
-     "Vorticity",
-     "2 × turn in rad",
-     ", counter-clockwise positive",
-     true,
-     {0.5, 0.2},
-     {},
-     strains<vorticity>},
-}};
-
 }  // namespace
 
 MotionSpan motion_span(const MapFrame& of) {
@@ -128,12 +57,6 @@ std::vector<Vec2> displacements(const MapFrame& of, const MotionSpan& span) {
                 (of.frame.y[i] - before.y[i]) / unit};
   }
   return moved;
-}
-
-const MotionMap& motion_map(MapKind kind) {
-  const auto found = std::ranges::find(motion_maps, kind, &MotionMap::kind);
-  if (found == motion_maps.end()) throw Error(ExitCode::internal, "a map that shows no motion");
-  return *found;
 }
 
 void LogHistogram::add(double value) {
@@ -166,8 +89,7 @@ void MotionSample::add(const MapFrame& of) {
   for (auto& [kind, sizes] : sizes_) {
     const bool moving = needs_reference(kind);
     if (moving && of.reference == nullptr) continue;
-    for (const double value :
-         moving ? motion_map(kind).values(of, span) : velocity_values(kind, of, settings_))
+    for (const double value : map_values(kind, of, settings_))
       if (!std::isnan(value)) sizes[moving && span.per_degree].add(std::abs(value));
   }
 }

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <map>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "pictures/maps.h"
@@ -21,24 +20,9 @@ struct MotionSpan {
 };
 MotionSpan motion_span(const MapFrame& of);
 
-/// Of each free grain in D, or D per degree, across a periodic edge where it went through one; 0 without a
-/// reference.
+/// The displacement of each free grain in D, or D per degree, across a periodic edge where it went through
+/// one; 0 without a reference.
 std::vector<Vec2> displacements(const MapFrame& of, const MotionSpan& span);
-
-/// A map of what happened between two frames.
-struct MotionMap {
-  MapKind kind;
-  std::string_view title, bar, sign;  ///< "Rotation"; "in °"; ", counter-clockwise positive"
-  bool is_signed = false;             ///< a scale to either side of 0; else it is logarithmic
-  /// Of the scale of a bed from creep at rest to an avalanche, in all, and per degree: its upper end, and
-  /// the lower one where there is no sign.
-  std::array<double, 2> high, low;
-  /// Of each free grain; NaN where it has no value, 0 or NaN without a reference.
-  std::vector<double> (*values)(const MapFrame& of, const MotionSpan& span);
-};
-
-/// The map of a kind with needs_reference. Throws Error(internal) for another.
-const MotionMap& motion_map(MapKind kind);
 
 /// Numbers of values >= 0 in narrow classes: quantiles of any number of values in little memory.
 class LogHistogram {

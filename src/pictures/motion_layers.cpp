@@ -60,38 +60,6 @@ double largest_displacement(const MapFrame& of, const MotionRanges& motion, cons
 
 }  // namespace
 
-ScaleRange fixed_motion_range(MapKind kind, bool per_degree) {
-  if (kind == MapKind::speed) return {1e-5, 1.0};
-  if (kind == MapKind::shear_rate) return {1e-6, 0.1};
-  if (kind == MapKind::temperature) return {1e-10, 1e-2};
-  const MotionMap& map = motion_map(kind);
-  return {map.is_signed ? -map.high[per_degree] : map.low[per_degree], map.high[per_degree]};
-}
-
-ScaleRange motion_range(MapKind kind, const MotionRanges& motion, bool per_degree) {
-  return motion.of(kind, per_degree).value_or(fixed_motion_range(kind, per_degree));
-}
-
-std::string fitted_text(MapKind kind, const MotionRanges& motion, bool per_degree,
-                        const ScaleChoice& choice) {
-  if (choice.low || !motion.of(kind, per_degree)) return "";
-  if (needs_reference(kind) && motion_map(kind).is_signed)
-    return fmt::format(", {:.6g} % of grains", 100.0 * signed_share);
-  return fmt::format(", {:.6g} to {:.6g} % of grains", 100.0 * size_shares.low, 100.0 * size_shares.high);
-}
-
-MapLayer motion_layer(MapKind kind, const MapFrame& of, const MotionRanges& motion,
-                      const ScaleChoice& choice) {
-  const MotionMap& map = motion_map(kind);
-  const MotionSpan span = motion_span(of);
-  const ScaleRange range = motion_range(kind, motion, span.per_degree);
-  const ColourMap colours = map.is_signed ? ColourMap::diverging : ColourMap::viridis;
-  const Scale scale = chosen({colours, range.low, range.high, !map.is_signed}, choice);
-  const std::string title = fmt::format("{}{}{}{}", map.bar, span.unit, map.sign,
-                                        fitted_text(kind, motion, span.per_degree, choice));
-  return scaled_layer(std::string(map.title) + span.title, scale, map.values(of, span), bar_of(scale, title));
-}
-
 MapLayer displacement_arrows(const MapFrame& of, const MotionRanges& motion, const OverColour& over,
                              double spacing) {
   constexpr double longest = 1.6, cut = 2.0, shortest = 0.2, half_width = 0.04;  // D, or spacing

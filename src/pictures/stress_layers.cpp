@@ -26,18 +26,6 @@ Bar stress_ratio_bar(const Scale& scale, double gamma_c, const std::string& titl
   return bar;
 }
 
-/// (s1 + s2) / (rho g D) of each free grain, its stress being its internal moment over its area, rho its mass
-/// over its area.
-std::vector<double> pressures(const BedFrame& bed) {
-  const RunStatics& statics = bed.statics;
-  std::vector<double> values;
-  for (Index i = 0; i < statics.free_count; ++i) {
-    const double trace = bed.frame.internal_moment[i].xx + bed.frame.internal_moment[i].yy;
-    values.push_back(trace / (statics.mass[i] * statics.gravity * statics.mean_diameter));
-  }
-  return values;
-}
-
 }  // namespace
 
 double coarse_length(const MapFrame& of, const MapSettings& settings) {
@@ -75,15 +63,6 @@ MapLayer coarse_layer(const MapFrame& of, const MapSettings& settings, const Sca
   const std::string end = choice.high ? number_label(scale.high) : fmt::format("{:.2f}", scale.high);
   return scaled_layer(fmt::format("Stress ratio γ_l of neighbourhoods, l = {:.6g} D", settings.length), scale,
                       coarse_stress_ratio(of, length), stress_ratio_bar(scale, gamma_c, "γ_l", end));
-}
-
-MapLayer pressure_layer(const MapFrame& of, const ScaleChoice& choice) {
-  constexpr int most_ticks = 4;
-  // Below a depth H of grains P is about 2 rho g H on the average, and more in force chains.
-  const double largest = 3.0 * std::max(1.0, of.statics.depth / of.statics.mean_diameter);
-  const double step = round_step(largest, most_ticks);
-  const Scale scale = chosen({ColourMap::viridis, 0.0, std::ceil(largest / step) * step}, choice);
-  return scaled_layer("Pressure in each grain", scale, pressures(of), bar_of(scale, "P = σ_1 + σ_2 in ρgD"));
 }
 
 }  // namespace talus

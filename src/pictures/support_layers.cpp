@@ -28,15 +28,6 @@ MapLayer coordination_layer(const MapFrame& of, const ScaleChoice& choice) {
                       {counts.begin(), counts.end()}, bar_of(scale, "contacts that carry force"));
 }
 
-MapLayer mobilised_layer(const MapFrame& of, const ScaleChoice& choice) {
-  const Scale scale = chosen({ColourMap::viridis, 0.0, 1.0}, choice);
-  MapLayer layer =
-      scaled_layer_with_outlines("Mobilised friction of grains", scale, mobilised_friction_of_grains(of),
-                                 bar_of(scale, "|f_t| / μf_n, mean over the contacts of a grain"));
-  layer.legend.swatches = {grain_swatch(outline_look(), "no contact")};
-  return layer;
-}
-
 MapLayer rigid_layer(const MapFrame& of, bool over_grains) {
   const Index fixed = of.statics.free_count;
   if (of.statics.friction == 0.0) {
