@@ -27,7 +27,7 @@ std::string values_text(const Quantity& quantity, const Analysis& analysis) {
 
 }  // namespace
 
-std::string analysis_json(const AnalysedRun& run, std::span<const Quantity> table) {
+std::string analysis_json(const RunView& run, std::span<const Quantity> table) {
   const Analysis& analysis = run.analysis;
   json::Members parameters;
   for (const auto& [name, value] : analysis.parameters) parameters.emplace_back(name, json::quoted(value));
@@ -35,7 +35,7 @@ std::string analysis_json(const AnalysedRun& run, std::span<const Quantity> tabl
   for (const FrameRecord& frame : analysis.frames) tilts.push_back(frame.tilt);
   const std::uint64_t frames = tilts.size();
   json::Members members = {{"path", json::quoted(run.path)},
-                           {"state", json::quoted(run.state)},
+                           {"state", json::quoted(run.kept)},
                            {"key", json::quoted(analysis.key)},
                            {"mean_diameter", json::number(run.statics.mean_diameter)},
                            {"parameters", json::object(parameters, 1)},

@@ -9,7 +9,7 @@
 #include "analysis/last_rise.h"
 #include "app/event_report.h"
 #include "core/trigonometry.h"
-#include "session/analysis_parameters.h"
+#include "runs/analysis_parameters.h"
 
 namespace talus {
 namespace {
@@ -32,12 +32,12 @@ std::vector<std::size_t> shown_frames(std::size_t count) {
   return frames;
 }
 
-std::string heading(const AnalysedRun& run) {
+std::string heading(const RunView& run) {
   const Analysis& analysis = run.analysis;
   const double theta_c = analysis.theta_c, gamma_c = analysis.gamma_c;
   const std::vector<FrameRecord>& frames = analysis.frames;
   const auto [lowest, highest] = std::ranges::minmax_element(frames, {}, &FrameRecord::tilt);
-  std::string text = fmt::format("{}  ({})\n{} frames, {} to {} deg; ", run.path, run.state, frames.size(),
+  std::string text = fmt::format("{}  ({})\n{} frames, {} to {} deg; ", run.path, run.kept, frames.size(),
                                  degree_text(lowest->tilt), degree_text(highest->tilt));
   if (const FramesOfRise rise = last_rise(frames); rise.frames.size() < frames.size())
     text += fmt::format("theta_c, theta_d and the first slide are of the last rise, from {} deg on; ",
@@ -65,7 +65,7 @@ std::string threshold_cells(const FrameThreshold& at, double diameter) {
                      cell("{:.3f}", 9, at.largest_share), span_text(at));
 }
 
-std::string series_table(const AnalysedRun& run) {
+std::string series_table(const RunView& run) {
   const Analysis& analysis = run.analysis;
   std::string above(39, ' '), below = " theta   Gamma   sT/sN      z  dV/V (%)";
   for (const RunThreshold& threshold : analysis.thresholds) {
@@ -116,7 +116,7 @@ std::string first_slide_text(const Analysis& analysis) {
                : "");
 }
 
-std::string transition_table(const AnalysedRun& run) {
+std::string transition_table(const RunView& run) {
   const Analysis& analysis = run.analysis;
   std::string text = line("first slide of the surface layer", {first_slide_text(analysis)}) + "theta_d by\n";
   for (const RunThreshold& threshold : analysis.thresholds) {
@@ -140,7 +140,7 @@ std::string beyond_repose(double theta_c, double tilt) {
       degree_text(tilt));
 }
 
-std::string analysis_text(const AnalysedRun& run) {
+std::string analysis_text(const RunView& run) {
   return fmt::format(
       "{}\n{}{}\n{}{}", heading(run), series_table(run),
       !run.analysis.thresholds.empty()

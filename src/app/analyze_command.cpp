@@ -6,9 +6,10 @@
 #include "app/analysis_report.h"
 #include "app/choices.h"
 #include "app/commands.h"
+#include "app/count_progress.h"
 #include "app/given_runs.h"
 #include "app/terminal.h"
-#include "session/analysis_parameters.h"
+#include "runs/analysis_parameters.h"
 
 namespace talus {
 namespace {
@@ -18,14 +19,17 @@ struct AnalyzeArguments {
   std::vector<std::string> settings;
   AnalysisOptions options;
   bool json = false;
+  bool quiet = false;
 };
 
 void analyze(const AnalyzeArguments& arguments) {
   const AnalysisParameters parameters = parse_analysis_settings(arguments.settings);
   const std::vector<std::string> runs = runs_among(arguments.runs);
+  AnalysisOptions options = arguments.options;
+  options.progress = count_shown("analysis", arguments.quiet);
   if (arguments.json) print("[");
   for (std::size_t r = 0; r < runs.size(); ++r) {
-    const AnalysedRun run = analysed_run(runs[r], parameters, arguments.options);
+    const RunView run = analysed_run(runs[r], parameters, options);
     if (arguments.json)
       print("%s%s", r > 0 ? ",\n" : "", analysis_json(run).c_str());
     else
@@ -56,7 +60,7 @@ void add_analyze_command(CLI::App& app) {
   command->add_flag("--force", arguments->options.force, "Compute again what is stored and valid");
   command->add_flag("--json", arguments->json,
                     "As a JSON list with all series of each run, in SI units and radians");
-  command->add_flag("-q,--quiet", arguments->options.quiet, "Show no progress");
+  command->add_flag("-q,--quiet", arguments->quiet, "Show no progress");
   command->callback([arguments] { analyze(*arguments); });
 }
 

@@ -23,9 +23,11 @@ void CountProgress::show(std::size_t done) {
 }
 
 std::function<void(std::size_t, std::size_t)> count_shown(std::string label, bool quiet) {
-  return [label = std::move(label), quiet, line = std::shared_ptr<CountProgress>()](
+  if (quiet) return {};
+  return [label = std::move(label), line = std::shared_ptr<CountProgress>(), before = std::size_t{0}](
              std::size_t done, std::size_t count) mutable {
-    if (!line) line = std::make_shared<CountProgress>(label, count, quiet);
+    if (!line || done < before) line = std::make_shared<CountProgress>(label, count, false);
+    before = done;
     line->show(done);
   };
 }

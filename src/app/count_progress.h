@@ -27,6 +27,7 @@ class CountProgress {
 };
 
 /// Shows the progress of one who counts: to be called with how many are done, and how many there are in all.
+/// Where the count begins again, so does the line. Empty where it is to be quiet.
 std::function<void(std::size_t done, std::size_t count)> count_shown(std::string label, bool quiet);
 
 }  // namespace talus

@@ -12,8 +12,8 @@
 #include "ensemble/pool.h"
 #include "io/durable_file.h"
 #include "io/run_store.h"
+#include "runs/analysis_parameters.h"
 #include "scenario/text.h"
-#include "session/analysis_parameters.h"
 
 namespace talus {
 namespace {
@@ -28,8 +28,7 @@ MemberNumbers complete_tables(const Member& member, const MemberNumbers& known) 
     return known;
   }
   is_complete(member);  // its own run
-  const AnalysedRun analysed =
-      analysed_run(member.path, parse_analysis_settings({}), {.threads = 1, .quiet = true});
+  const RunView analysed = analysed_run(member.path, parse_analysis_settings({}), {.threads = 1});
   write_tables(member.path, analysed);
   return write_numbers(member, analysed);
 }
@@ -64,14 +63,14 @@ void write_files(const std::filesystem::path& folder, const EnsembleView& view) 
 
 }  // namespace
 
-void write_tables(const std::string& run, const AnalysedRun& analysed) {
+void write_tables(const std::string& run, const RunView& analysed) {
   const double mean_diameter = analysed.statics.mean_diameter;
   write_lists(lists_path(run), member_lists(analysed.analysis, mean_diameter));
   write_text(series_path(run), series_csv(member_series(analysed.analysis, mean_diameter)));
 }
 
-MemberNumbers write_numbers(const Member& member, const AnalysedRun& analysed) {
-  MemberNumbers numbers = member_numbers(RunFile::open(member.path), analysed.analysis);
+MemberNumbers write_numbers(const Member& member, const RunView& analysed) {
+  MemberNumbers numbers = member_numbers(*analysed.file, analysed.analysis);
   sign(numbers, member, {series_ending, lists_ending, trials_ending});
   write_text(numbers_path(member.path), numbers_csv(numbers));
   return numbers;

@@ -6,7 +6,6 @@
 #include <functional>
 #include <memory>
 
-#include "app/analysed_run.h"
 #include "app/choices.h"
 #include "app/command_line.h"
 #include "app/commands.h"
@@ -30,7 +29,8 @@
 #include "ensemble/worker.h"
 #include "io/durable_file.h"
 #include "io/run_file.h"
-#include "session/analysis_parameters.h"
+#include "runs/analysis_parameters.h"
+#include "runs/run_view.h"
 
 namespace talus {
 namespace {
@@ -106,8 +106,7 @@ void compute_member(const EnsembleArguments& arguments) {
       throw Error(ExitCode::stopped, "the member was stopped; its run goes on from its checkpoint");
   }
   if (trials != nullptr) complete_trials(member->path, *trials);
-  const AnalysedRun analysed =
-      analysed_run(member->path, parse_analysis_settings({}), {.threads = 1, .quiet = true});
+  const RunView analysed = analysed_run(member->path, parse_analysis_settings({}), {.threads = 1});
   write_tables(member->path, analysed);
   if (std::holds_alternative<ReadingsTask>(manifest.task)) make_readings(*member);
   const MemberNumbers numbers = write_numbers(*member, analysed);

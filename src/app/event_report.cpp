@@ -10,8 +10,8 @@
 #include "core/text.h"
 #include "core/trigonometry.h"
 #include "ensemble/plus_minus.h"
+#include "runs/event_catalogue.h"
 #include "scenario/json.h"
-#include "session/event_catalogue.h"
 
 namespace talus {
 namespace {
@@ -73,17 +73,17 @@ std::vector<std::size_t> shown_events(const std::vector<EventRecord>& events, st
   return places;
 }
 
-std::string events_heading(const AnalysedRun& run) {
+std::string events_heading(const RunView& run) {
   const Analysis& analysis = run.analysis;
   const auto tilt = [](double angle) { return fmt::format("{:.2f} deg", degrees(angle)); };
   const std::size_t count = analysis.events.size();
   return fmt::format(
-      "{}  ({})\n{} event{} up to {}; {}\n", run.path, run.state, count, count == 1 ? "" : "s",
+      "{}  ({})\n{} event{} up to {}; {}\n", run.path, run.kept, count, count == 1 ? "" : "s",
       tilt(analysis.frames.back().tilt),
       std::isnan(analysis.theta_c) ? "the slope has not failed" : "theta_c = " + tilt(analysis.theta_c));
 }
 
-std::string threshold_text(const AnalysedRun& run, const EventUnits& unit) {
+std::string threshold_text(const RunView& run, const EventUnits& unit) {
   const Analysis& analysis = run.analysis;
   if (std::isnan(analysis.event_threshold))
     return "The steps of the tilt are not in the file: its events are not known.\n";
@@ -96,7 +96,7 @@ std::string threshold_text(const AnalysedRun& run, const EventUnits& unit) {
       analysis.event_threshold / unit.velocity, over_noise, analysis.event_quiet_time / unit.time);
 }
 
-std::string event_table(const AnalysedRun& run, const EventUnits& unit, std::size_t largest) {
+std::string event_table(const RunView& run, const EventUnits& unit, std::size_t largest) {
   const std::vector<EventRecord>& events = run.analysis.events;
   const std::vector<std::size_t> shown = shown_events(events, largest);
   std::string text =
@@ -160,7 +160,7 @@ std::size_t width_of(const Quantity& quantity) { return quantity.shape == "E" ? 
 
 }  // namespace
 
-std::string event_summary(const AnalysedRun& run) {
+std::string event_summary(const RunView& run) {
   const Analysis& analysis = run.analysis;
   if (std::isnan(analysis.event_count))
     return "rearrangements: not known, the file has no steps of the tilt\n";
@@ -176,16 +176,16 @@ std::string event_summary(const AnalysedRun& run) {
       line("share that dilates the bed", dilating_line(analysis)));
 }
 
-std::string events_text(const AnalysedRun& run, std::size_t largest) {
+std::string events_text(const RunView& run, std::size_t largest) {
   const EventUnits unit(run.statics);
   return fmt::format("{}{}{}\n{}", events_heading(run), threshold_text(run, unit),
                      run.analysis.events.empty() ? "" : event_table(run, unit, largest), event_summary(run));
 }
 
-std::string events_json(const AnalysedRun& run) {
+std::string events_json(const RunView& run) {
   const Analysis& analysis = run.analysis;
   json::Members members = {{"path", json::quoted(run.path)},
-                           {"state", json::quoted(run.state)},
+                           {"state", json::quoted(run.kept)},
                            {"mean_diameter", json::number(run.statics.mean_diameter)},
                            {"mean_mass", json::number(mean_grain_mass(run.statics))},
                            {"gravity", json::number(run.statics.gravity)},
@@ -218,7 +218,7 @@ std::string events_csv_head() {
   return text + "\n";
 }
 
-std::string events_csv(const AnalysedRun& run) {
+std::string events_csv(const RunView& run) {
   std::string text;
   for (std::size_t k = 0; k < run.analysis.events.size(); ++k) {
     text += csv_quoted(run.path);

@@ -5,10 +5,11 @@
 
 #include "app/choices.h"
 #include "app/commands.h"
+#include "app/count_progress.h"
 #include "app/event_report.h"
 #include "app/given_runs.h"
 #include "app/terminal.h"
-#include "session/analysis_parameters.h"
+#include "runs/analysis_parameters.h"
 
 namespace talus {
 namespace {
@@ -18,10 +19,10 @@ struct EventsArguments {
   std::vector<std::string> settings;
   AnalysisOptions options;
   std::size_t largest = 0;
-  bool json = false, csv = false;
+  bool json = false, csv = false, quiet = false;
 };
 
-std::string text_of(const EventsArguments& arguments, const AnalysedRun& run, bool first) {
+std::string text_of(const EventsArguments& arguments, const RunView& run, bool first) {
   if (arguments.json) return (first ? "[" : ",\n") + events_json(run);
   if (arguments.csv) return (first ? events_csv_head() : std::string()) + events_csv(run);
   return (first ? "" : "\n") + events_text(run, arguments.largest);
@@ -29,9 +30,11 @@ std::string text_of(const EventsArguments& arguments, const AnalysedRun& run, bo
 
 void list_events(const EventsArguments& arguments) {
   const AnalysisParameters parameters = parse_analysis_settings(arguments.settings);
+  AnalysisOptions options = arguments.options;
+  options.progress = count_shown("analysis", arguments.quiet);
   bool first = true;
   for (const std::string& path : runs_among(arguments.runs)) {
-    const AnalysedRun run = analysed_run(path, parameters, arguments.options);
+    const RunView run = analysed_run(path, parameters, options);
     print_text(text_of(arguments, run, first));
     std::fflush(stdout);
     first = false;
@@ -71,7 +74,7 @@ void add_events_command(CLI::App& app) {
       ->excludes(json)
       ->excludes(largest);
   json->excludes(largest);
-  command->add_flag("-q,--quiet", arguments->options.quiet, "Show no progress");
+  command->add_flag("-q,--quiet", arguments->quiet, "Show no progress");
   command->footer(
       "Energy: work of gravity on the grains. Grains, depth, x, y: those that moved,\n"
       "how deep they lie, and their centre, between the frames around the event.\n"

@@ -8,7 +8,6 @@
 #include <optional>
 
 #include "analysis/record.h"
-#include "app/analysed_run.h"
 #include "app/choices.h"
 #include "app/commands.h"
 #include "app/count_progress.h"
@@ -21,7 +20,8 @@
 #include "core/text.h"
 #include "core/visible_text.h"
 #include "export/export_files.h"
-#include "session/analysis_parameters.h"
+#include "runs/analysis_parameters.h"
+#include "runs/run_view.h"
 
 namespace talus {
 namespace {
@@ -90,7 +90,9 @@ void export_run(const ExportArguments& arguments) {
   for (const std::string& file : files_of(plan))
     output_target(file, output_of_run(arguments.run, arguments.overwrite));
   if (format.needs_analysis)
-    plan.analysis = analysed_run(arguments.run, plan.parameters, {.quiet = arguments.quiet}).analysis;
+    plan.analysis =
+        analysed_run(arguments.run, plan.parameters, {.progress = count_shown("analysis", arguments.quiet)})
+            .analysis;
   const std::size_t count =
       export_files(run, plan, {count_shown("exporting", arguments.quiet), asked_to_stop});
   if (arguments.quiet) return;

@@ -13,13 +13,14 @@
 #include "ensemble/averages_reader.h"
 #include "ensemble/ensemble_manifest.h"
 #include "ensemble/kept_runs.h"
+#include "ensemble/member_analysis.h"
 #include "ensemble/member_lists.h"
 #include "ensemble/member_state.h"
 #include "ensemble/pool.h"
 #include "io/durable_file.h"
 #include "io/run_store.h"
 #include "io/signature.h"
-#include "session/analysis_parameters.h"
+#include "runs/analysis_parameters.h"
 
 namespace talus {
 namespace {
@@ -34,12 +35,11 @@ struct Reading {
   FigureInput input = {};
 };
 
-FigureRun open_run(const std::string& path, const AnalysisParameters& parameters,
-                   const AnalysisOptions& options) {
-  // The analysis comes first: storing it replaces the file.
-  AnalysedRun run = analysed_run(path, parameters, options);
-  if (!run.is_kept && !options.quiet) print_error("talus: note: %s: %s\n", path.c_str(), run.state.c_str());
-  return run_of_file(path, RunFile::open(path), std::move(run.analysis));
+RunView open_run(const std::string& path, const AnalysisParameters& parameters,
+                 const AnalysisOptions& options) {
+  RunView run = analysed_run(path, parameters, options);
+  if (!run.is_kept && options.progress) print_error("talus: note: %s: %s\n", path.c_str(), run.kept.c_str());
+  return run;
 }
 
 void add_run(Reading& reading, const std::string& path) {
@@ -63,15 +63,15 @@ void add_tables(Reading& reading, const Member& member, const Variant& variant) 
   if (!is_there(series)) refuse_missing_series(member);
   const MemberNumbers found = read_numbers(member);
   require_own_file(member, found, series_ending);
-  reading.input.runs.push_back(run_of_values(numbers,
-                                             {member.seed, found, parse_series(read_text(series), series)},
-                                             read_text(variant.scenario_file)));
+  reading.input.runs.push_back(view_of_values(numbers,
+                                              {member.seed, found, parse_series(read_text(series), series)},
+                                              read_text(variant.scenario_file)));
   reading.input.files.insert(reading.input.files.end(), {numbers, series});
   const std::string lists = lists_path(member.path);
   if (!is_there(lists)) return;
   require_own_file(member, found, lists_ending);
-  FigureRun& run = reading.input.runs.back();
-  set_lists(read_lists(lists), run.mean_diameter, run.analysis);
+  RunView& run = reading.input.runs.back();
+  set_lists(read_lists(lists), run.statics.mean_diameter, run.analysis);
   reading.input.files.push_back(lists);
 }
 
@@ -100,18 +100,17 @@ void add_values(Reading& reading, const std::string& path) {
   for (const StoredVariant& variant : read_averages(path))
     for (std::size_t m = 0; m < variant.seeds.size(); ++m)
       reading.input.runs.push_back(
-          run_of_values(fmt::format("{}#{}{}seed-{}", path, variant.name, variant.name.empty() ? "" : "/",
-                                    variant.seeds[m]),
-                        member_of(variant, m), variant.scenario));
+          view_of_values(fmt::format("{}#{}{}seed-{}", path, variant.name, variant.name.empty() ? "" : "/",
+                                     variant.seeds[m]),
+                         member_of(variant, m), variant.scenario));
   reading.input.files.push_back(path);
 }
 
 }  // namespace
 
-std::vector<FigureRun> open_figure_runs(const std::vector<std::string>& paths,
-                                        const AnalysisParameters& parameters,
-                                        const AnalysisOptions& options) {
-  std::vector<FigureRun> runs;
+std::vector<RunView> open_figure_runs(const std::vector<std::string>& paths,
+                                      const AnalysisParameters& parameters, const AnalysisOptions& options) {
+  std::vector<RunView> runs;
   for (const std::string& path : paths) runs.push_back(open_run(path, parameters, options));
   return runs;
 }

@@ -4,18 +4,18 @@
 #include <string>
 #include <vector>
 
-#include "app/analysed_run.h"
 #include "figures/run_group.h"
+#include "runs/run_view.h"
 
 namespace talus {
 
 /// The runs at `paths`, in that order. Throws as analysed_run does.
-std::vector<FigureRun> open_figure_runs(const std::vector<std::string>& paths,
-                                        const AnalysisParameters& parameters, const AnalysisOptions& options);
+std::vector<RunView> open_figure_runs(const std::vector<std::string>& paths,
+                                      const AnalysisParameters& parameters, const AnalysisOptions& options);
 
 /// What the arguments of `talus figures` stand for.
 struct FigureInput {
-  std::vector<FigureRun> runs;
+  std::vector<RunView> runs;
   std::vector<std::string> files;  ///< files and folders that were read, and must not be replaced
 };
 

@@ -35,7 +35,7 @@ std::string table_json(const Figure& figure, const Table& table) {
   return json::object({{"file", quoted(file_of(figure, table))}, {"columns", list_of(columns, 3)}}, 2);
 }
 
-std::string run_json(const FigureRun& run, const std::string& group) {
+std::string run_json(const RunView& run, const std::string& group) {
   const std::string& scenario = run.scenario_text;
   json::Members parameters;
   for (const auto& [name, value] : run.analysis.parameters) parameters.emplace_back(name, quoted(value));
@@ -70,7 +70,7 @@ std::string provenance_json(const Figure& figure, std::span<const RunGroup> grou
                             const std::string& command_line) {
   std::vector<std::string> runs, tables;
   for (const RunGroup& group : groups)
-    for (const FigureRun& run : group.runs)
+    for (const RunView& run : group.runs)
       if (std::ranges::find(figure.runs, run.path) != figure.runs.end())
         runs.push_back(run_json(run, group.label));
   for (const Table& table : figure.tables) tables.push_back(table_json(figure, table));

@@ -21,7 +21,7 @@
 #include "core/output_file.h"
 #include "core/visible_text.h"
 #include "figures/catalogue.h"
-#include "session/analysis_parameters.h"
+#include "runs/analysis_parameters.h"
 
 namespace talus {
 namespace {
@@ -31,6 +31,7 @@ struct FiguresArguments {
   std::vector<std::string> only;
   std::vector<std::string> settings;
   AnalysisOptions analysis;
+  bool quiet = false;
   int columns = 0;  ///< 0: each figure's own
   std::string folder;
   bool overwrite = false;
@@ -77,7 +78,7 @@ std::vector<FigureRecipe> chosen_recipes(const std::vector<std::string>& only) {
 
 /// Whether some run has what a figure is made from.
 bool is_there(Material material, std::span<const RunGroup> groups) {
-  const auto has = [material](const FigureRun& run) {
+  const auto has = [material](const RunView& run) {
     return material == Material::values || run.file ||
            (material == Material::distributions && !run.analysis.gamma_edge.empty());
   };
@@ -105,14 +106,16 @@ void make(const FiguresArguments& arguments) {
   const std::vector<FigureRecipe> recipes = chosen_recipes(arguments.only);
   parse_analysis_settings(arguments.settings);  // before anything is read
   require_gnuplot();
-  FigureInput input = read_figure_input(arguments.runs, arguments.settings, arguments.analysis);
+  AnalysisOptions analysis = arguments.analysis;
+  analysis.progress = count_shown("analysis", arguments.quiet);
+  FigureInput input = read_figure_input(arguments.runs, arguments.settings, analysis);
   const std::vector<RunGroup> groups = group_runs(std::move(input.runs));
   const std::vector<Figure> figures = make_figures(recipes, groups);
   const std::filesystem::path folder = arguments.folder;
   const OutputRule rule{arguments.overwrite, input.files};
   for (const Figure& figure : figures)
     for (const std::string& file : figure_files(figure)) output_target((folder / file).string(), rule);
-  CountProgress progress("figures", figures.size(), arguments.analysis.quiet);
+  CountProgress progress("figures", figures.size(), arguments.quiet);
   for (std::size_t k = 0; k < figures.size(); ++k) {
     stop_if_asked();
     write_figure(figures[k], groups, arguments.folder, {arguments.columns, command_line()});
@@ -164,7 +167,7 @@ void add_figures_command(CLI::App& app) {
       ->capture_default_str()
       ->check(in_range(1, 256));
   command->add_flag("--overwrite", arguments->overwrite, "Replace files that exist");
-  command->add_flag("-q,--quiet", arguments->analysis.quiet, "Show no progress");
+  command->add_flag("-q,--quiet", arguments->quiet, "Show no progress");
   command->footer(list_of_figures());
   command->callback([arguments] { make(*arguments); });
 }

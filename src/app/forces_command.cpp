@@ -12,8 +12,8 @@
 #include "core/trigonometry.h"
 #include "pictures/frame_choice.h"
 #include "problems/admissible_forces.h"
+#include "runs/analysis_parameters.h"
 #include "scenario/json.h"
-#include "session/analysis_parameters.h"
 
 namespace talus {
 namespace {

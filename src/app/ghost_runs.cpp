@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <fmt/core.h>
 
+#include "app/count_progress.h"
 #include "app/figure_runs.h"
 #include "core/errors.h"
 #include "ensemble/averages_reader.h"
@@ -23,7 +24,7 @@ void refuse_unanalysed(const std::string& path) {
                                               path, path));
 }
 
-GhostRun ghost_of(const FigureRun& run) {
+GhostRun ghost_of(const RunView& run) {
   GhostRun ghost;
   const FramesOfRise rise = last_rise_of(run);
   for (const FrameRecord* frame : rise.frames) ghost.frames.push_back(*frame);
@@ -31,7 +32,7 @@ GhostRun ghost_of(const FigureRun& run) {
     ghost.times.push_back(run.file->all_frame_times()[rise.first + k]);
   for (const RunThreshold& threshold : run.analysis.thresholds) ghost.factors.push_back(threshold.factor);
   ghost.theta_c = run.analysis.theta_c;
-  ghost.mean_diameter = run.mean_diameter;
+  ghost.mean_diameter = run.statics.mean_diameter;
   // What is known of single grains is much, and no curve shows it.
   for (FrameRecord& frame : ghost.frames)
     for (FrameThreshold& at : frame.thresholds) {
@@ -54,7 +55,8 @@ Ghost read_ghost(const std::vector<std::string>& paths, MissingAnalysis missing)
   if (missing == MissingAnalysis::refused)
     for (const std::string& path : paths) refuse_unanalysed(path);
   Ghost ghost;
-  for (const FigureRun& run : read_figure_input(paths, {}, {}).runs) ghost.runs.push_back(ghost_of(run));
+  for (const RunView& run : read_figure_input(paths, {}, {.progress = count_shown("analysis", false)}).runs)
+    ghost.runs.push_back(ghost_of(run));
   ghost.name = name_of(paths.front());
   if (paths.size() > 1) ghost.name += fmt::format(" and {} more", paths.size() - 1);
   return ghost;

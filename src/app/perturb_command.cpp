@@ -27,7 +27,7 @@
 #include "ensemble/worker.h"
 #include "figures/perturbation_figure.h"
 #include "io/durable_file.h"
-#include "session/analysis_parameters.h"
+#include "runs/analysis_parameters.h"
 
 namespace talus {
 namespace {
@@ -64,7 +64,7 @@ void perturb_seed(const PerturbArguments& arguments, const EnsembleManifest& wan
 void refuse_no_states(const PerturbArguments& arguments, const RunGroup& group, const Table& states) {
   if (!states.columns.front().values.empty()) return;
   double lowest = not_known, highest = not_known;
-  for (const FigureRun& run : group.runs) {
+  for (const RunView& run : group.runs) {
     lowest = std::fmin(lowest, degrees(run.analysis.theta_c));
     highest = std::fmax(highest, degrees(run.analysis.theta_c));
   }

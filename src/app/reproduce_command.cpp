@@ -62,9 +62,7 @@ std::vector<RunGroup> open_groups(const ReproductionPlan& plan) {
   std::ranges::stable_sort(members, {}, [&](std::size_t m) { return plan.members[m].variant; });
   std::vector<std::string> paths;
   for (const std::size_t m : members) paths.push_back(plan.members[m].path);
-  AnalysisOptions analysis;
-  analysis.quiet = true;
-  return group_runs(open_figure_runs(paths, AnalysisParameters(), analysis));
+  return group_runs(open_figure_runs(paths, AnalysisParameters(), {}));
 }
 
 /// `talus figures` that makes the same figure.

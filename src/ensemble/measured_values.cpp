@@ -18,7 +18,7 @@ constexpr double same_tilt = 1e-9;  // rad: tilts are multiples of a step up to 
 
 /// A run with its angles looked up: frames by index, where there are any.
 struct RunAtThreshold {
-  const MeasuredRun& run;
+  const RunView& run;
   std::size_t factor;
   double theta_c;                   // rad
   std::size_t at_theta_c;           // the last frame up to it
@@ -28,12 +28,13 @@ struct RunAtThreshold {
   const FrameThreshold& overload(std::size_t k) const { return frame(k).thresholds.at(factor); }
   const RunThreshold& threshold() const { return run.analysis.thresholds.at(factor); }
   double length(std::size_t k, double FrameThreshold::*member) const {
-    return overload(k).*member / run.mean_diameter;
+    return overload(k).*member / run.statics.mean_diameter;
   }
   /// The last frame not after a tilt.
   std::size_t frame_at(double tilt) const {
-    const auto after = std::ranges::upper_bound(run.tilts, tilt + same_tilt);
-    return static_cast<std::size_t>(std::max<std::ptrdiff_t>(after - run.tilts.begin() - 1, 0));
+    const std::vector<FrameRecord>& frames = run.analysis.frames;
+    const auto after = std::ranges::upper_bound(frames, tilt + same_tilt, {}, &FrameRecord::tilt);
+    return static_cast<std::size_t>(std::max<std::ptrdiff_t>(after - frames.begin() - 1, 0));
   }
 };
 
@@ -43,7 +44,7 @@ double mean_before_failure(const RunAtThreshold& of, const Value& value) {
   double sum = 0.0;
   int count = 0;
   for (std::size_t k = 0; k <= of.at_theta_c; ++k) {
-    if (k < of.at_theta_c && of.run.tilts[k] < of.theta_c - radians(failure_window)) continue;
+    if (k < of.at_theta_c && of.frame(k).tilt < of.theta_c - radians(failure_window)) continue;
     sum += value(k);
     ++count;
   }
@@ -52,7 +53,7 @@ double mean_before_failure(const RunAtThreshold& of, const Value& value) {
 
 double stress_ratio(const RunAtThreshold& of) {
   return mean_before_failure(
-      of, [&](std::size_t k) { return of.frame(k).stress_ratio / std::sin(of.run.tilts[k]); });
+      of, [&](std::size_t k) { return of.frame(k).stress_ratio / std::sin(of.frame(k).tilt); });
 }
 
 /// Of sigma_xx between the lower and the upper half of the bed, over their mean.
@@ -71,7 +72,7 @@ double gradient(const RunAtThreshold& of) {
 double contracted(const RunAtThreshold& of) {
   const double onset = of.run.analysis.dilation[0];
   if (std::isnan(onset)) return -of.frame(of.at_theta_c).volume_strain;
-  if (of.run.analysis.dilation_low[0] <= of.run.tilts.front() + same_tilt) return not_known;
+  if (of.run.analysis.dilation_low[0] <= of.frame(0).tilt + same_tilt) return not_known;
   return -of.frame(of.frame_at(onset)).volume_strain;
 }
 
@@ -83,7 +84,7 @@ double dilated(const RunAtThreshold& of) {
 
 /// The onset of dilation; where its range begins at the first tilt, the end of this range as an upper bound.
 Measured dilation_tilt(const RunAtThreshold& of) {
-  if (of.run.analysis.dilation_low[0] <= of.run.tilts.front() + same_tilt)
+  if (of.run.analysis.dilation_low[0] <= of.frame(0).tilt + same_tilt)
     return {degrees(of.run.analysis.dilation_high[0]), true};
   return {degrees(of.run.analysis.dilation[0])};
 }
@@ -171,13 +172,13 @@ Measured measure_chain(const RunAtThreshold& of, PaperQuantity quantity, Populat
     case theta_d_by_jump:
       return {degrees(of.threshold().lc_jump)};
     case theta_d_by_percolation:
-      return at_percolation(of, [&](std::size_t k) { return degrees(of.run.tilts[k]); });
+      return at_percolation(of, [&](std::size_t k) { return degrees(of.frame(k).tilt); });
     default:
       return {not_known};
   }
 }
 
-RunAtThreshold at_threshold(const MeasuredRun& run, std::size_t factor) {
+RunAtThreshold at_threshold(const RunView& run, std::size_t factor) {
   RunAtThreshold of{run, factor, run.analysis.theta_c, 0, {}};
   if (std::isnan(of.theta_c)) return of;
   of.at_theta_c = of.frame_at(of.theta_c);
@@ -192,7 +193,7 @@ bool needs_threshold(PaperQuantity quantity) {
 
 }  // namespace
 
-Measured measure(const MeasuredRun& run, PaperQuantity quantity, std::size_t factor, Population population) {
+Measured measure(const RunView& run, PaperQuantity quantity, std::size_t factor, Population population) {
   const RunAtThreshold of = at_threshold(run, factor);
   if (std::isnan(of.theta_c)) return {not_known};
   if (!needs_threshold(quantity)) return measure_packing(of, quantity);
@@ -200,17 +201,18 @@ Measured measure(const MeasuredRun& run, PaperQuantity quantity, std::size_t fac
   return measure_chain(of, quantity, population);
 }
 
-MeasuredValues measure_all(const MeasuredRun& run, std::size_t factor, Population population) {
+MeasuredValues measure_all(const RunView& run, std::size_t factor, Population population) {
   MeasuredValues all{};
   for (std::size_t q = 0; q < quantity_count; ++q)
     all[q] = measure(run, static_cast<PaperQuantity>(q), factor, population);
   return all;
 }
 
-WallPoint wall_point(const MeasuredRun& run, double length) {
+WallPoint wall_point(const RunView& run) {
   const double ratio = measure(run, shear_over_tangent_of_walls, 0, Population::carrying).value;
   if (std::isnan(ratio)) return {not_known, not_known};
   const RunAtThreshold of = at_threshold(run, 0);
+  const double length = run.statics.length;
   return {of.frame(of.at_theta_c).volume / (length * length), ratio};
 }
 

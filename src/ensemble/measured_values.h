@@ -5,9 +5,9 @@
 #include <cstddef>
 #include <span>
 
-#include "analysis/record.h"
 #include "ensemble/paper_values.h"
 #include "ensemble/wall_fit.h"
+#include "runs/run_view.h"
 
 namespace talus {
 
@@ -15,13 +15,6 @@ namespace talus {
 enum class Population {
   carrying,  ///< those that carry something, as gamma is known for no others
   all,       ///< all free grains
-};
-
-/// An analysed run.
-struct MeasuredRun {
-  std::span<const double> tilts;  ///< rad, of its frames
-  double mean_diameter = 0.0;     ///< m
-  const Analysis& analysis;
 };
 
 /// A number in the unit of the paper's value; NaN where the run has none.
@@ -32,16 +25,16 @@ struct Measured {
 
 /// The quantity in a run that has failed, with threshold `factor` (an index) of its analysis. NaN where the
 /// slope has not failed, and for the coefficient of the walls, which no single run has.
-Measured measure(const MeasuredRun& run, PaperQuantity quantity, std::size_t factor, Population population);
+Measured measure(const RunView& run, PaperQuantity quantity, std::size_t factor, Population population);
 
 /// Of all quantities.
 using MeasuredValues = std::array<Measured, quantity_count>;
-MeasuredValues measure_all(const MeasuredRun& run, std::size_t factor, Population population);
+MeasuredValues measure_all(const RunView& run, std::size_t factor, Population population);
 inline const Measured& at(const MeasuredValues& values, PaperQuantity quantity) {
   return values[static_cast<std::size_t>(quantity)];
 }
 
-/// H / L and the ratio of a bed of `length` (m) at failure; the ratio is NaN where it has not failed.
-WallPoint wall_point(const MeasuredRun& run, double length);
+/// H / L and the ratio of a bed at failure; the ratio is NaN where it has not failed.
+WallPoint wall_point(const RunView& run);
 
 }  // namespace talus

@@ -5,7 +5,7 @@
 
 #include "analysis/quantities.h"
 #include "core/trigonometry.h"
-#include "session/analysis_parameters.h"
+#include "runs/analysis_parameters.h"
 
 namespace talus {
 namespace {
@@ -21,7 +21,8 @@ void set_number_of_run(const Quantity& quantity, const MemberNumbers& numbers, d
                        Analysis& analysis) {
   auto values = std::get<std::vector<double>>(values_of(quantity, analysis));
   for (std::size_t k = 0; k < values.size(); ++k)
-    values[k] = unscaled(quantity.unit, number_called(numbers, element_name(quantity.name, k)), mean_diameter);
+    values[k] =
+        unscaled(quantity.unit, number_called(numbers, element_name(quantity.name, k)), mean_diameter);
   if (!values.empty()) set_values(quantity, values, analysis);
 }
 
@@ -52,6 +53,20 @@ Analysis analysis_of(const MemberResult& member, double mean_diameter) {
     if (is_number_of_frame(quantity)) set_number_of_frames(quantity, member.series, mean_diameter, analysis);
   }
   return analysis;
+}
+
+RunView view_of_values(const std::string& path, const MemberResult& member,
+                       const std::string& scenario_text) {
+  RunView run;
+  run.path = path;
+  run.scenario = parse_scenario(scenario_text, path);
+  run.scenario.seed = member.seed;
+  run.scenario_text = scenario_text;
+  run.state_hash = member.numbers.state_hash;
+  run.statics.mean_diameter = run.scenario.grains.mean_diameter;
+  run.analysis = analysis_of(member, run.statics.mean_diameter);
+  run.theta_r = radians(number_called(member.numbers, "theta_r"));
+  return run;
 }
 
 }  // namespace talus

@@ -12,8 +12,8 @@
 #include "io/analysis_file.h"
 #include "io/durable_file.h"
 #include "io/run_file.h"
-#include "session/analysis_parameters.h"
-#include "session/analysis_run.h"
+#include "runs/analysis_parameters.h"
+#include "runs/analysis_run.h"
 
 namespace talus {
 namespace {
@@ -23,18 +23,18 @@ namespace fs = std::filesystem;
 /// The values of a member by one analysis, one for each threshold.
 using Thresholds = std::vector<MeasuredValues>;
 
-/// The stored analysis where it is the one with default parameters.
-std::optional<Analysis> stored_analysis(const RunFile& run, const std::string& path) {
+/// The run of a member with its stored analysis; nothing where that is not the one with default parameters.
+std::optional<RunView> stored_run(const std::string& path) {
+  RunFile file = RunFile::open(path);
   std::optional<Analysis> stored = read_analysis(path);
-  if (stored && stored->key != analysis_key(run, AnalysisParameters())) stored.reset();
-  return stored;
+  if (!stored || stored->key != analysis_key(file, AnalysisParameters())) return std::nullopt;
+  return view_of_run(path, std::move(file), std::move(*stored));
 }
 
-Thresholds measure_thresholds(const RunFile& run, const Analysis& analysis, Population population) {
-  const MeasuredRun measured{run.frame_tilts(), run.header().statics.mean_diameter, analysis};
+Thresholds measure_thresholds(const RunView& run, Population population) {
   Thresholds thresholds;
   for (std::size_t f = 0; f < AnalysisParameters().threshold_factors.size(); ++f)
-    thresholds.push_back(measure_all(measured, f, population));
+    thresholds.push_back(measure_all(run, f, population));
   return thresholds;
 }
 
@@ -55,15 +55,14 @@ std::optional<Thresholds> kept_reading(const RunFile& run, const std::string& pa
 
 /// The values of a member by each analysis, as chain_analyses() has them (of beds between walls those of the
 /// run file alone, the others are empty); nothing where one is missing.
-std::optional<std::vector<Thresholds>> values_of(const Member& member, const RunFile& run,
-                                                 const Analysis& stored) {
+std::optional<std::vector<Thresholds>> values_of(const Member& member, const RunView& run) {
   std::vector<Thresholds> values;
   for (const ChainAnalysis& analysis : chain_analyses(member.scenario.bed.depth)) {
     std::optional<Thresholds> found = Thresholds();
     if (analysis.settings.empty())
-      found = measure_thresholds(run, stored, analysis.population);
+      found = measure_thresholds(run, analysis.population);
     else if (has_readings(member))
-      found = kept_reading(run, member.path, analysis);
+      found = kept_reading(*run.file, member.path, analysis);
     if (!found) return std::nullopt;
     values.push_back(std::move(*found));
   }
@@ -72,38 +71,34 @@ std::optional<std::vector<Thresholds>> values_of(const Member& member, const Run
 
 ReproducedOutcome measure_member(const ReproductionPlan& plan, std::size_t m) {
   const Member& member = plan.members[m];
-  const RunFile run = RunFile::open(member.path);
-  const auto stored = stored_analysis(run, member.path);
-  auto values = stored ? values_of(member, run, *stored) : std::nullopt;
+  const std::optional<RunView> run = stored_run(member.path);
+  auto values = run ? values_of(member, *run) : std::nullopt;
   const std::string numbers = numbers_path(member.path);
   if (!values)
     throw Error(ExitCode::bad_data, member.path + " lacks analyses of this version of Talus; remove " +
                                         numbers + ", and the member is analysed again");
   const MemberNumbers found = read_numbers(member);
-  const RunStatics& statics = run.header().statics;
-  return {m, found.version, found.seconds, std::move(*values),
-          wall_point({run.frame_tilts(), statics.mean_diameter, *stored}, statics.length)};
+  return {m, found.version, found.seconds, std::move(*values), wall_point(*run)};
 }
 
 }  // namespace
 
 void make_readings(const Member& member) {
   if (!has_readings(member)) return;
-  const RunFile run = RunFile::open(member.path);
+  RunView run = view_of_run(member.path, RunFile::open(member.path), {});
   for (const ChainAnalysis& analysis : chain_analyses(member.scenario.bed.depth)) {
-    if (analysis.settings.empty() || kept_reading(run, member.path, analysis)) continue;
-    const Analysis found = analyse_run(run, parse_analysis_settings(analysis.settings), 1, {});
+    if (analysis.settings.empty() || kept_reading(*run.file, member.path, analysis)) continue;
+    run.analysis = analyse_run(*run.file, parse_analysis_settings(analysis.settings), 1, {});
     const std::string file = reading_path(member.path, analysis);
     prepare_folder_of(file);
-    write_text(file, measured_text(found.key, measure_thresholds(run, found, Population::carrying)));
+    write_text(file, measured_text(run.analysis.key, measure_thresholds(run, Population::carrying)));
   }
 }
 
 bool is_measured(const Member& member) {
   if (run_presence(member.path) != RunPresence::packed) return false;
-  const RunFile run = RunFile::open(member.path);
-  const auto stored = stored_analysis(run, member.path);
-  return stored && values_of(member, run, *stored);
+  const std::optional<RunView> run = stored_run(member.path);
+  return run && values_of(member, *run);
 }
 
 ReproductionResult measure_members(const ReproductionPlan& plan) {

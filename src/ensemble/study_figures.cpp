@@ -6,7 +6,7 @@
 #include "analysis/last_rise.h"
 #include "analysis/quantities.h"
 #include "core/trigonometry.h"
-#include "session/analysis_input.h"
+#include "runs/analysis_input.h"
 #include "stress/overload.h"
 
 namespace talus {

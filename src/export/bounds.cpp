@@ -1,6 +1,6 @@
-#include "export/bounds.h"
-
 #include <algorithm>
+
+#include "export/writers.h"
 
 namespace talus {
 

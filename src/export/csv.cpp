@@ -1,11 +1,10 @@
-#include "export/csv.h"
-
 #include <fmt/core.h>
 #include <string_view>
 #include <vector>
 
 #include "core/text.h"
 #include "export/fields.h"
+#include "export/writers.h"
 
 namespace talus {
 namespace {

@@ -11,15 +11,10 @@
 #include "analysis/packing.h"
 #include "core/errors.h"
 #include "core/output_file.h"
-#include "export/csv.h"
-#include "export/graphml.h"
-#include "export/lammps_dump.h"
-#include "export/vti.h"
-#include "export/vtp.h"
-#include "export/xyz.h"
+#include "export/page/run_page.h"
+#include "export/writers.h"
 #include "io/durable_file.h"
-#include "page/run_page.h"
-#include "session/analysis_input.h"
+#include "runs/analysis_input.h"
 
 namespace talus {
 namespace {

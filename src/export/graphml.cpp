@@ -1,5 +1,3 @@
-#include "export/graphml.h"
-
 #include <algorithm>
 #include <fmt/core.h>
 #include <set>
@@ -8,6 +6,7 @@
 
 #include "core/version.h"
 #include "export/fields.h"
+#include "export/writers.h"
 
 namespace talus {
 namespace {

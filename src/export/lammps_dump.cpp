@@ -1,12 +1,10 @@
-#include "export/lammps_dump.h"
-
 #include <fmt/core.h>
 #include <span>
 #include <vector>
 
 #include "core/text.h"
-#include "export/bounds.h"
 #include "export/fields.h"
+#include "export/writers.h"
 
 namespace talus {
 namespace {

@@ -1,5 +1,3 @@
-#include "export/vti.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,8 +5,8 @@
 
 #include "core/errors.h"
 #include "core/trigonometry.h"
-#include "export/bounds.h"
 #include "export/vtk_xml.h"
+#include "export/writers.h"
 #include "stress/stress_state.h"
 
 namespace talus {

@@ -1,5 +1,3 @@
-#include "export/vtp.h"
-
 #include <cstdint>
 #include <fmt/core.h>
 #include <string_view>
@@ -8,6 +6,7 @@
 #include "core/version.h"
 #include "export/fields.h"
 #include "export/vtk_xml.h"
+#include "export/writers.h"
 
 namespace talus {
 namespace {

@@ -1,10 +1,8 @@
-#include "export/xyz.h"
-
 #include <fmt/core.h>
 #include <vector>
 
-#include "export/bounds.h"
 #include "export/fields.h"
+#include "export/writers.h"
 
 namespace talus {
 namespace {

@@ -4,7 +4,7 @@
 #include <iterator>
 
 #include "core/statistics.h"
-#include "figures/angle_figures.h"
+#include "figures/recipes.h"
 
 namespace talus {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "core/statistics.h"
 #include "ensemble/plus_minus.h"
-#include "figures/angle_figures.h"
+#include "figures/recipes.h"
 
 namespace talus {
 namespace {

@@ -2,21 +2,8 @@
 
 #include <array>
 
-#include "figures/angle_figures.h"
-#include "figures/contact_figures.h"
-#include "figures/cycles_figure.h"
-#include "figures/dynamic_angle.h"
-#include "figures/event_figure.h"
-#include "figures/force_chains.h"
-#include "figures/map_panels.h"
-#include "figures/neighbourhoods_figure.h"
-#include "figures/overload_figures.h"
-#include "figures/packing_stress_figures.h"
-#include "figures/persistence_figure.h"
-#include "figures/quantity_figures.h"
 #include "figures/ranking_figure.h"
-#include "figures/volume_strain_figure.h"
-#include "figures/wall_figures.h"
+#include "figures/recipes.h"
 
 namespace talus {
 

@@ -1,5 +1,3 @@
-#include "figures/contact_figures.h"
-
 #include <algorithm>
 #include <cmath>
 #include <fmt/core.h>
@@ -8,6 +6,7 @@
 #include "core/statistics.h"
 #include "core/trigonometry.h"
 #include "figures/failed_group.h"
+#include "figures/recipes.h"
 #include "figures/run_means.h"
 
 namespace talus {
@@ -22,7 +21,7 @@ struct State {
 std::vector<State> states_of(const RunChoice& runs) {
   State start{"_start", " at the start of the tilt", {}};
   State repose{"_repose", " at the last frame before theta_c", {}};
-  for (const FigureRun* run : runs) {
+  for (const RunView* run : runs) {
     start.frames.push_back(0);
     repose.frames.push_back(repose_frame(*run));
   }
@@ -48,7 +47,7 @@ double mean_tilt(const RunChoice& runs, const State& state) {
 /// A figure of these runs, with the angles of the two states for its script.
 Figure figure_of(const FailedGroup& failed) {
   Figure figure;
-  for (const FigureRun* run : failed.runs) figure.runs.push_back(run->path);
+  for (const RunView* run : failed.runs) figure.runs.push_back(run->path);
   for (const State& state : states_of(failed.runs))
     set_variable(figure, "theta" + state.name, gnuplot_quoted(angle_text(mean_tilt(failed.runs, state))));
   return figure;
@@ -150,7 +149,7 @@ std::optional<Figure> correlations(std::span<const RunGroup> groups) {
   figure.height_over_width = 0.4;
   Column distance{"r", "D", "distance between two contact points, or two centres", {}};
   for (const double r : failed->first().analysis.correlation_distance)
-    distance.values.push_back(r / failed->first().mean_diameter);
+    distance.values.push_back(r / failed->first().statics.mean_diameter);
   Table table{"", {std::move(distance)}};
   add_means(table, failed->runs, &FrameRecord::normal_force_correlation,
             {"force", "1", "correlation of normal forces", {}});

@@ -1,5 +1,3 @@
-#include "figures/dynamic_angle.h"
-
 #include <algorithm>
 #include <cmath>
 #include <fmt/core.h>
@@ -8,6 +6,7 @@
 #include "core/text.h"
 #include "core/trigonometry.h"
 #include "figures/group_table.h"
+#include "figures/recipes.h"
 #include "figures/run_means.h"
 #include "scenario/text.h"
 
@@ -18,7 +17,7 @@ constexpr double seconds_before_failure = 2.0;
 
 RunChoice runs_at_rest(const RunGroup& group) {
   RunChoice runs = all_runs(group);
-  std::erase_if(runs, [](const FigureRun* run) { return std::isnan(run->theta_r); });
+  std::erase_if(runs, [](const RunView* run) { return std::isnan(run->theta_r); });
   return runs;
 }
 
@@ -48,7 +47,7 @@ std::vector<Column> empty_columns(std::span<const RunThreshold> thresholds) {
 
 /// The values of a run, in the order of empty_columns. An angle that is told from the frame before it lies
 /// between the two; where there is no frame before it, it has no range.
-std::vector<double> row_of(const FigureRun& run) {
+std::vector<double> row_of(const RunView& run) {
   const Analysis& analysis = run.analysis;
   std::vector<double> row = {static_cast<double>(run.scenario.seed), degrees(run.theta_r),
                              degrees(analysis.theta_c)};
@@ -66,14 +65,14 @@ std::vector<double> row_of(const FigureRun& run) {
 
 std::vector<Column> columns_of(const RunChoice& runs) {
   std::vector<Column> columns = empty_columns(runs.front()->analysis.thresholds);
-  for (const FigureRun* run : runs) {
+  for (const RunView* run : runs) {
     const std::vector<double> row = row_of(*run);
     for (std::size_t k = 0; k < columns.size(); ++k) columns[k].values.push_back(row[k]);
   }
   return columns;
 }
 
-std::string factors_text(const FigureRun& run) {
+std::string factors_text(const RunView& run) {
   return joined(run.analysis.thresholds, " ",
                 [](const RunThreshold& threshold) { return short_text(threshold.factor); });
 }
@@ -89,7 +88,7 @@ std::string caption_of(std::size_t runs) {
 }
 
 /// The flow of one run, which only its file has.
-void add_trace(Figure& figure, const FigureRun& run, const std::string& label) {
+void add_trace(Figure& figure, const RunView& run, const std::string& label) {
   figure.height_over_width = 0.55;
   set_variable(figure, "flow", 1.0);
   figure.caption +=
@@ -115,7 +114,7 @@ void set_range(Figure& figure) {
 
 }  // namespace
 
-Table flow_trace(const FigureRun& run) {
+Table flow_trace(const RunView& run) {
   const RunStatics& statics = run.file->header().statics;
   const double unit = std::sqrt(statics.gravity * statics.mean_diameter);
   Table table{"trace",
@@ -144,7 +143,7 @@ std::optional<Figure> dynamic_angle_figure(std::span<const RunGroup> groups) {
   figure.wide = true;
   figure.height_over_width = 0.3;
   set_variable(figure, "flow", 0.0);
-  const FigureRun* shown = nullptr;
+  const RunView* shown = nullptr;
   std::string shown_label;
   for (const RunGroup& group : groups) {
     const RunChoice runs = runs_at_rest(group);

@@ -1,5 +1,3 @@
-#include "figures/event_figure.h"
-
 #include <algorithm>
 #include <cmath>
 #include <fmt/core.h>
@@ -9,14 +7,15 @@
 #include "core/trigonometry.h"
 #include "ensemble/plus_minus.h"
 #include "figures/group_table.h"
-#include "session/event_catalogue.h"
+#include "figures/recipes.h"
+#include "runs/event_catalogue.h"
 
 namespace talus {
 namespace {
 
 /// A rearrangement in the units of the figure.
 struct FigureEvent {
-  const FigureRun* run;
+  const RunView* run;
   const EventRecord* event;
   double energy;  ///< m g D
 };
@@ -24,7 +23,7 @@ struct FigureEvent {
 /// Those of all runs, run by run.
 std::vector<FigureEvent> rearrangements_of(const RunChoice& runs) {
   std::vector<FigureEvent> events;
-  for (const FigureRun* run : runs) {
+  for (const RunView* run : runs) {
     const RunStatics& statics = run->file->header().statics;
     const double unit = mean_grain_mass(statics) * statics.gravity * statics.mean_diameter;
     for (const EventRecord& event : run->analysis.events)
@@ -48,7 +47,7 @@ std::vector<Column> event_columns(const std::vector<FigureEvent>& events) {
   };
   for (const FigureEvent& of : events) {
     const EventRecord& event = *of.event;
-    const double diameter = of.run->mean_diameter;
+    const double diameter = of.run->statics.mean_diameter;
     const double time = std::sqrt(diameter / of.run->file->header().statics.gravity);
     const double row[] = {degrees(std::abs(event.begin)),
                           static_cast<double>(of.run->scenario.seed),

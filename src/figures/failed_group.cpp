@@ -33,7 +33,7 @@ std::string first_run_text(const FailedGroup& failed) {
   return fmt::format("{}, seed {}", failed.group->label, failed.first().scenario.seed);
 }
 
-std::size_t repose_frame(const FigureRun& run) {
+std::size_t repose_frame(const RunView& run) {
   const FramesOfRise rise = last_rise_of(run);
   return rise.first + frame_at_repose(rise.tilts, theta_c_of(run));
 }

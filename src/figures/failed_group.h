@@ -16,7 +16,7 @@ struct FailedGroup {
   RunChoice runs;
 
   /// The run of pictures that show one bed.
-  const FigureRun& first() const { return *runs.front(); }
+  const RunView& first() const { return *runs.front(); }
 };
 
 /// The first group that has such runs with their files, or with their distributions; periodic beds come first
@@ -28,7 +28,7 @@ std::optional<FailedGroup> first_group_with_distributions(std::span<const RunGro
 std::string first_run_text(const FailedGroup& failed);
 
 /// The last frame before theta_c.
-std::size_t repose_frame(const FigureRun& run);
+std::size_t repose_frame(const RunView& run);
 
 /// A value with at most so many decimals: "13.25", "0".
 std::string rounded_text(double value, int decimals);

@@ -1,5 +1,3 @@
-#include "figures/force_chains.h"
-
 #include <algorithm>
 #include <cmath>
 #include <fmt/core.h>
@@ -7,6 +5,7 @@
 
 #include "figures/contact_lines.h"
 #include "figures/failed_group.h"
+#include "figures/recipes.h"
 #include "figures/run_means.h"
 
 namespace talus {
@@ -100,7 +99,7 @@ Table force_table(const BedFrame& bed) {
 std::optional<Figure> force_chains(std::span<const RunGroup> groups) {
   const auto failed = first_failed_group(groups);
   if (!failed) return std::nullopt;
-  const FigureRun& run = failed->first();
+  const RunView& run = failed->first();
   const Frame frame = run.file->frame(repose_frame(run));
   Figure figure;
   figure.name = "force-chains";
@@ -131,7 +130,7 @@ std::optional<Figure> critical_contacts_figure(std::span<const RunGroup> groups)
   set_variable(figure, "letters", gnuplot_string(letters));
   figure.caption = "Critical contacts, whose friction is fully mobilised.";
   if (mapped) {
-    const FigureRun& run = mapped->first();
+    const RunView& run = mapped->first();
     const Frame frame = run.file->frame(repose_frame(run));
     figure.caption +=
         fmt::format(" (a) Black: critical contacts, gray: the others; {}.", frame_text(*mapped, frame));

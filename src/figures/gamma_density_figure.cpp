@@ -5,9 +5,8 @@
 #include "core/statistics.h"
 #include "core/text.h"
 #include "core/trigonometry.h"
-#include "figures/contact_figures.h"
 #include "figures/group_table.h"
-#include "figures/overload_figures.h"
+#include "figures/recipes.h"
 #include "figures/run_means.h"
 #include "scenario/text.h"
 
@@ -42,7 +41,7 @@ std::vector<Column> density_columns(const RunChoice& runs) {
 
 double mean_gamma_c(const RunChoice& runs) {
   std::vector<double> all;
-  for (const FigureRun* run : runs) all.push_back(run->analysis.gamma_c);
+  for (const RunView* run : runs) all.push_back(run->analysis.gamma_c);
   return statistics_of(all).mean;
 }
 

@@ -6,8 +6,8 @@
 #include <fmt/core.h>
 
 #include "figures/run_means.h"
+#include "runs/analysis_parameters.h"
 #include "scenario/text.h"
-#include "session/analysis_parameters.h"
 
 namespace talus {
 namespace {
@@ -17,7 +17,7 @@ constexpr std::size_t symbols_of_a_curve = 16;
 template <typename Condition>
 RunChoice choose(const RunGroup& group, const Condition& condition) {
   RunChoice choice;
-  for (const FigureRun& run : group.runs)
+  for (const RunView& run : group.runs)
     if (condition(run)) choice.push_back(&run);
   return choice;
 }
@@ -34,30 +34,30 @@ double largest_tilt(const Figure& figure) {
 }  // namespace
 
 RunChoice all_runs(const RunGroup& group) {
-  return choose(group, [](const FigureRun&) { return true; });
+  return choose(group, [](const RunView&) { return true; });
 }
 
 RunChoice runs_with_threshold(const RunGroup& group) {
-  return choose(group, [](const FigureRun& run) { return !run.analysis.thresholds.empty(); });
+  return choose(group, [](const RunView& run) { return !run.analysis.thresholds.empty(); });
 }
 
 RunChoice failed_runs(const RunGroup& group) {
-  return choose(group, [](const FigureRun& run) { return !std::isnan(theta_c_of(run)); });
+  return choose(group, [](const RunView& run) { return !std::isnan(theta_c_of(run)); });
 }
 
 RunChoice with_files(RunChoice runs) {
-  std::erase_if(runs, [](const FigureRun* run) { return !run->file; });
+  std::erase_if(runs, [](const RunView* run) { return !run->file; });
   return runs;
 }
 
 RunChoice with_distributions(RunChoice runs) {
-  std::erase_if(runs, [](const FigureRun* run) { return run->analysis.gamma_edge.empty(); });
+  std::erase_if(runs, [](const RunView* run) { return run->analysis.gamma_edge.empty(); });
   return runs;
 }
 
 FramesAtAngle frames_at_angle(const RunChoice& runs, double tilt) {
   FramesAtAngle result;
-  for (const FigureRun* run : runs)
+  for (const RunView* run : runs)
     if (stands_at(*run, tilt)) {
       result.runs.push_back(run);
       result.frames.push_back(frame_nearest(*run, tilt));
@@ -65,7 +65,7 @@ FramesAtAngle frames_at_angle(const RunChoice& runs, double tilt) {
   return result;
 }
 
-std::string reading_caption(const FigureRun& run) {
+std::string reading_caption(const RunView& run) {
   const double l_min = from_facts(run.analysis.parameters).l_min;
   if (l_min == 0.0) return "gamma is that of single grains.";
   const std::string who = l_min == default_l_min ? "its first neighbours" : "its neighbours";
@@ -115,7 +115,7 @@ void add_group_table(Figure& figure, const RunGroup& group, const RunChoice& run
                      std::vector<Column> columns) {
   const std::size_t rows = columns.front().values.size();
   figure.tables.push_back({table_name(group), std::move(columns)});
-  for (const FigureRun* run : runs) figure.runs.push_back(run->path);
+  for (const RunView* run : runs) figure.runs.push_back(run->path);
   const std::string g = std::to_string(++figure.groups);
   set_variable(figure, "groups", static_cast<double>(figure.groups));
   set_variable(figure, "data_" + g, gnuplot_string(file_of(figure, figure.tables.back())));

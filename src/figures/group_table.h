@@ -14,7 +14,7 @@
 namespace talus {
 
 /// Runs of a group that a figure is made from.
-using RunChoice = std::vector<const FigureRun*>;
+using RunChoice = std::vector<const RunView*>;
 
 /// All runs of a group; those that have overloaded grains, which need a threshold; those that have failed.
 RunChoice all_runs(const RunGroup& group);
@@ -35,7 +35,7 @@ struct FramesAtAngle {
 FramesAtAngle frames_at_angle(const RunChoice& runs, double tilt);
 
 /// How the analysis of a run reads gamma, as a sentence for captions: of which neighbourhood of a grain.
-std::string reading_caption(const FigureRun& run);
+std::string reading_caption(const RunView& run);
 
 /// The name of the table of a group: its label as a part of a file name.
 std::string table_name(const RunGroup& group);

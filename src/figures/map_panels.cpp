@@ -1,5 +1,3 @@
-#include "figures/map_panels.h"
-
 #include <algorithm>
 #include <cmath>
 #include <fmt/core.h>
@@ -8,10 +6,11 @@
 #include "core/text.h"
 #include "core/trigonometry.h"
 #include "figures/failed_group.h"
+#include "figures/recipes.h"
 #include "figures/run_means.h"
 #include "pictures/picture_series.h"
-#include "session/analysis_input.h"
-#include "session/analysis_parameters.h"
+#include "runs/analysis_input.h"
+#include "runs/analysis_parameters.h"
 #include "stress/overload.h"
 
 namespace talus {
@@ -34,7 +33,7 @@ struct Panels {
 };
 
 /// A map whose Gamma_c is that of the analysis, which need not be sin(theta_c), times `factor`.
-MapSettings map_of(const FigureRun& run, MapKind kind, double factor) {
+MapSettings map_of(const RunView& run, MapKind kind, double factor) {
   MapSettings settings;
   settings.layers = {kind};
   settings.theta_c = theta_c_of(run);
@@ -44,7 +43,7 @@ MapSettings map_of(const FigureRun& run, MapKind kind, double factor) {
   return settings;
 }
 
-Panels read_panels(const FigureRun& run, std::vector<MapSettings> maps) {
+Panels read_panels(const RunView& run, std::vector<MapSettings> maps) {
   Panels panels;
   const FramesOfRise rise = last_rise_of(run);
   panels.choice = panel_frames(rise.tilts, theta_c_of(run));

@@ -1,5 +1,3 @@
-#include "figures/neighbourhoods_figure.h"
-
 #include <algorithm>
 #include <cmath>
 #include <fmt/core.h>
@@ -12,10 +10,11 @@
 #include "core/text.h"
 #include "core/trigonometry.h"
 #include "figures/failed_group.h"
+#include "figures/recipes.h"
 #include "figures/run_means.h"
 #include "pictures/maps.h"
-#include "session/analysis_input.h"
-#include "session/analysis_parameters.h"
+#include "runs/analysis_input.h"
+#include "runs/analysis_parameters.h"
 
 namespace talus {
 namespace {
@@ -31,7 +30,7 @@ struct Shown {
 
 /// The typical grain of the frame nearest to 10 deg that has one, up to the last before theta_c: of a small
 /// bed some frames have none.
-std::optional<Shown> shown_grain(const FigureRun& run) {
+std::optional<Shown> shown_grain(const RunView& run) {
   const RunStatics& statics = run.file->header().statics;
   std::vector<std::size_t> nearest(repose_frame(run) + 1);
   std::iota(nearest.begin(), nearest.end(), std::size_t{0});
@@ -134,7 +133,7 @@ Table grains_around(const BedFrame& bed, Index centre, double distance) {
 std::optional<Figure> neighbourhoods_figure(std::span<const RunGroup> groups) {
   const auto failed = first_failed_group(groups);
   if (!failed) return std::nullopt;
-  const FigureRun& run = failed->first();
+  const RunView& run = failed->first();
   const RunStatics& statics = run.file->header().statics;
   const double diameter = statics.mean_diameter;
   const auto found = shown_grain(run);

@@ -1,11 +1,10 @@
-#include "figures/overload_figures.h"
-
 #include <algorithm>
 #include <array>
 #include <fmt/core.h>
 
 #include "ensemble/paper_values.h"
 #include "figures/group_table.h"
+#include "figures/recipes.h"
 #include "figures/run_means.h"
 #include "scenario/text.h"
 
@@ -15,7 +14,7 @@ namespace {
 using enum PaperQuantity;
 
 /// Factors of the thresholds over Gamma_c, as text: those of all runs are the same.
-std::vector<std::string> factors_of(const FigureRun& run) {
+std::vector<std::string> factors_of(const RunView& run) {
   std::vector<std::string> factors;
   for (const RunThreshold& threshold : run.analysis.thresholds)
     factors.push_back(short_text(threshold.factor));
@@ -115,7 +114,7 @@ std::optional<Figure> length_figure(std::span<const RunGroup> groups) {
     const RunChoice runs = group.periodic() ? runs_with_threshold(group) : RunChoice{};
     if (runs.empty()) continue;
     double cut = 0.0;
-    for (const FigureRun* run : runs) cut = std::max(cut, run->analysis.lc_cut / run->mean_diameter);
+    for (const RunView* run : runs) cut = std::max(cut, run->analysis.lc_cut / run->statics.mean_diameter);
     set_variable(figure, fmt::format("cut_{}", ++shown), cut);
     top = std::max(top, cut);
   }

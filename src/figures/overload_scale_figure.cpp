@@ -6,11 +6,11 @@
 #include "core/statistics.h"
 #include "core/trigonometry.h"
 #include "figures/failed_group.h"
-#include "figures/overload_figures.h"
+#include "figures/recipes.h"
 #include "figures/run_means.h"
+#include "runs/analysis_input.h"
+#include "runs/analysis_parameters.h"
 #include "scenario/text.h"
-#include "session/analysis_input.h"
-#include "session/analysis_parameters.h"
 
 namespace talus {
 namespace {
@@ -27,7 +27,7 @@ std::vector<double> scales_up_to(double largest) {
 }
 
 /// p_o of a frame at each diameter (D), with the printed threshold.
-std::vector<double> shares_of(const FigureRun& run, std::size_t k, std::vector<double> scales) {
+std::vector<double> shares_of(const RunView& run, std::size_t k, std::vector<double> scales) {
   const RunStatics& statics = run.file->header().statics;
   AnalysisParameters parameters = from_facts(run.analysis.parameters);
   parameters.l_min = 0.0;
@@ -70,7 +70,7 @@ std::vector<Column> scale_columns(const RunChoice& runs) {
     add(frames_at_angle(runs, radians(angle)), short_text(angle),
         fmt::format("at {} deg", short_text(angle)));
   FramesAtAngle failure{runs, {}};
-  for (const FigureRun* run : runs) failure.frames.push_back(repose_frame(*run));
+  for (const RunView* run : runs) failure.frames.push_back(repose_frame(*run));
   add(failure, "failure", "in the last frame before failure");
   return columns;
 }

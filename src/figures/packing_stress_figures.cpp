@@ -1,6 +1,5 @@
-#include "figures/packing_stress_figures.h"
-
 #include "figures/group_table.h"
+#include "figures/recipes.h"
 #include "figures/run_means.h"
 
 namespace talus {

@@ -1,5 +1,3 @@
-#include "figures/persistence_figure.h"
-
 #include <cmath>
 #include <fmt/core.h>
 #include <string>
@@ -7,12 +5,13 @@
 #include "analysis/topology.h"
 #include "core/trigonometry.h"
 #include "figures/failed_group.h"
+#include "figures/recipes.h"
 
 namespace talus {
 namespace {
 
 /// The components of a frame; loops all die at 0.
-Table diagram_table(const FigureRun& run, const std::string& state, std::size_t frame) {
+Table diagram_table(const RunView& run, const std::string& state, std::size_t frame) {
   const PersistenceDiagram diagram = force_persistence({run.file->frame(frame), run.file->header().statics},
                                                        run.analysis.frames.at(frame).mean_normal_force);
   Table table{state,
@@ -25,7 +24,7 @@ Table diagram_table(const FigureRun& run, const std::string& state, std::size_t 
   return table;
 }
 
-Table curve_table(const FigureRun& run) {
+Table curve_table(const RunView& run) {
   Table table{"",
               {{"theta", "deg", "magnitude of the tilt", {}},
                {"components", "1", "total persistence of components, per grain", {}},
@@ -47,7 +46,7 @@ Table curve_table(const FigureRun& run) {
 std::optional<Figure> persistence_figure(std::span<const RunGroup> groups) {
   const auto failed = first_failed_group(groups);
   if (!failed) return std::nullopt;
-  const FigureRun& run = failed->first();
+  const RunView& run = failed->first();
   const std::size_t repose = repose_frame(run);
   Figure figure;
   figure.name = "persistence";

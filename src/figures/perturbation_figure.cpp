@@ -18,7 +18,7 @@ namespace {
 
 constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
-double failure_angle(const FigureRun& run) { return degrees(run.analysis.theta_c); }
+double failure_angle(const RunView& run) { return degrees(run.analysis.theta_c); }
 
 /// The trial of a strength; no value where there is none.
 const Trial* trial_of(const PerturbedState& state, double strength) {
@@ -26,7 +26,7 @@ const Trial* trial_of(const PerturbedState& state, double strength) {
   return found == state.trials.end() ? nullptr : &*found;
 }
 
-void append_state(Table& table, const FigureRun& run, const PerturbedState& state) {
+void append_state(Table& table, const RunView& run, const PerturbedState& state) {
   const Threshold threshold = threshold_of(state.trials);
   const bool searched = threshold.held && state.trials.size() > 1;
   const Trial* without = searched ? trial_of(state, threshold.without) : nullptr;
@@ -52,7 +52,7 @@ void append_state(Table& table, const FigureRun& run, const PerturbedState& stat
 /// theta_c - theta_d, deg, as the mean over the runs that have it; NaN where none has.
 double mean_distance(const RunGroup& group, const QuantityMember& estimator) {
   std::vector<double> distances;
-  for (const FigureRun& run : group.runs)
+  for (const RunView& run : group.runs)
     distances.push_back(failure_angle(run) - degrees(number_of(quantity_of(estimator), run.analysis, 0)));
   return statistics_of(distances).mean;
 }
@@ -102,11 +102,11 @@ Figure perturbation_figure(const RunGroup& group, std::span<const PerturbationTa
   figure.name = "perturb";
   figure.title = "Weakest push that starts an avalanche";
   figure.caption = caption_of(group, tables.front().plan.patch);
-  for (const FigureRun& run : group.runs) figure.runs.push_back(run.path);
+  for (const RunView& run : group.runs) figure.runs.push_back(run.path);
   figure.wide = true;
   figure.height_over_width = 0.4;
   figure.tables = {perturbation_states(group, tables)};
-  const std::string seeds = joined(group.runs, " ", [](const FigureRun& run) { return run.scenario.seed; });
+  const std::string seeds = joined(group.runs, " ", [](const RunView& run) { return run.scenario.seed; });
   figure.variables = {{"seeds", gnuplot_string(seeds)},
                       {"theta_d_lc", number_text(mean_distance(group, &RunThreshold::lc_jump))},
                       {"theta_d_dilation", number_text(mean_distance(group, &Analysis::dilation_high))}};

@@ -1,11 +1,10 @@
-#include "figures/quantity_figures.h"
-
 #include <algorithm>
 #include <cmath>
 #include <fmt/core.h>
 
 #include "analysis/quantities.h"
 #include "figures/group_table.h"
+#include "figures/recipes.h"
 #include "figures/run_means.h"
 
 namespace talus {
@@ -20,12 +19,13 @@ std::vector<FrameColumn> shown_columns() {
   std::vector<FrameColumn> columns;
   for (const Quantity& quantity : quantities()) {
     if (!is_number_of_frame(quantity) || quantity.display.title.empty()) continue;
-    columns.push_back(
-        {quantity.name, quantity.display.percent ? "%" : scaled_unit(quantity.unit), quantity.definition,
-         [quantity](const FigureRun& run, std::size_t frame) {
-           return shown(quantity, number_of(quantity, run.analysis.frames.at(frame)), run.mean_diameter);
-         },
-         has_side(quantity)});
+    columns.push_back({quantity.name, quantity.display.percent ? "%" : scaled_unit(quantity.unit),
+                       quantity.definition,
+                       [quantity](const RunView& run, std::size_t frame) {
+                         return shown(quantity, number_of(quantity, run.analysis.frames.at(frame)),
+                                      run.statics.mean_diameter);
+                       },
+                       has_side(quantity)});
   }
   return columns;
 }
@@ -140,7 +140,7 @@ std::optional<Figure> differences_over(Figure figure, std::span<const RunGroup> 
     const RunChoice runs = runs_over(group, abscissa);
     if (runs.empty()) return std::nullopt;
     means.push_back(means_over_runs(runs, columns, abscissa));
-    for (const FigureRun* run : runs) figure.runs.push_back(run->path);
+    for (const RunView* run : runs) figure.runs.push_back(run->path);
   }
   figure.tables.push_back({"", difference_columns(means[0], means[1])});
   if (figure.tables[0].columns[0].values.empty()) return std::nullopt;

@@ -66,7 +66,7 @@ BedCurves changes_of(const std::vector<RunReadings>& runs) {
 std::vector<Measure> measures_of(const RunChoice& runs) {
   const Analysis& first = runs.front()->analysis;
   const bool own_thresholds =
-      std::ranges::any_of(runs, [&](const FigureRun* run) { return run->analysis.gamma_c != first.gamma_c; });
+      std::ranges::any_of(runs, [&](const RunView* run) { return run->analysis.gamma_c != first.gamma_c; });
   std::vector<Measure> measures;
   for (const Quantity& quantity : quantities()) {
     if (!is_number_of_frame(quantity)) continue;
@@ -150,7 +150,7 @@ RankedMeasure ranked_tilt(const DistanceTold& by_tilt) {
 /// The tilt of each run at each distance, deg.
 BedCurves tilts_of(const RunChoice& runs) {
   BedCurves tilts;
-  for (const FigureRun* run : runs) {
+  for (const RunView* run : runs) {
     std::vector<double>& tilt = tilts.emplace_back();
     for (const double distance : distances_of_ranking()) tilt.push_back(degrees(theta_c_of(*run)) - distance);
   }
@@ -272,7 +272,7 @@ std::optional<Figure> ranking_figure(std::span<const RunGroup> groups) {
     figure.name = "precursor-ranking";
     figure.title = "What announces failure best";
     figure.caption = ranking_caption(group, measures, drawn, runs.size());
-    for (const FigureRun* run : runs) figure.runs.push_back(run->path);
+    for (const RunView* run : runs) figure.runs.push_back(run->path);
     figure.wide = true;
     figure.height_over_width = (1.9 + 0.36 * static_cast<double>(drawn)) / 17.8;
     figure.tables = {ranking_table(measures)};

@@ -21,17 +21,17 @@ std::vector<RunAngle> run_angles(const std::vector<RunChoice>& choices) {
     bool is_known = false;
     for (const RunChoice& runs : choices) {
       std::vector<double>& values = angle.values.emplace_back();
-      for (const FigureRun* run : runs) values.push_back(value_of(*run));
+      for (const RunView* run : runs) values.push_back(value_of(*run));
       is_known = is_known || statistics_of(values).count >= least_runs;
     }
     if (is_known) angles.push_back(std::move(angle));
   };
   add({quantity_of(&Analysis::theta_c).name, "{/:Italic θ_c}", "theta_c, angle of repose", {}},
-      [](const FigureRun& run) { return degrees(run.analysis.theta_c); });
+      [](const RunView& run) { return degrees(run.analysis.theta_c); });
   add({quantity_of(&Analysis::first_slide).name, "first slide", "first slide of the surface layer", {}},
-      [](const FigureRun& run) { return degrees(run.analysis.first_slide); });
+      [](const RunView& run) { return degrees(run.analysis.first_slide); });
   add({"theta_r", "{/:Italic θ_r}", "theta_r, angle at rest after failure", {}},
-      [](const FigureRun& run) { return degrees(run.theta_r); });
+      [](const RunView& run) { return degrees(run.theta_r); });
   RunChoice all;
   for (const RunChoice& runs : choices) all.insert(all.end(), runs.begin(), runs.end());
   if (all.empty()) return angles;
@@ -42,7 +42,7 @@ std::vector<RunAngle> run_angles(const std::vector<RunChoice>& choices) {
          "{/:Italic θ_d} (" + estimator.label + ")",
          "theta_d, " + estimator.meaning,
          {}},
-        [&](const FigureRun& run) { return theta_d_of(run, estimator); });
+        [&](const RunView& run) { return theta_d_of(run, estimator); });
   return angles;
 }
 
@@ -60,7 +60,7 @@ AngleGroups angle_groups(std::span<const RunGroup> groups) {
 void add_angle_tables(Figure& figure, const AngleGroups& all) {
   for (std::size_t g = 0; g < all.groups.size(); ++g) {
     std::vector<Column> columns = {{"seed", "1", "seed of the run", {}}};
-    for (const FigureRun* run : all.choices[g])
+    for (const RunView* run : all.choices[g])
       columns[0].values.push_back(static_cast<double>(run->scenario.seed));
     for (const RunAngle& angle : all.angles)
       columns.push_back({angle.name, "deg", angle.meaning, angle.values[g]});

@@ -35,9 +35,9 @@ std::string bed_label(const Scenario& scenario) {
 Scenario essence_of(const RunGroup& group) { return essence(group.runs.front().scenario); }
 
 /// Not to a group that has another run with its seed: bits change from one version of Talus to another.
-bool belongs_to(const RunGroup& group, const FigureRun& run) {
+bool belongs_to(const RunGroup& group, const RunView& run) {
   return essence_of(group) == essence(run.scenario) &&
-         std::ranges::none_of(group.runs, [&](const FigureRun& other) {
+         std::ranges::none_of(group.runs, [&](const RunView& other) {
            return other.scenario.seed == run.scenario.seed && other.state_hash != run.state_hash;
          });
 }
@@ -75,7 +75,7 @@ void tell_apart(std::vector<RunGroup>& groups) {
 }
 
 void sort_by_seed(RunGroup& group) {
-  const auto seed = [](const FigureRun& run) { return run.scenario.seed; };
+  const auto seed = [](const RunView& run) { return run.scenario.seed; };
   std::ranges::sort(group.runs, {}, seed);
   const auto twice = std::ranges::adjacent_find(group.runs, {}, seed);
   if (twice != group.runs.end())
@@ -86,9 +86,9 @@ void sort_by_seed(RunGroup& group) {
 
 }  // namespace
 
-std::vector<RunGroup> group_runs(std::vector<FigureRun> runs) {
+std::vector<RunGroup> group_runs(std::vector<RunView> runs) {
   std::vector<RunGroup> groups;
-  for (FigureRun& run : runs) {
+  for (RunView& run : runs) {
     auto group = std::ranges::find_if(groups, [&](const RunGroup& each) { return belongs_to(each, run); });
     if (group == groups.end()) group = groups.insert(group, RunGroup{bed_label(run.scenario), {}});
     group->runs.push_back(std::move(run));

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "figures/figure_run.h"
+#include "runs/run_view.h"
 
 namespace talus {
 
@@ -12,7 +12,7 @@ namespace talus {
 struct RunGroup {
   /// "PBC, L = 200 D", with the keys that tell it from another group of that bed, or else its folder.
   std::string label;
-  std::vector<FigureRun> runs;  ///< by ascending seed
+  std::vector<RunView> runs;  ///< by ascending seed
 
   bool periodic() const { return runs.front().scenario.bed.boundary == BedBoundary::periodic; }
 };
@@ -20,6 +20,6 @@ struct RunGroup {
 /// Groups in the order of their first run: of periodic beds first, then of beds between walls by their
 /// length. Runs of one scenario and seed that ended in other states are of two groups. Throws Error(bad_data)
 /// where a run is there twice.
-std::vector<RunGroup> group_runs(std::vector<FigureRun> runs);
+std::vector<RunGroup> group_runs(std::vector<RunView> runs);
 
 }  // namespace talus

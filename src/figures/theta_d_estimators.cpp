@@ -14,7 +14,7 @@ std::string times_gamma_c(double factor, const char* gamma_c) {
 
 }  // namespace
 
-std::vector<Estimator> estimators_of(const FigureRun& run) {
+std::vector<Estimator> estimators_of(const RunView& run) {
   std::vector<Estimator> estimators = {
       {&Analysis::dilation, 1, "{/:Italic ε_y}", "onset of dilation, centre of mass"},
       {&Analysis::dilation, 0, "{/:Italic ε_V}", "onset of dilation, free surface"}};
@@ -30,13 +30,13 @@ std::vector<Estimator> estimators_of(const FigureRun& run) {
   return estimators;
 }
 
-double theta_d_of(const FigureRun& run, const Estimator& estimator) {
+double theta_d_of(const RunView& run, const Estimator& estimator) {
   return degrees(number_of(quantity_of(estimator.member), run.analysis, estimator.element));
 }
 
-const FigureRun& most_analysed(const std::vector<const FigureRun*>& runs) {
+const RunView& most_analysed(const std::vector<const RunView*>& runs) {
   const auto found =
-      std::ranges::find_if(runs, [](const FigureRun* run) { return !run->analysis.thresholds.empty(); });
+      std::ranges::find_if(runs, [](const RunView* run) { return !run->analysis.thresholds.empty(); });
   return found == runs.end() ? *runs.front() : **found;
 }
 

@@ -20,12 +20,12 @@ struct Estimator {
 
 /// Onset of dilation, percolation and jump of the largest l_c, by either strain and at each threshold, the
 /// first ones last.
-std::vector<Estimator> estimators_of(const FigureRun& run);
+std::vector<Estimator> estimators_of(const RunView& run);
 
 /// deg; NaN where the run has none.
-double theta_d_of(const FigureRun& run, const Estimator& estimator);
+double theta_d_of(const RunView& run, const Estimator& estimator);
 
 /// The first run with thresholds, which has all estimators; else the first of all.
-const FigureRun& most_analysed(const std::vector<const FigureRun*>& runs);
+const RunView& most_analysed(const std::vector<const RunView*>& runs);
 
 }  // namespace talus

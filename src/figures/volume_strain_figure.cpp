@@ -1,5 +1,3 @@
-#include "figures/volume_strain_figure.h"
-
 #include <algorithm>
 #include <cmath>
 #include <fmt/core.h>
@@ -8,6 +6,7 @@
 #include "core/statistics.h"
 #include "core/trigonometry.h"
 #include "figures/group_table.h"
+#include "figures/recipes.h"
 #include "figures/run_means.h"
 #include "figures/theta_d_estimators.h"
 #include "pictures/texts.h"
@@ -27,7 +26,7 @@ Table theta_d_table(const std::string& name, const RunChoice& runs,
   Column error{"theta_d_error", "deg", "its standard error over these runs", {}};
   for (std::size_t e = 0; e < estimators.size(); ++e) {
     std::vector<double> angles;
-    for (const FigureRun* run : runs) angles.push_back(theta_d_of(*run, estimators[e]));
+    for (const RunView* run : runs) angles.push_back(theta_d_of(*run, estimators[e]));
     const Statistics result = statistics_of(angles);
     estimator.values.push_back(static_cast<double>(e + 1));
     n.values.push_back(result.count);

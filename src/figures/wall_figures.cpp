@@ -1,5 +1,3 @@
-#include "figures/wall_figures.h"
-
 #include <algorithm>
 #include <cmath>
 #include <fmt/core.h>
@@ -9,6 +7,7 @@
 #include "core/trigonometry.h"
 #include "ensemble/wall_fit.h"
 #include "figures/failed_group.h"
+#include "figures/recipes.h"
 #include "figures/run_means.h"
 #include "scenario/text.h"
 
@@ -33,21 +32,21 @@ struct Angle {
 std::vector<Angle> angles_of(const RunChoice& runs) {
   std::vector<Angle> angles;
   for (const double tilt : {0.0, 10.0})
-    if (std::ranges::all_of(runs, [&](const FigureRun* run) { return stands_at(*run, radians(tilt)); })) {
+    if (std::ranges::all_of(runs, [&](const RunView* run) { return stands_at(*run, radians(tilt)); })) {
       angles.push_back({fmt::format("{{/:Italic θ}} = {}°", short_text(tilt)), {}});
-      for (const FigureRun* run : runs) angles.back().frames.push_back(frame_nearest(*run, radians(tilt)));
+      for (const RunView* run : runs) angles.back().frames.push_back(frame_nearest(*run, radians(tilt)));
     }
   angles.push_back({"{/:Italic θ_c}", {}});
-  for (const FigureRun* run : runs) angles.back().frames.push_back(repose_frame(*run));
+  for (const RunView* run : runs) angles.back().frames.push_back(repose_frame(*run));
   return angles;
 }
 
 /// The middle of each section, in D.
-Column section_column(const FigureRun& run) {
+Column section_column(const RunView& run) {
   Column x{"x", "D", "middle of the section, from the upper wall downslope", {}};
   const std::vector<double>& edges = run.analysis.section_edge;
   for (std::size_t s = 0; s + 1 < edges.size(); ++s)
-    x.values.push_back(0.5 * (edges[s] + edges[s + 1]) / run.mean_diameter);
+    x.values.push_back(0.5 * (edges[s] + edges[s + 1]) / run.statics.mean_diameter);
   return x;
 }
 
@@ -75,15 +74,15 @@ struct WallGroup {
   double depth = 0.0;   ///< mean height V / L before failure, D
 };
 
-double mean_depth(const FigureRun& run) {
-  const double length = run.scenario.bed.length * run.mean_diameter;
-  return run.analysis.frames.at(repose_frame(run)).volume / length / run.mean_diameter;
+double mean_depth(const RunView& run) {
+  const double length = run.scenario.bed.length * run.statics.mean_diameter;
+  return run.analysis.frames.at(repose_frame(run)).volume / length / run.statics.mean_diameter;
 }
 
 WallGroup wall_group(const RunChoice& runs, std::vector<WallPoint>& points) {
   WallGroup result;
   std::vector<double> ratios, squares;
-  for (const FigureRun* run : runs) {
+  for (const RunView* run : runs) {
     ratios.push_back(run->analysis.failure_ratio);
     squares.push_back(run->analysis.failure_ratio_spread * run->analysis.failure_ratio_spread);
     result.depth += mean_depth(*run) / static_cast<double>(runs.size());
@@ -141,7 +140,7 @@ std::optional<Figure> wall_stress_figure(std::span<const RunGroup> groups) {
       table.columns.push_back(std::move(column));
     set_variable(figure, "angle_" + k, gnuplot_string(angles[a].text));
   }
-  for (const FigureRun* run : runs) figure.runs.push_back(run->path);
+  for (const RunView* run : runs) figure.runs.push_back(run->path);
   set_variable(figure, "angles", static_cast<double>(angles.size()));
   set_variable(figure, "bed",
                gnuplot_quoted(fmt::format("{} ({})", shortest->label, runs_text(runs.size()))));
@@ -160,14 +159,14 @@ std::optional<Figure> wall_ratio_figure(std::span<const RunGroup> groups) {
   for (const RunGroup& group : groups) {
     RunChoice runs = failed_runs(group);
     // Where rows are sparse, there may be none in the last 0.5 deg.
-    std::erase_if(runs, [](const FigureRun* run) { return std::isnan(run->analysis.failure_ratio); });
+    std::erase_if(runs, [](const RunView* run) { return std::isnan(run->analysis.failure_ratio); });
     if (group.periodic() || runs.empty()) continue;
     const WallGroup wall = wall_group(runs, points);
     depths.push_back(wall.depth);
     add_row(table,
             {runs.front()->scenario.bed.length, static_cast<double>(runs.size()), wall.ratio.mean,
              wall.ratio.error, wall.spread, runs.size() > 1 ? wall.ratio.error : wall.spread, wall.depth});
-    for (const FigureRun* run : runs) figure.runs.push_back(run->path);
+    for (const RunView* run : runs) figure.runs.push_back(run->path);
   }
   if (points.empty()) return std::nullopt;
   const WallFit fit = fit_wall_law(points);

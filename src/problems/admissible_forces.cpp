@@ -7,9 +7,9 @@
 #include "analysis/frame_analysis.h"
 #include "core/errors.h"
 #include "core/statistics.h"
-#include "session/analysis_input.h"
-#include "session/analysis_parameters.h"
-#include "session/analysis_run.h"
+#include "runs/analysis_input.h"
+#include "runs/analysis_parameters.h"
+#include "runs/analysis_run.h"
 #include "session/measure.h"
 #include "solver/balance.h"
 

@@ -84,13 +84,4 @@ Session session_at_start(const RunHeader& header, const std::string& name) {
   return session;
 }
 
-Scenario stored_scenario(const RunHeader& header, const std::string& name) {
-  return parse_scenario(header.scenario_resolved, name);
-}
-
-std::string version_of(const Facts& provenance) {
-  return fmt::format("{} ({})", find_value(provenance, "version").value_or("unknown"),
-                     find_value(provenance, "git_hash").value_or("unknown"));
-}
-
 }  // namespace talus

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "runs/run_view.h"
 #include "session/session.h"
 
 namespace talus {
@@ -28,15 +29,9 @@ std::string bed_of(const Facts& provenance);
 /// The header of a run that this program begins now, on this host.
 RunHeader run_header(const Session& session, const RunOrigin& origin);
 
-/// The scenario of a stored run, from its header; `name` is what messages call it.
-Scenario stored_scenario(const RunHeader& header, const std::string& name);
-
 /// The session of a stored run before its first step; of a branch, with what it records of its start. `name`
 /// is what messages call the file. Throws Error(bad_data) as stored_scenario and check_branch_start do, and
 /// where deposition.file now holds another bed.
 Session session_at_start(const RunHeader& header, const std::string& name);
-
-/// The version that computed a run, with its git hash, from its provenance: "0.1.0 (abc)".
-std::string version_of(const Facts& provenance);
 
 }  // namespace talus

@@ -5,8 +5,8 @@
 #include "analysis/frame_analysis.h"
 #include "core/trigonometry.h"
 #include "io/analysis_file.h"
-#include "session/analysis_parameters.h"
-#include "session/analysis_run.h"
+#include "runs/analysis_parameters.h"
+#include "runs/analysis_run.h"
 
 namespace talus {
 namespace {

@@ -8,8 +8,8 @@
 #include "core/errors.h"
 #include "core/trigonometry.h"
 #include "pictures/frame_choice.h"
+#include "runs/event_catalogue.h"
 #include "session/command.h"
-#include "session/event_catalogue.h"
 
 namespace talus {
 

@@ -5,7 +5,7 @@
 
 #include "core/errors.h"
 #include "io/durable_file.h"
-#include "session/event_catalogue.h"
+#include "runs/event_catalogue.h"
 #include "view/selection_table.h"
 #include "view/view_data.h"
 

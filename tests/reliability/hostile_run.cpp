@@ -5,7 +5,7 @@
 #include "io/analysis_file.h"
 #include "problems/local_solvers.h"
 #include "problems/step_problem.h"
-#include "session/analysis_run.h"
+#include "runs/analysis_run.h"
 #include "session/run.h"
 #include "session/run_header.h"
 #include "solver/solve.h"

@@ -4,14 +4,14 @@
 
 #include <gtest/gtest.h>
 
-#include "session/analysis_parameters.h"
+#include "runs/analysis_parameters.h"
 #include "support/blank_analysis.h"
 
 namespace talus {
 namespace {
 
 TEST(AnalysisJson, has_each_quantity_of_its_table) {
-  AnalysedRun run;
+  RunView run;
   run.analysis = test::blank_analysis({.frames = 2, .thresholds = 1, .grains = 3, .sections = 2, .bins = 2});
   run.analysis.frames[1].volume = 0.25;
   std::vector<Quantity> table = quantities();
@@ -24,7 +24,7 @@ TEST(AnalysisJson, has_each_quantity_of_its_table) {
 
 TEST(AnalysisText, says_that_a_fast_tilt_went_on_while_the_flow_gathered_speed) {
   const auto text_with = [](double theta_c, double first_slide) {
-    AnalysedRun run;
+    RunView run;
     run.statics.mean_diameter = 1.0;
     run.analysis = test::blank_analysis({.frames = 2, .sections = 2, .bins = 2});
     run.analysis.parameters = as_facts(AnalysisParameters());

@@ -63,7 +63,14 @@ struct HandMadeRun {
     set(&Analysis::dilation_low, 0, low);
     set(&Analysis::dilation_high, 0, high);
   }
-  MeasuredRun measured() const { return {tilts, diameter, analysis}; }
+  RunView measured() const {
+    RunView run;
+    run.statics.mean_diameter = diameter;
+    run.statics.length = 2.0;
+    run.analysis = analysis;
+    for (std::size_t k = 0; k < tilts.size(); ++k) run.analysis.frames[k].tilt = tilts[k];
+    return run;
+  }
   Measured value(PaperQuantity quantity, std::size_t factor = 0,
                  Population population = Population::carrying) const {
     return measure(measured(), quantity, factor, population);
@@ -192,11 +199,11 @@ TEST(MeasuredValue, of_a_slope_that_stands_is_none) {
 TEST(WallPoint, has_the_height_of_the_bed_at_failure) {
   HandMadeRun run;
   run.set(&FrameRecord::volume, 4, 0.38);
-  const WallPoint point = wall_point(run.measured(), 2.0);
+  const WallPoint point = wall_point(run.measured());
   EXPECT_DOUBLE_EQ(point.depth_over_length, 0.38 / 4.0);
   EXPECT_NEAR(point.ratio, 0.7, 1e-12);
   run.set(&Analysis::theta_c, 0, none);
-  EXPECT_TRUE(std::isnan(wall_point(run.measured(), 2.0).ratio));
+  EXPECT_TRUE(std::isnan(wall_point(run.measured()).ratio));
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "session/analysis_parameters.h"
+#include "runs/analysis_parameters.h"
 
 namespace talus {
 namespace {

@@ -11,7 +11,7 @@
 #include "ensemble/member_state.h"
 #include "io/analysis_file.h"
 #include "io/durable_file.h"
-#include "session/analysis_run.h"
+#include "runs/analysis_run.h"
 #include "session/run.h"
 #include "session/run_header.h"
 #include "support/exit_code.h"

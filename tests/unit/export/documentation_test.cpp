@@ -8,7 +8,7 @@
 
 #include "export/fields.h"
 #include "export/formats.h"
-#include "export/vti.h"
+#include "export/writers.h"
 #include "support/places.h"
 
 namespace talus::test {

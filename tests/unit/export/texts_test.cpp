@@ -5,10 +5,7 @@
 #include <limits>
 #include <sstream>
 
-#include "export/csv.h"
-#include "export/graphml.h"
-#include "export/lammps_dump.h"
-#include "export/xyz.h"
+#include "export/writers.h"
 #include "unit/export/example_frame.h"
 
 namespace talus::test {

@@ -1,10 +1,9 @@
-#include "export/vti.h"
-
 #include <gtest/gtest.h>
 
 #include <set>
 
 #include "core/errors.h"
+#include "export/writers.h"
 #include "support/exit_code.h"
 #include "unit/export/example_frame.h"
 

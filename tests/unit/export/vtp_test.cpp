@@ -1,7 +1,6 @@
-#include "export/vtp.h"
-
 #include <gtest/gtest.h>
 
+#include "export/writers.h"
 #include "unit/export/example_frame.h"
 
 namespace talus::test {

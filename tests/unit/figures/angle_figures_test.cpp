@@ -1,6 +1,6 @@
 /// Histograms and correlations of the angles of an ensemble.
 
-#include "figures/angle_figures.h"
+#include "figures/recipes.h"
 
 #include <gtest/gtest.h>
 
@@ -17,8 +17,8 @@ namespace {
 const double nan = std::nan("");
 
 /// A run of which there are only values: theta_c and theta_d by the jump of l_c, deg.
-FigureRun run_with(std::uint64_t seed, double theta_c, double jump) {
-  FigureRun run;
+RunView run_with(std::uint64_t seed, double theta_c, double jump) {
+  RunView run;
   run.path = "e.h5#seed-" + std::to_string(seed);
   run.scenario.seed = seed;
   run.analysis = test::blank_analysis({.frames = 1, .thresholds = 2});

@@ -1,4 +1,4 @@
-#include "figures/contact_figures.h"
+#include "figures/recipes.h"
 
 #include <gtest/gtest.h>
 
@@ -16,8 +16,8 @@ constexpr auto density = &FrameRecord::direction_density;
 
 /// A run that fails at theta_c (deg), with two bins of directions, all of density `level` in its first frame
 /// and of 3 `level` in the others.
-FigureRun run_with(const std::string& folder, double theta_c, double level) {
-  FigureRun run = run_of_file(folder, RunFile::open(folder), {});
+RunView run_with(const std::string& folder, double theta_c, double level) {
+  RunView run = view_of_run(folder, RunFile::open(folder), {});
   run.analysis.theta_c = radians(theta_c);
   run.analysis.frames.resize(run.file->frame_count());
   for (std::size_t k = 0; k < run.analysis.frames.size(); ++k)

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "figures/force_chains.h"
+#include "figures/recipes.h"
 #include "unit/analysis/packings.h"
 
 namespace talus {

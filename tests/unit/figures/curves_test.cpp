@@ -9,14 +9,9 @@
 #include "ensemble/paper_values.h"
 #include "ensemble/wall_fit.h"
 #include "figures/catalogue.h"
-#include "figures/force_chains.h"
+#include "figures/recipes.h"
 #include "figures/group_table.h"
-#include "figures/overload_figures.h"
-#include "figures/packing_stress_figures.h"
-#include "figures/quantity_figures.h"
 #include "figures/run_means.h"
-#include "figures/volume_strain_figure.h"
-#include "figures/wall_figures.h"
 #include "stress/overload.h"
 #include "unit/figures/example_figure_run.h"
 
@@ -68,8 +63,8 @@ class Curves : public ::testing::Test {
 
   /// Beds between walls, 20 and 40 D deep, with ratios of 0.5 and 1 at failure.
   void stand_between_walls() {
-    const FigureRun& run = groups_[0].runs[0];
-    const double length = run.scenario.bed.length, diameter = run.mean_diameter;
+    const RunView& run = groups_[0].runs[0];
+    const double length = run.scenario.bed.length, diameter = run.statics.mean_diameter;
     groups_[0].runs[0].scenario.bed.boundary = BedBoundary::walls;
     fill(&Analysis::failure_ratio, 0.5, 0.0);
     fill(&Analysis::failure_ratio_spread, 0.1, 0.0);
@@ -98,7 +93,7 @@ TEST_F(Curves, OfThePackingAreMeansOverAllRuns) {
 TEST_F(Curves, OfBedsThatSlopeToTheOtherSideAreMirrored) {
   fill(&FrameRecord::sigma_t_over_n, -0.1, -0.01);
   fill(&FrameRecord::stress_ratio, 0.1, 0.01);
-  for (FigureRun& run : groups_[0].runs)
+  for (RunView& run : groups_[0].runs)
     for (std::size_t k = 0; k < 3; ++k) run.analysis.frames[k].tilt = radians(-static_cast<double>(k));
   const auto shear = shear_stress_figure(groups_), ratio = stress_ratio_figure(groups_);
   EXPECT_NEAR(column(shear->tables[0], "ratio")[1], 0.21, 1e-15);
@@ -146,7 +141,7 @@ TEST_F(Curves, HaveTheRunsOneByOneBehindThem) {
 
 TEST_F(Curves, OverTheAngleThatIsLeftAreAtTheSameDistanceFromEachFailure) {
   fill(&FrameRecord::stress_ratio, 0.0, 0.01);  // of all runs 0, 0.01 and 0.02 in the three frames
-  for (FigureRun& run : groups_[0].runs) {
+  for (RunView& run : groups_[0].runs) {
     run.scenario.output.frame_every = 0.5;
     for (std::size_t k = 0; k < 3; ++k) run.analysis.frames[k].tilt = radians(static_cast<double>(k));
   }
@@ -185,7 +180,7 @@ TEST_F(Curves, DifferencesAreOfTwoGroupsWithBothErrors) {
   groups_.resize(2);
   groups_[1].label = "other";
   for (const std::uint64_t seed : {1, 2}) groups_[1].runs.push_back(example::figure_run(path_, seed, 80.0));
-  for (FigureRun& run : groups_[1].runs) {
+  for (RunView& run : groups_[1].runs) {
     for (std::size_t k = 0; k < 3; ++k)
       run.analysis.frames[k].stress_ratio = 1.0 + 0.3 * static_cast<double>(run.scenario.seed);
     run.analysis.frames[1].tilt += radians(0.1);  // and another grid of tilts
@@ -210,7 +205,7 @@ TEST_F(Curves, OfCriticalContactsNeedNoMap) {
   const auto mapped = critical_contacts_figure(groups_);
   ASSERT_TRUE(mapped);
   EXPECT_EQ(variable(*mapped, "letters"), "\"bcd\"");
-  for (FigureRun& run : groups_[0].runs) run.file.reset();
+  for (RunView& run : groups_[0].runs) run.file.reset();
   const auto values = critical_contacts_figure(groups_);
   ASSERT_TRUE(values);
   EXPECT_EQ(variable(*values, "letters"), "\"abc\"");
@@ -224,11 +219,11 @@ TEST_F(Curves, OfCriticalContactsNeedNoMap) {
 
 TEST_F(Curves, OfDistributionsNeedNoFile) {
   fill(&FrameRecord::gamma_density, 1.0, 0.0);
-  for (FigureRun& run : groups_[0].runs) run.file.reset();
+  for (RunView& run : groups_[0].runs) run.file.reset();
   const auto figure = gamma_density_figure(groups_);
   ASSERT_TRUE(figure);
   EXPECT_EQ(column(figure->tables[0], "density_0"), (std::vector<double>{1.5, 1.5}));
-  for (FigureRun& run : groups_[0].runs) run.analysis.gamma_edge.clear();
+  for (RunView& run : groups_[0].runs) run.analysis.gamma_edge.clear();
   for (const FigureRecipe& recipe : figure_catalogue())
     if (recipe.material == Material::distributions) {
       EXPECT_FALSE(recipe.make(groups_)) << recipe.name << " has no distributions to be made from";
@@ -270,8 +265,8 @@ TEST_F(Curves, OfLengthsHaveTheCutOfEachBedAndAllThatThePaperFound) {
   other.runs.push_back(std::move(groups_[0].runs.front()));
   groups_[0].runs.erase(groups_[0].runs.begin());
   groups_.push_back(std::move(other));
-  for (FigureRun& run : groups_[0].runs) run.analysis.lc_cut = 6.0 * diameter;
-  for (FigureRun& run : groups_[1].runs) run.analysis.lc_cut = 10.0 * diameter;
+  for (RunView& run : groups_[0].runs) run.analysis.lc_cut = 6.0 * diameter;
+  for (RunView& run : groups_[1].runs) run.analysis.lc_cut = 10.0 * diameter;
   const auto figure = length_figure(groups_);
   EXPECT_NEAR(std::stod(variable(*figure, "cut_1")), 6.0, 1e-12);
   EXPECT_NEAR(std::stod(variable(*figure, "cut_2")), 10.0, 1e-12);
@@ -283,7 +278,7 @@ TEST_F(Curves, OfGammaAreThoseOfRunsThatStandAtTheAngle) {
   fill(&FrameRecord::gamma_density, 1.0, 0.0);
   const auto figure = gamma_density_figure(groups_);
   EXPECT_EQ(column(figure->tables[0], "density_0"), (std::vector<double>{1.5, 1.5}));
-  for (FigureRun& run : groups_[0].runs) run.analysis.theta_c = radians(5.0);
+  for (RunView& run : groups_[0].runs) run.analysis.theta_c = radians(5.0);
   const auto early = gamma_density_figure(groups_);
   EXPECT_TRUE(std::isnan(column(early->tables[0], "density_10")[0]));
   EXPECT_EQ(variable(*early, "angles"), gnuplot_string("0")) << "the key has no angle that no bed reaches";
@@ -307,7 +302,7 @@ TEST_F(Curves, OverScaleAreOfFailedRunsAtTheAngles) {
     EXPECT_EQ(column(table, "p_o_0_error")[s], 0.0) << "both runs are the same";
   }
   EXPECT_EQ(column(table, "p_o_failure").size(), scales.size());
-  for (FigureRun& each : groups_[0].runs) each.analysis.theta_c = radians(5.0);
+  for (RunView& each : groups_[0].runs) each.analysis.theta_c = radians(5.0);
   EXPECT_TRUE(std::isnan(column(overload_scale_figure(groups_)->tables[0], "p_o_15")[0])) << "none stands";
 }
 
@@ -315,7 +310,7 @@ TEST_F(Curves, CaptionsSayWhoseGammaItIs) {
   EXPECT_NE(overloaded_fraction_figure(groups_)->caption.find(
                 "its first neighbours, a neighbourhood of diameter 3 D"),
             std::string::npos);
-  for (FigureRun& run : groups_[0].runs) run.analysis.parameters = {{"l_min", "0"}};
+  for (RunView& run : groups_[0].runs) run.analysis.parameters = {{"l_min", "0"}};
   EXPECT_NE(overloaded_fraction_figure(groups_)->caption.find("gamma is that of single grains"),
             std::string::npos);
   EXPECT_NE(gamma_density_figure(groups_)->caption.find("gamma is that of single grains"), std::string::npos);
@@ -381,7 +376,7 @@ TEST_F(Curves, OfWallsAreThoseOfTheShortestBed) {
 
 TEST_F(Curves, OfWallsNeedNumbersOnly) {
   stand_between_walls();
-  for (FigureRun& run : groups_[0].runs) run.file.reset();
+  for (RunView& run : groups_[0].runs) run.file.reset();
   const auto figure = wall_ratio_figure(groups_);
   ASSERT_TRUE(figure);
   const Table& table = figure->tables[0];
@@ -393,7 +388,7 @@ TEST_F(Curves, OfWallsNeedNumbersOnly) {
 
 TEST_F(Curves, OfWallsLeaveOutRunsWithoutARatio) {
   stand_between_walls();
-  for (FigureRun& run : groups_[0].runs)
+  for (RunView& run : groups_[0].runs)
     if (run.analysis.failure_ratio == 1.0) run.analysis.failure_ratio = not_known;
   const auto figure = wall_ratio_figure(groups_);
   ASSERT_TRUE(figure);

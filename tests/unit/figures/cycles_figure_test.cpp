@@ -1,6 +1,6 @@
 /// Cycles of a tilt that goes up and down.
 
-#include "figures/cycles_figure.h"
+#include "figures/recipes.h"
 
 #include <gtest/gtest.h>
 

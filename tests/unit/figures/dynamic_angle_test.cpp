@@ -1,4 +1,4 @@
-#include "figures/dynamic_angle.h"
+#include "figures/recipes.h"
 
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ ObservableRow row_at(double time, double tilt, double displacement) {
 }
 
 /// A run that fails at 10 s and 20 deg, and rests at `rest` (deg).
-FigureRun run_with(const std::string& path, double rest, std::uint64_t seed) {
+RunView run_with(const std::string& path, double rest, std::uint64_t seed) {
   RunStore store = RunStore::create(path, example::header(), false);
   Segment segment;
   segment.observables = {row_at(7.5, 19.0, 0.0),   row_at(9.0, 19.5, 0.0),    row_at(10.0, 20.0, 0.01),
@@ -30,7 +30,7 @@ FigureRun run_with(const std::string& path, double rest, std::uint64_t seed) {
   Checkpoint checkpoint = example::checkpoint(0);
   checkpoint.results = {{"theta_c", radians(19.9)}, {"theta_r", radians(rest)}};
   store.commit(segment, checkpoint);
-  FigureRun run = run_of_file(path, RunFile::open(path), {});
+  RunView run = view_of_run(path, RunFile::open(path), {});
   run.scenario.seed = seed;
   Analysis& analysis = run.analysis;
   analysis.theta_c = radians(19.9);

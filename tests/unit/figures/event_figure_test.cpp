@@ -1,6 +1,6 @@
 /// The tables behind the figure of rearrangements, of hand-made events.
 
-#include "figures/event_figure.h"
+#include "figures/recipes.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "core/trigonometry.h"
-#include "session/event_catalogue.h"
+#include "runs/event_catalogue.h"
 #include "unit/figures/example_figure_run.h"
 
 namespace talus {
@@ -38,7 +38,7 @@ class EventFigure : public ::testing::Test {
 
   /// `count` events of each run, of 1, 2, 4, ... m g D; the last is the failure.
   void add_events(int count) {
-    for (FigureRun& run : groups_[0].runs) {
+    for (RunView& run : groups_[0].runs) {
       const RunStatics& statics = run.file->header().statics;
       const double unit = mean_grain_mass(statics) * statics.gravity * statics.mean_diameter;
       for (int k = 0; k < count; ++k)

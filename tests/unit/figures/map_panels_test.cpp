@@ -1,4 +1,4 @@
-#include "figures/map_panels.h"
+#include "figures/recipes.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "figures/neighbourhoods_figure.h"
+#include "figures/recipes.h"
 
 #include <gtest/gtest.h>
 

@@ -25,10 +25,10 @@ class Ranking : public ::testing::Test {
     for (std::uint64_t seed = 1; seed <= 12; ++seed) groups[0].runs.push_back(bed(seed));
   }
 
-  static FigureRun bed(std::uint64_t seed) {
-    FigureRun run;
+  static RunView bed(std::uint64_t seed) {
+    RunView run;
     run.path = "e.h5#seed-" + std::to_string(seed);
-    run.mean_diameter = 1.0;
+    run.statics.mean_diameter = 1.0;
     run.scenario.seed = seed;
     Random random(seed);
     const double theta_c = 18.0 + 4.0 * static_cast<double>((5 * seed) % 12) / 11.0;
@@ -91,7 +91,7 @@ TEST_F(Ranking, ReadsEachThresholdAndSaysWhereItFollowsFromFailure) {
   EXPECT_EQ(measure("lc/mean[1]").label, "Mean ℓ_c of the overloaded grains (2 Γ_c)");
   EXPECT_FALSE(measure("contacts/coordination_number").by_own_failure);
   EXPECT_THROW(measure("overloaded/fraction"), std::out_of_range) << "it does not vary";
-  for (FigureRun& run : groups[0].runs) run.analysis.gamma_c = 0.3;
+  for (RunView& run : groups[0].runs) run.analysis.gamma_c = 0.3;
   ranked = ranked_measures(groups[0]);
   EXPECT_FALSE(measure("lc/mean").by_own_failure) << "the same threshold for all beds";
 }

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "core/errors.h"
-#include "session/analysis_parameters.h"
+#include "runs/analysis_parameters.h"
 #include "session/measure.h"
 #include "support/scenes.h"
 

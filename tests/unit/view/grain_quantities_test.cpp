@@ -11,7 +11,7 @@
 #include "core/trigonometry.h"
 #include "io/run_schema.h"
 #include "pictures/overload_rule.h"
-#include "session/analysis_input.h"
+#include "runs/analysis_input.h"
 #include "support/temporary_folder.h"
 #include "unit/view/example_bed.h"
 #include "unit/view/opened_view.h"
