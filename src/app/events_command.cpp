@@ -23,7 +23,7 @@ struct EventsArguments {
 
 std::string text_of(const EventsArguments& arguments, const AnalysedRun& run, bool first) {
   if (arguments.json) return (first ? "[" : ",\n") + events_json(run);
-  if (arguments.csv) return (first ? events_csv_head() : std::string()) + events_csv(run);
+  if (arguments.csv) return events_csv(run, first);
   return (first ? "" : "\n") + events_text(run, arguments.largest);
 }
 
