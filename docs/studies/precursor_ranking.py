@@ -2,13 +2,14 @@
 """Ranks what is measured in a frame by how well it predicts the distance of a slope from failure.
 
     python3 docs/studies/precursor_ranking.py runs/beds/ensemble.h5 -o figures/precursor-ranking.csv
-    python3 docs/studies/precursor_ranking.py runs/beds/seed-*.h5 -o figures/precursor-ranking.csv
+    python3 docs/studies/precursor_ranking.py runs/beds/seed-*[0-9].h5 -o figures/precursor-ranking.csv
     python3 docs/studies/precursor_ranking.py figures/precursor-ranking.csv -o figures/precursor-ranking.png
     python3 docs/studies/precursor_ranking.py figures/precursor-ranking.csv --rows 20
 
-The beds are the members of an ensemble.h5 (its first variant), or runs with a stored analysis, tilted from 0 to failure. The table of the ranking
-is written as CSV, the figure as PNG, PDF or SVG, and without -o the table is printed as Markdown; each can be made from
-a table that was written before. docs/past_the_paper.md describes the method and its result.
+The beds are the members of an ensemble.h5 (its first variant), or runs with a stored analysis, tilted from 0 to failure.
+The table of the ranking is written as CSV, the figure as PNG, PDF or SVG, and without -o the table is printed as
+Markdown; each can be made from a table that was written before. docs/past_the_paper.md describes the method and its
+result.
 
 It needs Debian's python3-numpy; python3-h5py (and python3-xxhash, for runs) to read beds; python3-matplotlib to draw."""
 

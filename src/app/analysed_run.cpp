@@ -1,6 +1,6 @@
 #include "app/analysed_run.h"
 
-#include "app/count_progress.h"
+#include "app/progress.h"
 #include "core/hash.h"
 #include "core/output_file.h"
 #include "io/analysis_file.h"
@@ -20,9 +20,10 @@ AnalysedRun analysed_run(const std::string& path, const AnalysisParameters& para
       result.analysis = std::move(*stored);
       return result;
     }
-  CountProgress line("analysis", run.frame_count(), options.quiet);
-  result.analysis =
-      analyse_run(run, parameters, options.threads, [&line](std::size_t done) { line.show(done); });
+  const CountDone progress = count_shown("analysis", options.quiet);
+  progress(0, run.frame_count());
+  result.analysis = analyse_run(run, parameters, options.threads,
+                                [&](std::size_t done) { progress(done, run.frame_count()); });
   // Who may not write here reads all the same.
   const std::string reason = run.complete() ? protection_of(path) : "the run is not complete";
   if (reason.empty()) store_analysis(path, result.analysis, hash_text(state_hash(run.checkpoint().world)));

@@ -7,8 +7,8 @@
 #include <memory>
 
 #include "app/commands.h"
-#include "app/count_progress.h"
 #include "app/json.h"
+#include "app/progress.h"
 #include "app/terminal.h"
 #include "core/errors.h"
 #include "io/run_repair.h"
@@ -164,8 +164,10 @@ void check_run_file(const CheckArguments& arguments) {
     throw Error(ExitCode::usage, arguments.scenario + " is a run: --set is for a scenario");
   const RunFile run = open_or_tell(arguments);
   const RunCheck check = [&] {
-    CountProgress progress("checking", run.all_frame_tilts().size(), arguments.json);
-    return check_run(run, [&progress](std::size_t done) { progress.show(done); });
+    const std::size_t frames = run.all_frame_tilts().size();
+    const CountDone progress = count_shown("checking", arguments.json);
+    progress(0, frames);
+    return check_run(run, [&](std::size_t done) { progress(done, frames); });
   }();
   if (arguments.json)
     print_run_json(arguments.scenario, run, check);
