@@ -8,6 +8,7 @@
 
 #include "analysis/last_rise.h"
 #include "app/event_report.h"
+#include "core/text_table.h"
 #include "core/trigonometry.h"
 #include "runs/analysis_parameters.h"
 
@@ -15,11 +16,6 @@ namespace talus {
 namespace {
 
 constexpr std::size_t table_rows = 11;
-
-/// A number in a column, "-" where there is none.
-std::string cell(std::string_view format, int width, double value) {
-  return fmt::format("{:>{}}", std::isnan(value) ? "-" : fmt::format(fmt::runtime(format), value), width);
-}
 
 std::string degree_text(double angle) { return fmt::format("{:.2f}", degrees(angle)); }
 
@@ -59,32 +55,32 @@ std::string span_text(const FrameThreshold& at) {
   return std::string(depth ? "H" : "") + (length ? "L" : depth ? "" : "-");
 }
 
-std::string threshold_cells(const FrameThreshold& at, double diameter) {
-  return fmt::format(" |{}{}{}{}{:>7}", cell("{:.3f}", 7, at.overloaded_fraction),
-                     cell("{:.2f}", 7, at.lc_mean / diameter), cell("{:.1f}", 7, at.lc_max / diameter),
-                     cell("{:.3f}", 9, at.largest_share), span_text(at));
-}
-
-std::string series_table(const RunView& run) {
+TextTable series_table(const RunView& run) {
   const Analysis& analysis = run.analysis;
-  std::string above(39, ' '), below = " theta   Gamma   sT/sN      z  dV/V (%)";
+  TextTable table{{{"theta", true}, {"Gamma", true}, {"sT/sN", true}, {"z", true}, {"dV/V (%)", true}}, {}};
   for (const RunThreshold& threshold : analysis.thresholds) {
     const std::string limit =
         fmt::format("gamma >= {:.4g} Gamma_c = {:.4f}", threshold.factor, threshold.gamma);
-    const bool last = &threshold == &analysis.thresholds.back();
-    above += " | " + (last ? limit : fmt::format("{:<36}", limit));
-    below += " |    p_o   mean    max  largest  spans";
+    table.columns.push_back({"p_o", true, "", limit});
+    for (const char* title : {"mean", "max", "largest", "spans"}) table.columns.push_back({title, true});
   }
-  std::string text = fmt::format("{}{}\n", !analysis.thresholds.empty() ? above + "\n" : "", below);
   for (const std::size_t k : shown_frames(analysis.frames.size())) {
     const FrameRecord& frame = analysis.frames[k];
-    text += fmt::format("{:>6.2f}", degrees(frame.tilt)) + cell("{:.4f}", 8, frame.stress_ratio) +
-            cell("{:.4f}", 8, frame.sigma_t_over_n) + cell("{:.3f}", 7, frame.coordination_number) +
-            cell("{:+.4f}", 10, 100.0 * frame.volume_strain);
-    for (const FrameThreshold& at : frame.thresholds) text += threshold_cells(at, run.statics.mean_diameter);
-    text += "\n";
+    auto& row = table.rows.emplace_back();
+    row = {{degree_text(frame.tilt)},
+           {number_cell("{:.4f}", frame.stress_ratio)},
+           {number_cell("{:.4f}", frame.sigma_t_over_n)},
+           {number_cell("{:.3f}", frame.coordination_number)},
+           {number_cell("{:+.4f}", 100.0 * frame.volume_strain)}};
+    const double diameter = run.statics.mean_diameter;
+    for (const FrameThreshold& at : frame.thresholds)
+      row.insert(row.end(), {{number_cell("{:.3f}", at.overloaded_fraction)},
+                             {number_cell("{:.2f}", at.lc_mean / diameter)},
+                             {number_cell("{:.1f}", at.lc_max / diameter)},
+                             {number_cell("{:.3f}", at.largest_share)},
+                             {span_text(at)}});
   }
-  return text;
+  return table;
 }
 
 /// "8.25 +- 0.25 deg"; "<= 0.00 deg" where no frame is before it.
@@ -142,7 +138,7 @@ std::string beyond_repose(double theta_c, double tilt) {
 
 std::string analysis_text(const RunView& run) {
   return fmt::format(
-      "{}\n{}{}\n{}{}", heading(run), series_table(run),
+      "{}\n{}{}\n{}{}", heading(run), aligned_text(series_table(run), 1),
       !run.analysis.thresholds.empty()
           ? "l_c in D; largest: share of the overloaded grains in the largest cluster; spans: H floor to "
             "surface, L along the bed\n"

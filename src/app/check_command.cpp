@@ -7,12 +7,13 @@
 #include <memory>
 
 #include "app/commands.h"
-#include "app/count_progress.h"
+#include "app/json.h"
+#include "app/progress.h"
 #include "app/terminal.h"
 #include "core/errors.h"
 #include "io/run_repair.h"
-#include "scenario/json.h"
 #include "scenario/keys.h"
+#include "scenario/text.h"
 #include "scenario/tilt_program.h"
 #include "session/estimate.h"
 #include "session/run_check.h"
@@ -26,55 +27,35 @@ struct CheckArguments {
   bool json = false;
 };
 
-std::string json_value(const KeyValue& value) {
-  if (const auto* whole = std::get_if<std::int64_t>(&value)) return json::number(*whole);
-  if (const auto* number = std::get_if<double>(&value)) return json::number(*number);
-  if (const auto* phrases = std::get_if<std::vector<std::string>>(&value)) return json::array(*phrases);
-  return json::quoted(std::get<std::string>(value));
-}
-
-/// Keys of one section; those above the first section for an empty name.
-json::Members section_members(const Scenario& scenario, const std::string& section) {
-  json::Members members;
-  for (const ScenarioKey& key : scenario_keys())
-    if (key.section == section) members.emplace_back(key.name, json_value(key.get(scenario)));
-  return members;
-}
-
-std::string scenario_json(const Scenario& scenario) {
-  json::Members members = section_members(scenario, "");
-  std::string section;
+/// The scenario with every key, by sections.
+Json scenario_json(const Scenario& scenario) {
+  Json json = Json::object();
   for (const ScenarioKey& key : scenario_keys()) {
-    if (key.section == section) continue;
-    section = key.section;
-    members.emplace_back(section, json::object(section_members(scenario, section), 2));
+    Json& section = key.section.empty() ? json : json[key.section];
+    section[key.name] = std::visit([](const auto& value) -> Json { return value; }, key.get(scenario));
   }
-  return json::object(members, 1);
+  return json;
 }
 
 void print_json(const CheckArguments& arguments, const Scenario& scenario, const Estimate& expected) {
-  const json::Members estimates = {
-      {"grains", json::number(expected.grains)},
-      {"floor_grains", json::number(expected.floor_grains)},
-      {"contacts", json::number(expected.contacts)},
-      {"time_step_s", json::number(expected.time_step)},
-      {"deposition_steps", json::number(expected.deposition_steps)},
-      {"tilt_steps", json::number(expected.tilt_steps)},
-      {"program_parts", json::number(expected.program_parts)},
-      {"flow_steps", json::number(expected.flow_steps)},
-      {"frames", json::number(expected.frames)},
-      {"observable_rows", json::number(expected.observable_rows)},
-      {"time_s", json::number(expected.seconds)},
-      {"memory_bytes", json::number(expected.memory)},
-      {"disk_bytes", json::number(expected.disk)},
-  };
-  const json::Members members = {
-      {"path", json::quoted(arguments.scenario)},
-      {"valid", "true"},
-      {"scenario", scenario_json(scenario)},
-      {"estimate", json::object(estimates, 1)},
-  };
-  print("%s\n", json::object(members).c_str());
+  const Json estimate = {{"grains", expected.grains},
+                         {"floor_grains", expected.floor_grains},
+                         {"contacts", expected.contacts},
+                         {"time_step_s", expected.time_step},
+                         {"deposition_steps", expected.deposition_steps},
+                         {"tilt_steps", expected.tilt_steps},
+                         {"program_parts", expected.program_parts},
+                         {"flow_steps", expected.flow_steps},
+                         {"frames", expected.frames},
+                         {"observable_rows", expected.observable_rows},
+                         {"time_s", expected.seconds},
+                         {"memory_bytes", expected.memory},
+                         {"disk_bytes", expected.disk}};
+  const Json json = {{"path", arguments.scenario},
+                     {"valid", true},
+                     {"scenario", scenario_json(scenario)},
+                     {"estimate", estimate}};
+  print("%s\n", json_text(json).c_str());
 }
 
 std::string duration(double seconds) {
@@ -120,10 +101,8 @@ void print_report(const CheckArguments& arguments, const Scenario& scenario, con
 [[noreturn]] void tell_damage(const CheckArguments& arguments, const Error& refusal) {
   const std::vector<std::string> pieces = damaged_pieces(arguments.scenario);
   if (arguments.json) {
-    const json::Members members = {{"path", json::quoted(arguments.scenario)},
-                                   {"whole", json::truth(false)},
-                                   {"faults", json::array(pieces)}};
-    print("%s\n", json::object(members).c_str());
+    const Json json = {{"path", arguments.scenario}, {"whole", false}, {"faults", pieces}};
+    print("%s\n", json_text(json).c_str());
   } else {
     print("%s: damaged\n", arguments.scenario.c_str());
     for (const std::string& piece : pieces) print("  fault: %s\n", piece.c_str());
@@ -143,23 +122,21 @@ RunFile open_or_tell(const CheckArguments& arguments) {
 }
 
 void print_run_json(const std::string& path, const RunFile& run, const RunCheck& check) {
-  const json::Members members = {
-      {"path", json::quoted(path)},
-      {"whole", json::truth(check.faults.empty())},
-      {"complete", json::truth(run.complete())},
-      {"lost", json::quoted(run.lost())},
-      {"frames", json::number(check.frames)},
-      {"observable_rows", json::number(check.rows)},
-      {"steps", json::number(check.steps)},
-      {"commands", json::number(check.commands)},
-      {"largest_overlap_d", json::number(check.largest_overlap)},
-      {"largest_mobilisation", json::number(check.largest_mobilisation)},
-      {"frames_at_rest", json::number(check.frames_at_rest)},
-      {"largest_imbalance_mg", json::number(check.largest_imbalance)},
-      {"largest_moment_error", json::number(check.largest_moment_error)},
-      {"faults", json::array(check.faults)},
-  };
-  print("%s\n", json::object(members).c_str());
+  const Json json = {{"path", path},
+                     {"whole", check.faults.empty()},
+                     {"complete", run.complete()},
+                     {"lost", run.lost()},
+                     {"frames", check.frames},
+                     {"observable_rows", check.rows},
+                     {"steps", check.steps},
+                     {"commands", check.commands},
+                     {"largest_overlap_d", check.largest_overlap},
+                     {"largest_mobilisation", check.largest_mobilisation},
+                     {"frames_at_rest", check.frames_at_rest},
+                     {"largest_imbalance_mg", check.largest_imbalance},
+                     {"largest_moment_error", check.largest_moment_error},
+                     {"faults", check.faults}};
+  print("%s\n", json_text(json).c_str());
 }
 
 void print_run(const std::string& path, const RunFile& run, const RunCheck& check) {
@@ -187,8 +164,10 @@ void check_run_file(const CheckArguments& arguments) {
     throw Error(ExitCode::usage, arguments.scenario + " is a run: --set is for a scenario");
   const RunFile run = open_or_tell(arguments);
   const RunCheck check = [&] {
-    CountProgress progress("checking", run.all_frame_tilts().size(), arguments.json);
-    return check_run(run, [&progress](std::size_t done) { progress.show(done); });
+    const std::size_t frames = run.all_frame_tilts().size();
+    const CountDone progress = count_shown("checking", arguments.json);
+    progress(0, frames);
+    return check_run(run, [&](std::size_t done) { progress(done, frames); });
   }();
   if (arguments.json)
     print_run_json(arguments.scenario, run, check);

@@ -84,9 +84,8 @@ void compute_member(const EnsembleArguments& arguments) {
     control.stop = stop_request();
     std::function<void(const RunProgress&)> push;
     if (trials != nullptr) push = trials_on_the_way(member->path, *trials, stop_request());
-    ProgressLine line(false);
-    control.on_step = [&push, &line](const RunProgress& progress) {
-      line.show(progress);
+    control.on_step = [push, show = run_shown(false)](const RunProgress& progress) {
+      show(progress);
       if (push) push(progress);
     };
     if (!arguments.max_wall.empty()) control.max_wall = parse_wall_time("--max-wall", arguments.max_wall);

@@ -9,7 +9,6 @@
 #include "core/text.h"
 #include "core/visible_text.h"
 #include "ensemble/slurm_jobs.h"
-#include "scenario/json.h"
 
 namespace talus {
 namespace {
@@ -46,10 +45,10 @@ std::string tasks_text(const QueuedTasks& tasks) {
   return joined(parts, ", ");
 }
 
-std::string tasks_json(const QueuedTasks& tasks, int depth) {
-  json::Members states;
-  for (const auto& [state, count] : tasks.count) states.emplace_back(lower(state), json::number(count));
-  return json::object(states, depth);
+Json tasks_json(const QueuedTasks& tasks) {
+  Json states = Json::object();
+  for (const auto& [state, count] : tasks.count) states[lower(state)] = count;
+  return states;
 }
 
 }  // namespace
@@ -80,22 +79,18 @@ std::string jobs_text(const EnsembleJobs& jobs) {
   return text;
 }
 
-std::string jobs_json(const EnsembleJobs& jobs, int depth) {
-  json::Members members;
+Json jobs_json(const EnsembleJobs& jobs) {
+  Json json = Json::object();
   for (const SlurmJob& job : jobs.recorded) {
-    const auto tasks = jobs.queue.find(job.id);
-    const bool known = tasks != jobs.queue.end();
-    const bool unknown = !known && !jobs.unknown.empty();
-    members.emplace_back(
-        job.id,
-        json::object(
-            {{"cluster", json::quoted(job.cluster)},
-             {"tasks", json::number(job.tasks)},
-             {"queued", unknown ? "null" : tasks_json(known ? tasks->second : QueuedTasks{}, depth + 2)},
-             {"reasons", json::array(known ? tasks->second.reasons : std::vector<std::string>{})}},
-            depth + 1));
+    const auto found = jobs.queue.find(job.id);
+    const bool known = found != jobs.queue.end();
+    const QueuedTasks tasks = known ? found->second : QueuedTasks{};
+    json[job.id] = {{"cluster", job.cluster},
+                    {"tasks", job.tasks},
+                    {"queued", known || jobs.unknown.empty() ? tasks_json(tasks) : Json()},
+                    {"reasons", tasks.reasons}};
   }
-  return json::object(members, depth);
+  return json;
 }
 
 }  // namespace talus

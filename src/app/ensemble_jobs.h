@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "app/json.h"
 #include "ensemble/slurm.h"
 
 namespace talus {
@@ -27,7 +28,7 @@ std::size_t count_queued(const EnsembleJobs& jobs);
 /// "job 12: 2 running, 6 pending (Resources)", a line for each job; empty where there is none.
 std::string jobs_text(const EnsembleJobs& jobs);
 
-/// The same as JSON, `depth` levels deep; what is queued is null where squeue told nothing.
-std::string jobs_json(const EnsembleJobs& jobs, int depth);
+/// The same as JSON; what is queued is null where squeue told nothing.
+Json jobs_json(const EnsembleJobs& jobs);
 
 }  // namespace talus

@@ -7,11 +7,12 @@
 
 #include "core/statistics.h"
 #include "core/text.h"
+#include "core/text_table.h"
 #include "core/visible_text.h"
 #include "ensemble/claim.h"
 #include "ensemble/plus_minus.h"
 #include "ensemble/until.h"
-#include "scenario/json.h"
+#include "scenario/text.h"
 
 namespace talus {
 namespace {
@@ -87,36 +88,34 @@ std::string members_text(const EnsembleView& view) {
   return text;
 }
 
-std::string variant_json(const EnsembleView& view, std::size_t variant) {
-  json::Members members;
+Json variant_json(const EnsembleView& view, std::size_t variant) {
+  Json json;
   for (const char* quantity : shown_quantities) {
     const Statistics found = statistics_of(values_of(view, variant, quantity));
-    members.emplace_back(quantity, json::object({{"unit", json::quoted(unit_of(view, quantity))},
-                                                 {"n", json::number(found.count)},
-                                                 {"mean", json::number(found.mean)},
-                                                 {"deviation", json::number(found.deviation)},
-                                                 {"error", json::number(found.error)}},
-                                                3));
+    json[quantity] = {{"unit", unit_of(view, quantity)},
+                      {"n", found.count},
+                      {"mean", found.mean},
+                      {"deviation", found.deviation},
+                      {"error", found.error}};
   }
-  return json::object(members, 2);
+  return json;
 }
 
-std::string member_json(const EnsembleView& view, std::size_t m) {
+Json member_json(const EnsembleView& view, std::size_t m) {
   const MemberState& state = view.states[m];
   const Member& member = view.plan.members[m];
-  json::Members members = {{"stage", json::quoted(stage_names.at(static_cast<std::size_t>(state.stage)))}};
-  if (state.stage == MemberStage::claimed)
-    members.emplace_back("by", json::quoted(holder_text(member, state)));
+  Json json = {{"stage", stage_names.at(static_cast<std::size_t>(state.stage))}};
+  if (state.stage == MemberStage::claimed) json["by"] = holder_text(member, state);
   if (state.stage == MemberStage::done) {
-    members.emplace_back("state_hash", json::quoted(view.numbers[m].state_hash));
-    members.emplace_back("seconds", json::number(view.numbers[m].seconds));
+    json["state_hash"] = view.numbers[m].state_hash;
+    json["seconds"] = view.numbers[m].seconds;
   }
   if (state.stage == MemberStage::failed) {
     const MemberFailure failure = read_failure(member.path);
-    members.emplace_back("exit_code", json::number(failure.exit_code));
-    members.emplace_back("message", json::quoted(failure.message));
+    json["exit_code"] = failure.exit_code;
+    json["message"] = failure.message;
   }
-  return json::object(members, 2);
+  return json;
 }
 
 std::size_t count_runs(const EnsembleView& view) {
@@ -180,24 +179,24 @@ std::string ensemble_text(const EnsembleView& view, const EnsembleJobs& jobs) {
 }
 
 std::string ensemble_json(const EnsembleView& view, const EnsembleJobs& jobs) {
-  json::Members variants, members;
+  Json variants = Json::object(), members = Json::object();
   for (std::size_t v = 0; v < view.plan.variants.size(); ++v)
-    variants.emplace_back(view.plan.variants[v].name, variant_json(view, v));
+    variants[view.plan.variants[v].name] = variant_json(view, v);
   for (std::size_t m = 0; m < view.plan.members.size(); ++m)
-    members.emplace_back(view.plan.members[m].name, member_json(view, m));
-  return json::object({{"folder", json::quoted(view.folder)},
-                       {"version", json::quoted(view.manifest.version)},
-                       {"until", json::quoted(view.manifest.until)},
-                       {"keep", json::quoted(view.manifest.keep.empty() ? "all" : view.manifest.keep)},
-                       {"runs", json::number(count_runs(view))},
-                       {"members_in_all", json::number(view.states.size())},
-                       {"done", json::number(count_of(view.states, MemberStage::done))},
-                       {"claimed", json::number(count_of(view.states, MemberStage::claimed))},
-                       {"failed", json::number(count_of(view.states, MemberStage::failed))},
-                       {"waiting", json::number(count_of(view.states, MemberStage::waiting))},
-                       {"jobs", jobs_json(jobs, 1)},
-                       {"variants", json::object(variants, 1)},
-                       {"members", json::object(members, 1)}});
+    members[view.plan.members[m].name] = member_json(view, m);
+  return json_text({{"folder", view.folder},
+                    {"version", view.manifest.version},
+                    {"until", view.manifest.until},
+                    {"keep", view.manifest.keep.empty() ? "all" : view.manifest.keep},
+                    {"runs", count_runs(view)},
+                    {"members_in_all", view.states.size()},
+                    {"done", count_of(view.states, MemberStage::done)},
+                    {"claimed", count_of(view.states, MemberStage::claimed)},
+                    {"failed", count_of(view.states, MemberStage::failed)},
+                    {"waiting", count_of(view.states, MemberStage::waiting)},
+                    {"jobs", jobs_json(jobs)},
+                    {"variants", variants},
+                    {"members", members}});
 }
 
 std::string members_csv(const EnsembleView& view) {
@@ -207,22 +206,25 @@ std::string members_csv(const EnsembleView& view) {
     for (const NamedNumber& number : member.numbers)
       if (std::ranges::find(columns, number.name, &NamedNumber::name) == columns.end())
         columns.push_back(number);
-  std::string text = "variant,seed,state_hash,version,seconds";
-  for (const NamedNumber& column : columns) text += fmt::format(",{} ({})", column.name, column.unit);
-  text += "\n";
+  TextTable table{{{"variant"}, {"seed"}, {"state_hash"}, {"version"}, {"seconds"}}, {}};
+  for (const NamedNumber& column : columns)
+    table.columns.push_back({fmt::format("{} ({})", column.name, column.unit)});
   for (std::size_t m = 0; m < view.plan.members.size(); ++m) {
-    const MemberNumbers& member = view.numbers[m];
+    const MemberNumbers& numbers = view.numbers[m];
+    const Member& member = view.plan.members[m];
     if (view.states[m].stage != MemberStage::done) continue;
-    text +=
-        fmt::format("{},{},{},{},{}", csv_quoted(view.plan.variants[view.plan.members[m].variant].name),
-                    view.plan.members[m].seed, member.state_hash, member.version, short_text(member.seconds));
+    auto& row = table.rows.emplace_back();
+    row = {{csv_quoted(view.plan.variants[member.variant].name)},
+           {std::to_string(member.seed)},
+           {numbers.state_hash},
+           {numbers.version},
+           {short_text(numbers.seconds)}};
     for (const NamedNumber& column : columns) {
-      const double value = number_called(member, column.name);
-      text += fmt::format(",{}", std::isnan(value) ? std::string() : short_text(value));
+      const double value = number_called(numbers, column.name);
+      row.push_back({std::isnan(value) ? "" : short_text(value)});
     }
-    text += "\n";
   }
-  return text;
+  return csv_text(table);
 }
 
 }  // namespace talus

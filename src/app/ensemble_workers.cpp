@@ -13,8 +13,7 @@
 #include "app/ensemble_averages.h"
 #include "app/ensemble_report.h"
 #include "app/output_files.h"
-#include "app/progress_text.h"
-#include "app/status_line.h"
+#include "app/progress.h"
 #include "app/terminal.h"
 #include "core/errors.h"
 #include "core/output_file.h"
@@ -29,12 +28,6 @@
 
 namespace talus {
 namespace {
-
-/// What tells how long the rest will take: the members that came to an end since `begin`, by their estimates.
-struct EnsemblePace {
-  double estimate_before = 0.0;  ///< s, of the members that were done before
-  std::chrono::steady_clock::time_point begin = std::chrono::steady_clock::now();
-};
 
 double estimate_of(const EnsemblePlan& plan, const std::vector<MemberState>& states, MemberStage stage) {
   const std::vector<double> of_variant = estimated_seconds(plan);
@@ -54,25 +47,24 @@ std::string wait_text(const EnsemblePlan& plan, const std::vector<MemberState>& 
   return "";
 }
 
-/// "ensemble: 3 of 50 members done, 2 under way, 1 failed", how far that is, and how long it still takes.
-void show(StatusLine& line, const EnsemblePlan& plan, const EnsemblePace& pace) {
+/// "ensemble: 3 of 50 members done, 2 under way, 1 failed", how far that is, and how long it still takes by
+/// the members that came to an end since the line began; `before`: the estimate of those done before, s.
+void show(StatusLine& line, const EnsemblePlan& plan, double before) {
   const std::vector<MemberState> states = look_at_members(plan);
   const std::size_t done = count_of(states, MemberStage::done),
                     failed = count_of(states, MemberStage::failed);
-  const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - pace.begin).count();
-  const double finished = estimate_of(plan, states, MemberStage::done) - pace.estimate_before;
+  const double finished = estimate_of(plan, states, MemberStage::done) - before;
   const double left =
       estimate_of(plan, states, MemberStage::waiting) + estimate_of(plan, states, MemberStage::claimed);
-  std::optional<double> remaining;
-  if (finished > 0.0) remaining = elapsed * left / finished;
-  std::vector<ProgressField> fields = progress_fields(
-      static_cast<double>(done) / static_cast<double>(states.size()), elapsed, remaining, line.on_terminal());
   const std::string failures = failed > 0 ? fmt::format(", {} failed", failed) : "";
-  fields.insert(fields.begin(), {fmt::format("ensemble: {} of {} members done, {} under way{}", done,
-                                             states.size(), count_of(states, MemberStage::claimed), failures),
-                                 0});
-  if (const std::string wait = wait_text(plan, states); !wait.empty()) fields.push_back({wait, 1});
-  line.show(fitted_line(fields, line.width()));
+  Progress progress{fmt::format("ensemble: {} of {} members done, {} under way{}", done, states.size(),
+                                count_of(states, MemberStage::claimed), failures),
+                    static_cast<double>(done) / static_cast<double>(states.size()),
+                    line.elapsed(),
+                    {}};
+  if (finished > 0.0) progress.remaining = progress.elapsed * left / finished;
+  if (const std::string wait = wait_text(plan, states); !wait.empty()) progress.more = {{wait, 1}};
+  line.show(progress);
 }
 
 /// The averages while members come in: of how many, and when.
@@ -121,16 +113,12 @@ std::vector<FailedJob> run_workers(const EnsembleWorkers& workers, const Ensembl
     jobs.push_back({worker_words(workers),
                     (std::filesystem::path(workers.folder) / "workers" / (name + ".log")).string()});
   }
-  const EnsemblePace pace{estimate_of(plan, states, MemberStage::done)};
-  StatusLine line(false, 60.0);
+  const double before = estimate_of(plan, states, MemberStage::done);
+  StatusLine line(false, 2.0, 60.0);  // a look at ten thousand members takes some hundredths of a second
   AveragesOnTheWay averages{count_of(states, MemberStage::done)};
-  auto shown = pace.begin;  // a look at ten thousand members takes some hundredths of a second
   const auto show_now_and_then = [&] {
     renew(averages, workers.folder);
-    const bool on_time = std::chrono::steady_clock::now() - shown > std::chrono::seconds(2);
-    if (!(line.on_terminal() ? on_time : line.is_due())) return true;
-    shown = std::chrono::steady_clock::now();
-    show(line, plan, pace);
+    if (line.is_due()) show(line, plan, before);
     return true;
   };
   std::vector<FailedJob> failed = run_jobs(jobs, "the ensemble", show_now_and_then);

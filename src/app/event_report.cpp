@@ -7,16 +7,31 @@
 
 #include "analysis/power_law.h"
 #include "analysis/quantities.h"
+#include "app/json.h"
 #include "core/text.h"
+#include "core/text_table.h"
 #include "core/trigonometry.h"
 #include "ensemble/plus_minus.h"
 #include "runs/event_catalogue.h"
-#include "scenario/json.h"
 
 namespace talus {
 namespace {
 
 constexpr std::string_view group_of_events = "events/";
+
+/// The columns of the table, with their units.
+constexpr std::pair<const char*, const char*> event_titles[] = {{"theta", "deg"},
+                                                                {"waiting", "deg"},
+                                                                {"duration", "sqrt(D/g)"},
+                                                                {"energy", "m g D"},
+                                                                {"peak v", "sqrt(gD)"},
+                                                                {"grains", ""},
+                                                                {"depth", "D"},
+                                                                {"x", "D"},
+                                                                {"y", "D"},
+                                                                {"dV/V*1e6", ""},
+                                                                {"dy/y*1e6", ""},
+                                                                {"dz", ""}};
 
 /// Units in which events are told.
 struct EventUnits {
@@ -29,34 +44,32 @@ struct EventUnits {
         time(std::sqrt(diameter / statics.gravity)) {}
 };
 
-/// A number in a column, "-" where there is none.
-std::string event_cell(std::string_view format, int width, double value) {
-  return fmt::format("{:>{}}", std::isnan(value) ? "-" : fmt::format(fmt::runtime(format), value), width);
-}
-
 std::string_view mark_of(const EventRecord& event) {
   switch (static_cast<EventKind>(event.kind)) {
     case EventKind::failure:
-      return "  failure";
+      return "failure";
     case EventKind::unfinished:
-      return "  not over";
+      return "not over";
     case EventKind::rearrangement:
       break;
   }
-  return event.sharing > 1 ? "  *" : "";
+  return event.sharing > 1 ? "*" : "";
 }
 
-std::string event_line(const EventRecord& event, const EventUnits& unit) {
-  const auto length = [&](double value) { return value / unit.diameter; };
-  return event_cell("{:.3f}", 7, degrees(event.begin)) + event_cell("{:.3f}", 8, degrees(event.waiting)) +
-         event_cell("{:.2f}", 10, event.duration / unit.time) +
-         event_cell("{:.3g}", 10, event.energy / unit.energy) +
-         event_cell("{:.4f}", 9, event.peak_velocity / unit.velocity) + fmt::format("{:>8}", event.grains) +
-         event_cell("{:.1f}", 7, length(event.depth)) + event_cell("{:.1f}", 8, length(event.centre[0])) +
-         event_cell("{:.1f}", 7, length(event.centre[1])) +
-         event_cell("{:+.2f}", 10, 1e6 * event.volume_strain) +
-         event_cell("{:+.2f}", 10, 1e6 * event.centre_of_mass_strain) +
-         event_cell("{:+.4f}", 9, event.coordination_number) + std::string(mark_of(event)) + "\n";
+std::vector<TextCell> event_row(const EventRecord& event, const EventUnits& unit) {
+  return {{number_cell("{:.3f}", degrees(event.begin))},
+          {number_cell("{:.3f}", degrees(event.waiting))},
+          {number_cell("{:.2f}", event.duration / unit.time)},
+          {number_cell("{:.3g}", event.energy / unit.energy)},
+          {number_cell("{:.4f}", event.peak_velocity / unit.velocity)},
+          {std::to_string(event.grains)},
+          {number_cell("{:.1f}", event.depth / unit.diameter)},
+          {number_cell("{:.1f}", event.centre[0] / unit.diameter)},
+          {number_cell("{:.1f}", event.centre[1] / unit.diameter)},
+          {number_cell("{:+.2f}", 1e6 * event.volume_strain)},
+          {number_cell("{:+.2f}", 1e6 * event.centre_of_mass_strain)},
+          {number_cell("{:+.4f}", event.coordination_number)},
+          {std::string(mark_of(event))}};
 }
 
 /// Places of the events that are shown, in their order.
@@ -99,11 +112,11 @@ std::string threshold_text(const RunView& run, const EventUnits& unit) {
 std::string event_table(const RunView& run, const EventUnits& unit, std::size_t largest) {
   const std::vector<EventRecord>& events = run.analysis.events;
   const std::vector<std::size_t> shown = shown_events(events, largest);
-  std::string text =
-      "\n  theta waiting  duration    energy   peak v  grains  depth       x      y  dV/V*1e6  dy/y*1e6      "
-      " dz\n"
-      "    deg     deg sqrt(D/g)     m g D sqrt(gD)              D       D      D\n";
-  for (const std::size_t k : shown) text += event_line(events[k], unit);
+  TextTable table;
+  for (const auto& [title, shown_unit] : event_titles) table.columns.push_back({title, true, shown_unit});
+  table.columns.push_back({""});
+  for (const std::size_t k : shown) table.rows.push_back(event_row(events[k], unit));
+  std::string text = "\n" + aligned_text(table, 1);
   if (shown.size() < events.size())
     text += fmt::format("the {} largest of {} by their energy\n", shown.size(), events.size());
   if (std::ranges::any_of(events, [](const EventRecord& event) { return event.sharing > 1; }))
@@ -138,14 +151,15 @@ std::string dilating_line(const Analysis& analysis) {
   return error > 0.0 ? plus_minus(share, error) : fmt::format("{:.2f}", share);
 }
 
-json::Members members_of(const Quantity& quantity, std::size_t k, const Analysis& analysis) {
-  const std::string name = quantity.name.substr(group_of_events.size());
+std::string name_of(const Quantity& quantity) { return quantity.name.substr(group_of_events.size()); }
+
+/// The value of one event, or both of them.
+Json value_json(const Quantity& quantity, std::size_t k, const Analysis& analysis) {
   return std::visit(
-      [&](const auto& values) -> json::Members {
+      [&](const auto& values) -> Json {
         const std::size_t width = values.size() / analysis.events.size();
-        if (width == 1) return {{name, json::number(values[k])}};
-        return {{name, fmt::format("[{}, {}]", json::number(values[width * k]),
-                                   json::number(values[width * k + 1]))}};
+        if (width == 1) return values[k];
+        return {values[width * k], values[width * k + 1]};
       },
       values_of(quantity, analysis));
 }
@@ -184,57 +198,46 @@ std::string events_text(const RunView& run, std::size_t largest) {
 
 std::string events_json(const RunView& run) {
   const Analysis& analysis = run.analysis;
-  json::Members members = {{"path", json::quoted(run.path)},
-                           {"state", json::quoted(run.kept)},
-                           {"mean_diameter", json::number(run.statics.mean_diameter)},
-                           {"mean_mass", json::number(mean_grain_mass(run.statics))},
-                           {"gravity", json::number(run.statics.gravity)},
-                           {"theta_c", json::number(analysis.theta_c)}};
+  Json json = {{"path", run.path},
+               {"state", run.kept},
+               {"mean_diameter", run.statics.mean_diameter},
+               {"mean_mass", mean_grain_mass(run.statics)},
+               {"gravity", run.statics.gravity},
+               {"theta_c", analysis.theta_c}};
   for (const Quantity& quantity : quantities())
     if (quantity.name.starts_with(group_of_events) && !is_of_events(quantity))
-      members.emplace_back(quantity.name.substr(group_of_events.size()),
-                           json::number(number_of(quantity, analysis, 0)));
-  std::string events;
+      json[name_of(quantity)] = number_of(quantity, analysis, 0);
+  json["events"] = Json::array();
   for (std::size_t k = 0; k < analysis.events.size(); ++k) {
-    json::Members event;
+    Json& event = json["events"].emplace_back(Json::object());
     for (const Quantity& quantity : quantities_of_each())
-      std::ranges::move(members_of(quantity, k, analysis), std::back_inserter(event));
-    events += fmt::format("{}{}", k > 0 ? ", " : "", json::object(event, 1));
+      event[name_of(quantity)] = value_json(quantity, k, analysis);
   }
-  members.emplace_back("events", fmt::format("[{}]", events));
-  return json::object(members);
+  return json_text(json);
 }
 
-std::string events_csv_head() {
-  std::string text = "run";
+std::string events_csv(const RunView& run, bool titles) {
+  TextTable table{{{"run"}}, {}};
   for (const Quantity& quantity : quantities_of_each()) {
-    const std::string name = quantity.name.substr(group_of_events.size());
     const std::string unit = quantity.unit == "1" ? "" : fmt::format(" ({})", quantity.unit);
-    if (width_of(quantity) == 1)
-      text += fmt::format(",{}{}", name, unit);
-    else
-      text += fmt::format(",{0}[0]{1},{0}[1]{1}", name, unit);
+    for (std::size_t i = 0; i < width_of(quantity); ++i) {
+      const std::string element = width_of(quantity) == 1 ? "" : fmt::format("[{}]", i);
+      table.columns.push_back({name_of(quantity) + element + unit});
+    }
   }
-  return text + "\n";
-}
-
-std::string events_csv(const RunView& run) {
-  std::string text;
   for (std::size_t k = 0; k < run.analysis.events.size(); ++k) {
-    text += csv_quoted(run.path);
+    auto& row = table.rows.emplace_back();
+    row.push_back({csv_quoted(run.path)});
     for (const Quantity& quantity : quantities_of_each())
       std::visit(
           [&](const auto& values) {
             const std::size_t width = width_of(quantity);
-            for (std::size_t i = width * k; i < width * (k + 1); ++i) {
-              const auto value = static_cast<double>(values[i]);
-              text += "," + (std::isnan(value) ? std::string() : fmt::format("{}", values[i]));
-            }
+            for (std::size_t i = width * k; i < width * (k + 1); ++i)
+              row.push_back({std::isnan(static_cast<double>(values[i])) ? "" : fmt::format("{}", values[i])});
           },
           values_of(quantity, run.analysis));
-    text += "\n";
   }
-  return text;
+  return csv_text(table, titles);
 }
 
 }  // namespace talus

@@ -20,8 +20,7 @@ std::string events_text(const RunView& run, std::size_t largest);
 std::string events_json(const RunView& run);
 
 /// A line for each event, with the columns of the table of quantities; SI units, radians, empty where there
-/// is no value. The line of their names, with units, is the same for all runs.
-std::string events_csv_head();
-std::string events_csv(const RunView& run);
+/// is no value. The line of their titles, with units, is the same for all runs.
+std::string events_csv(const RunView& run, bool titles);
 
 }  // namespace talus

@@ -5,7 +5,7 @@
 
 #include "app/choices.h"
 #include "app/commands.h"
-#include "app/count_progress.h"
+#include "app/progress.h"
 #include "app/event_report.h"
 #include "app/given_runs.h"
 #include "app/terminal.h"
@@ -24,7 +24,7 @@ struct EventsArguments {
 
 std::string text_of(const EventsArguments& arguments, const RunView& run, bool first) {
   if (arguments.json) return (first ? "[" : ",\n") + events_json(run);
-  if (arguments.csv) return (first ? events_csv_head() : std::string()) + events_csv(run);
+  if (arguments.csv) return events_csv(run, first);
   return (first ? "" : "\n") + events_text(run, arguments.largest);
 }
 

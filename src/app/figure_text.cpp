@@ -4,49 +4,35 @@
 #include <cmath>
 #include <fmt/core.h>
 
+#include "app/json.h"
 #include "core/hash.h"
 #include "core/text.h"
 #include "core/version.h"
 #include "figures/scripts.h"
-#include "scenario/json.h"
+#include "scenario/text.h"
 
 namespace talus {
 namespace {
 
-using json::quoted;
-
 /// What the scripts of all figures share, in the order in which one builds on the other.
 constexpr std::string_view common_scripts[] = {"style", "text", "axes", "key", "maps"};
 
-std::string list_of(const std::vector<std::string>& values, int depth) {
-  const std::string margin(2 * static_cast<std::size_t>(depth), ' ');
-  std::string text = "[";
-  for (const std::string& value : values)
-    text += fmt::format("{}{}  {}", text.size() > 1 ? ",\n" : "\n", margin, value);
-  return values.empty() ? "[]" : fmt::format("{}\n{}]", text, margin);
-}
-
-std::string table_json(const Figure& figure, const Table& table) {
-  std::vector<std::string> columns;
+Json table_json(const Figure& figure, const Table& table) {
+  Json columns = Json::array();
   for (const Column& column : table.columns)
-    columns.push_back(json::object(
-        {{"name", quoted(column.name)}, {"unit", quoted(column.unit)}, {"meaning", quoted(column.meaning)}},
-        4));
-  return json::object({{"file", quoted(file_of(figure, table))}, {"columns", list_of(columns, 3)}}, 2);
+    columns.push_back({{"name", column.name}, {"unit", column.unit}, {"meaning", column.meaning}});
+  return {{"file", file_of(figure, table)}, {"columns", columns}};
 }
 
-std::string run_json(const RunView& run, const std::string& group) {
+Json run_json(const RunView& run, const std::string& group) {
   const std::string& scenario = run.scenario_text;
-  json::Members parameters;
-  for (const auto& [name, value] : run.analysis.parameters) parameters.emplace_back(name, quoted(value));
-  return json::object({{"path", quoted(run.path)},
-                       {"group", quoted(group)},
-                       {"seed", json::number(run.scenario.seed)},
-                       {"state_hash", quoted(run.state_hash)},
-                       {"scenario_hash", quoted(hash_text(hash_bytes(std::as_bytes(std::span(scenario)))))},
-                       {"analysis_key", quoted(run.analysis.key)},
-                       {"analysis", json::object(parameters, 3)}},
-                      2);
+  return {{"path", run.path},
+          {"group", group},
+          {"seed", run.scenario.seed},
+          {"state_hash", run.state_hash},
+          {"scenario_hash", hash_text(hash_bytes(std::as_bytes(std::span(scenario))))},
+          {"analysis_key", run.analysis.key},
+          {"analysis", object_of(run.analysis.parameters)}};
 }
 
 }  // namespace
@@ -68,19 +54,19 @@ std::string csv_text(const Table& table) {
 
 std::string provenance_json(const Figure& figure, std::span<const RunGroup> groups,
                             const std::string& command_line) {
-  std::vector<std::string> runs, tables;
+  Json runs = Json::array(), tables = Json::array();
   for (const RunGroup& group : groups)
     for (const RunView& run : group.runs)
       if (std::ranges::find(figure.runs, run.path) != figure.runs.end())
         runs.push_back(run_json(run, group.label));
   for (const Table& table : figure.tables) tables.push_back(table_json(figure, table));
-  return json::object({{"figure", quoted(figure.name)},
-                       {"title", quoted(figure.title)},
-                       {"caption", quoted(figure.caption)},
-                       {"version", quoted(version_text())},
-                       {"command", quoted(command_line)},
-                       {"runs", list_of(runs, 1)},
-                       {"tables", list_of(tables, 1)}}) +
+  return json_text({{"figure", figure.name},
+                    {"title", figure.title},
+                    {"caption", figure.caption},
+                    {"version", version_text()},
+                    {"command", command_line},
+                    {"runs", runs},
+                    {"tables", tables}}) +
          "\n";
 }
 

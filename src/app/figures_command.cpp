@@ -10,10 +10,10 @@
 #include "app/choices.h"
 #include "app/command_line.h"
 #include "app/commands.h"
-#include "app/count_progress.h"
 #include "app/figure_files.h"
 #include "app/figure_runs.h"
 #include "app/gnuplot.h"
+#include "app/progress.h"
 #include "app/stop_signals.h"
 #include "app/terminal.h"
 #include "core/errors.h"
@@ -107,7 +107,7 @@ void make(const FiguresArguments& arguments) {
   parse_analysis_settings(arguments.settings);  // before anything is read
   require_gnuplot();
   AnalysisOptions analysis = arguments.analysis;
-  analysis.progress = count_shown("analysis", arguments.quiet);
+  if (!arguments.quiet) analysis.progress = count_shown("analysis", false);
   FigureInput input = read_figure_input(arguments.runs, arguments.settings, analysis);
   const std::vector<RunGroup> groups = group_runs(std::move(input.runs));
   const std::vector<Figure> figures = make_figures(recipes, groups);
@@ -115,11 +115,12 @@ void make(const FiguresArguments& arguments) {
   const OutputRule rule{arguments.overwrite, input.files};
   for (const Figure& figure : figures)
     for (const std::string& file : figure_files(figure)) output_target((folder / file).string(), rule);
-  CountProgress progress("figures", figures.size(), arguments.quiet);
+  const CountDone progress = count_shown("figures", arguments.quiet);
+  progress(0, figures.size());
   for (std::size_t k = 0; k < figures.size(); ++k) {
     stop_if_asked();
     write_figure(figures[k], groups, arguments.folder, {arguments.columns, command_line()});
-    progress.show(k + 1);
+    progress(k + 1, figures.size());
   }
   for (const Figure& figure : figures) print("%-34s %s\n", figure.name.c_str(), figure.title.c_str());
   print("%zu figure%s in %s: .pdf, .svg, .png; data in .csv, provenance in .json, script in .gp\n",

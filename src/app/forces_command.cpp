@@ -7,13 +7,14 @@
 
 #include "app/choices.h"
 #include "app/commands.h"
+#include "app/json.h"
 #include "app/terminal.h"
 #include "core/errors.h"
+#include "core/text_table.h"
 #include "core/trigonometry.h"
 #include "pictures/frame_choice.h"
 #include "problems/admissible_forces.h"
 #include "runs/analysis_parameters.h"
-#include "scenario/json.h"
 
 namespace talus {
 namespace {
@@ -34,56 +35,42 @@ FrameChoice choose_frames(const ForcesArguments& arguments, const RunFile& run) 
   return frames_at(run.frame_tilts(), arguments.at, theta_c);
 }
 
-json::Members json_quantity(const ForceQuantity& quantity) {
-  return {{"quantity", json::quoted(quantity.name)},
-          {"threshold_factor", quantity.factor > 0.0 ? json::number(quantity.factor) : "null"}};
+Json json_set(const ForceSet& set) {
+  return {{"start", name_of(set.attempt)},
+          {"iterations", set.report.iterations},
+          {"eta", set.report.residual.eta},
+          {"converged", set.report.converged},
+          {"admissible", set.admissible()},
+          {"momentum_left", set.momentum_left},
+          {"unbalanced", set.unbalanced},
+          {"distance", set.distance},
+          {"values", set.values}};
 }
 
-template <typename Items, typename Text>
-std::string json_list(const Items& items, const Text& text) {
-  std::string list;
-  for (std::size_t i = 0; i < items.size(); ++i) list += (i > 0 ? ", " : "") + text(i);
-  return fmt::format("[{}]", list);
-}
-
-std::string json_set(const ForceSet& set) {
-  using json::number;
-  return json::object(
-      {{"start", json::quoted(name_of(set.attempt))},
-       {"iterations", number(set.report.iterations)},
-       {"eta", number(set.report.residual.eta)},
-       {"converged", json::truth(set.report.converged)},
-       {"admissible", json::truth(set.admissible())},
-       {"momentum_left", number(set.momentum_left)},
-       {"unbalanced", number(set.unbalanced)},
-       {"distance", number(set.distance)},
-       {"values", json_list(set.values, [&](std::size_t q) { return number(set.values[q]); })}},
-      2);
-}
-
-std::string json_spread(const FrameForces& forces, std::size_t q) {
-  using json::number;
+Json json_spread(const FrameForces& forces, std::size_t q) {
+  const ForceQuantity& quantity = forces.quantities[q];
   const ForceSpread& spread = forces.spreads[q];
-  json::Members members = json_quantity(forces.quantities[q]);
-  members.insert(members.end(), {{"stored", number(forces.stored[q])},
-                                 {"count", number(spread.count)},
-                                 {"mean", number(spread.mean)},
-                                 {"deviation", number(spread.deviation)},
-                                 {"least", number(spread.least)},
-                                 {"largest", number(spread.largest)}});
-  return json::object(members, 2);
+  return {{"quantity", quantity.name},
+          {"threshold_factor", quantity.factor > 0.0 ? Json(quantity.factor) : Json()},
+          {"stored", forces.stored[q]},
+          {"count", spread.count},
+          {"mean", spread.mean},
+          {"deviation", spread.deviation},
+          {"least", spread.least},
+          {"largest", spread.largest}};
 }
 
-std::string json_frame(const FrameForces& forces, std::size_t k) {
-  return json::object(
-      {{"frame", json::number(k)},
-       {"tilt_deg", json::number(degrees(forces.tilt))},
-       {"contacts", json::number(forces.contacts)},
-       {"others", json::number(forces.sets.size() - 1)},
-       {"admissible", json::number(forces.admissible())},
-       {"spreads", json_list(forces.spreads, [&](std::size_t q) { return json_spread(forces, q); })},
-       {"solutions", json_list(forces.sets, [&](std::size_t s) { return json_set(forces.sets[s]); })}},
-      1);
+Json json_frame(const FrameForces& forces, std::size_t k) {
+  Json json = {{"frame", k},
+               {"tilt_deg", degrees(forces.tilt)},
+               {"contacts", forces.contacts},
+               {"others", forces.sets.size() - 1},
+               {"admissible", forces.admissible()},
+               {"spreads", Json::array()},
+               {"solutions", Json::array()}};
+  for (std::size_t q = 0; q < forces.spreads.size(); ++q) json["spreads"].push_back(json_spread(forces, q));
+  for (const ForceSet& set : forces.sets) json["solutions"].push_back(json_set(set));
+  return json;
 }
 
 std::string title(const ForceQuantity& quantity) {
@@ -93,37 +80,50 @@ std::string title(const ForceQuantity& quantity) {
 
 const char* verdict_of(const ForceSet& set) {
   if (set.admissible()) return "";
-  return set.report.converged ? "  lets grains go, not counted" : "  not converged, not counted";
+  return set.report.converged ? "lets grains go, not counted" : "not converged, not counted";
 }
 
-void print_sets(const FrameForces& forces) {
-  print("  %-28s %10s %9s %9s %10s %9s %8s %8s %8s\n", "start", "iterations", "eta", "momentum", "unbalanced",
-        "distance", "Gamma", "p_o", "lc_mean");
+std::string sets_text(const FrameForces& forces) {
+  TextTable table{{{"start"}}, {}};
+  for (const char* title :
+       {"iterations", "eta", "momentum", "unbalanced", "distance", "Gamma", "p_o", "lc_mean"})
+    table.columns.push_back({title, true});
+  table.columns.push_back({""});
   for (const ForceSet& set : forces.sets)
-    print("  %-28s %10d %9.1e %9.1e %10d %9.3f %8.4f %8.4f %8.3f%s\n", name_of(set.attempt).c_str(),
-          set.report.iterations, set.report.residual.eta, set.momentum_left, set.unbalanced, set.distance,
-          set.values[0], set.values[2], set.values[3], verdict_of(set));
+    table.rows.push_back({{name_of(set.attempt)},
+                          {std::to_string(set.report.iterations)},
+                          {fmt::format("{:.1e}", set.report.residual.eta)},
+                          {fmt::format("{:.1e}", set.momentum_left)},
+                          {std::to_string(set.unbalanced)},
+                          {fmt::format("{:.3f}", set.distance)},
+                          {number_cell("{:.4f}", set.values[0])},
+                          {number_cell("{:.4f}", set.values[2])},
+                          {number_cell("{:.3f}", set.values[3])},
+                          {verdict_of(set)}});
+  return aligned_text(table, 2);
 }
 
-void print_spreads(const FrameForces& forces) {
-  print("  %-30s %10s %10s %10s %10s %10s\n", "quantity", "stored", "mean", "deviation", "least", "largest");
+std::string spreads_text(const FrameForces& forces) {
+  TextTable table{{{"quantity"}}, {}};
+  for (const char* title : {"stored", "mean", "deviation", "least", "largest"})
+    table.columns.push_back({title, true});
   for (std::size_t q = 0; q < forces.quantities.size(); ++q) {
     const ForceSpread& spread = forces.spreads[q];
-    if (spread.count == 0) {
-      print("  %-30s %10.5f       none\n", title(forces.quantities[q]).c_str(), forces.stored[q]);
-      continue;
-    }
-    print("  %-30s %10.5f %10.5f %10.5f %10.5f %10.5f\n", title(forces.quantities[q]).c_str(),
-          forces.stored[q], spread.mean, spread.deviation, spread.least, spread.largest);
+    auto& row = table.rows.emplace_back();
+    row = {{title(forces.quantities[q])}, {number_cell("{:.5f}", forces.stored[q])}};
+    if (spread.count == 0)
+      row.push_back({"none"});
+    else
+      for (const double value : {spread.mean, spread.deviation, spread.least, spread.largest})
+        row.push_back({number_cell("{:.5f}", value)});
   }
+  return aligned_text(table, 2);
 }
 
 void print_frame(const FrameForces& forces, std::size_t k, const ForceSearch& search) {
   print("frame %zu at %.3f deg, %d contacts: %d of %d other sets of forces are admissible (eta %.1e)\n", k,
         degrees(forces.tilt), forces.contacts, forces.admissible(), search.solutions, search.tolerance);
-  print_sets(forces);
-  print("\n");
-  print_spreads(forces);
+  print_text(fmt::format("{}\n{}", sets_text(forces), spreads_text(forces)));
 }
 
 void compare(const ForcesArguments& arguments) {
@@ -135,7 +135,7 @@ void compare(const ForcesArguments& arguments) {
     const FrameForces forces = admissible_forces(run, frames[i], parameters, arguments.search);
     if (i > 0) print(arguments.json ? ",\n" : "\n");
     if (arguments.json)
-      print_text(json_frame(forces, frames[i]));
+      print_text(json_text(json_frame(forces, frames[i])));
     else
       print_frame(forces, frames[i], arguments.search);
     std::fflush(stdout);

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <fmt/core.h>
 
-#include "app/count_progress.h"
+#include "app/progress.h"
 #include "app/figure_runs.h"
 #include "core/errors.h"
 #include "ensemble/averages_reader.h"

@@ -10,12 +10,12 @@
 
 #include "app/analysis_report.h"
 #include "app/commands.h"
+#include "app/json.h"
 #include "app/terminal.h"
 #include "core/errors.h"
 #include "core/hash.h"
 #include "core/trigonometry.h"
 #include "io/run_file.h"
-#include "scenario/json.h"
 #include "scenario/scenario.h"
 #include "session/command.h"
 #include "session/run_header.h"
@@ -119,52 +119,38 @@ RunInfo look_at(const std::string& path) {
   return info;
 }
 
-json::Members as_json(const Figures& figures) {
-  json::Members members;
-  for (const auto& [name, value] : figures) members.emplace_back(name, json::number(value));
-  return members;
-}
-
-json::Members as_json(const Facts& facts) {
-  json::Members members;
-  for (const auto& [name, value] : facts) members.emplace_back(name, json::quoted(value));
-  return members;
-}
-
 void print_json(const RunInfo& info) {
-  using json::number, json::quoted;
-  const std::string text = json::object({
-      {"path", quoted(info.path)},
-      {"complete", json::truth(info.complete)},
-      {"seed", number(info.seed)},
-      {"grains", number(info.grains)},
-      {"floor_grains", number(info.floor_grains)},
-      {"frames", number(info.frames)},
-      {"frames_after_failure", number(info.flow_frames)},
-      {"tilt_first_deg", number(degrees(info.tilt_first))},
-      {"tilt_last_deg", number(degrees(info.tilt_last))},
-      {"tilt_lowest_deg", number(degrees(info.tilt_lowest))},
-      {"tilt_highest_deg", number(degrees(info.tilt_highest))},
-      {"tilt_deg", number(degrees(info.tilt))},
-      {"theta_c_deg", number(degrees(figure(info.results, "theta_c")))},
-      {"theta_r_deg", number(degrees(figure(info.results, "theta_r")))},
-      {"solver_tolerance", number(info.solver_tolerance)},
-      {"residual_max", number(info.residual_max)},
-      {"unconverged_steps", number(info.unconverged_steps)},
-      {"steps", number(info.steps)},
-      {"commands", number(info.commands.size())},
-      {"state_hash", quoted(info.state_hash)},
-      {"branch_of", info.branch ? quoted(info.branch->run) : "null"},
-      {"branch_frame", info.branch ? number(info.branch->frame) : "null"},
-      {"branch_step", info.branch ? number(info.branch->start.world.step) : "null"},
-      {"branch_run_hash", info.branch ? quoted(info.branch->run_hash) : "null"},
-      {"talus_version", quoted(fact(info.provenance, "version"))},
-      {"git_hash", quoted(fact(info.provenance, "git_hash"))},
-      {"results", json::object(as_json(info.results), 1)},
-      {"timing", json::object(as_json(info.timing), 1)},
-      {"provenance", json::object(as_json(info.provenance), 1)},
-  });
-  print("%s\n", text.c_str());
+  const std::optional<BranchOrigin>& branch = info.branch;
+  const Json json = {{"path", info.path},
+                     {"complete", info.complete},
+                     {"seed", info.seed},
+                     {"grains", info.grains},
+                     {"floor_grains", info.floor_grains},
+                     {"frames", info.frames},
+                     {"frames_after_failure", info.flow_frames},
+                     {"tilt_first_deg", degrees(info.tilt_first)},
+                     {"tilt_last_deg", degrees(info.tilt_last)},
+                     {"tilt_lowest_deg", degrees(info.tilt_lowest)},
+                     {"tilt_highest_deg", degrees(info.tilt_highest)},
+                     {"tilt_deg", degrees(info.tilt)},
+                     {"theta_c_deg", degrees(figure(info.results, "theta_c"))},
+                     {"theta_r_deg", degrees(figure(info.results, "theta_r"))},
+                     {"solver_tolerance", info.solver_tolerance},
+                     {"residual_max", info.residual_max},
+                     {"unconverged_steps", info.unconverged_steps},
+                     {"steps", info.steps},
+                     {"commands", info.commands.size()},
+                     {"state_hash", info.state_hash},
+                     {"branch_of", branch ? Json(branch->run) : Json()},
+                     {"branch_frame", branch ? Json(branch->frame) : Json()},
+                     {"branch_step", branch ? Json(branch->start.world.step) : Json()},
+                     {"branch_run_hash", branch ? Json(branch->run_hash) : Json()},
+                     {"talus_version", fact(info.provenance, "version")},
+                     {"git_hash", fact(info.provenance, "git_hash")},
+                     {"results", object_of(info.results)},
+                     {"timing", object_of(info.timing)},
+                     {"provenance", object_of(info.provenance)}};
+  print("%s\n", json_text(json).c_str());
 }
 
 /// What it says may come from the file.

@@ -1,7 +1,6 @@
 /// `talus maps`: the maps, traces and colours that there are, as tables.
 
 #include <algorithm>
-#include <cstdio>
 #include <fmt/core.h>
 #include <sstream>
 #include <vector>
@@ -11,6 +10,7 @@
 #include "app/help_text.h"
 #include "app/terminal.h"
 #include "core/text.h"
+#include "core/text_table.h"
 #include "pictures/map_kind.h"
 #include "pictures/traces.h"
 #include "render/colour_map.h"
@@ -18,7 +18,7 @@
 namespace talus {
 namespace {
 
-constexpr std::size_t first_width = 15, shows_width = 40, options_width = 21;
+constexpr std::size_t shows_width = 40, options_width = 21;
 
 /// The options that change a map, of those that do not change all.
 std::string options_of(MapKind kind) {
@@ -47,32 +47,27 @@ std::vector<std::string> lines_of(const std::string& text, std::size_t width) {
   return all;
 }
 
-/// A row of a table; a cell takes as many lines as it needs.
-void print_row(std::string_view name, const std::string& shows, const std::string& options) {
-  const std::vector<std::string> left = {std::string(name)}, middle = lines_of(shows, shows_width),
+/// Adds a row; a cell takes as many lines as it needs.
+void add_row(TextTable& table, std::string_view name, std::string_view shows, const std::string& options) {
+  const std::vector<std::string> middle = lines_of(std::string(shows), shows_width),
                                  right = lines_of(options, options_width);
-  const auto line = [](const std::vector<std::string>& cell, std::size_t k) {
-    return k < cell.size() ? cell[k] : std::string();
-  };
-  for (std::size_t k = 0; k < std::max({left.size(), middle.size(), right.size()}); ++k) {
-    std::string text = fmt::format("{:{}}  {:{}}  {}", line(left, k), first_width, line(middle, k),
-                                   shows_width, line(right, k));
-    text.erase(text.find_last_not_of(' ') + 1);
-    print("%s\n", text.c_str());
-  }
+  for (std::size_t k = 0; k < std::max(middle.size(), right.size()); ++k)
+    table.rows.push_back({{k == 0 ? std::string(name) : ""},
+                          {k < middle.size() ? middle[k] : ""},
+                          {k < right.size() ? right[k] : ""}});
 }
 
 void print_maps() {
-  print_row("--map", "shows", "options");
-  for (const MapKind kind : map_kinds())
-    print_row(map_name(kind), std::string(map_help(kind)), options_of(kind));
-  print("\nTwo are overlaid with a plus: --map gamma+forces. Several with commas are several pictures.\n\n");
-  print_row("--trace", "shows", "options");
+  TextTable maps{{{"--map"}, {"shows"}, {"options"}}, {}}, traces{{{"--trace"}, {"shows"}, {"options"}}, {}};
+  for (const MapKind kind : map_kinds()) add_row(maps, map_name(kind), map_help(kind), options_of(kind));
   for (const TraceKind kind : trace_kinds())
-    print_row(trace_name(kind), shown_title(trace_quantity(kind)), options_of(kind));
-  print("\n");
-  print_row("--colours", joined(colour_maps(), ", ", colour_map_name), "");
-  print("\ntalus render, panel, animate, view and run --frames draw them; docs/maps.md shows each.\n");
+    add_row(traces, trace_name(kind), shown_title(trace_quantity(kind)), options_of(kind));
+  print_text(fmt::format(
+      "{}\nTwo are overlaid with a plus: --map gamma+forces. Several with commas are several "
+      "pictures.\n\n{}\n"
+      "--colours: {}\n\ntalus render, panel, animate, view and run --frames draw them; docs/maps.md shows "
+      "each.\n",
+      aligned_text(maps), aligned_text(traces), joined(colour_maps(), ", ", colour_map_name)));
 }
 
 }  // namespace

@@ -5,9 +5,9 @@
 #include <memory>
 
 #include "app/commands.h"
-#include "app/count_progress.h"
 #include "app/map_options.h"
 #include "app/output_files.h"
+#include "app/progress.h"
 #include "app/terminal.h"
 #include "core/errors.h"
 #include "pictures/panel.h"

@@ -1,12 +1,47 @@
 #include "app/progress.h"
 
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/core.h>
+#include <memory>
+
+#include "app/terminal.h"
 #include "core/trigonometry.h"
 #include "session/estimate.h"
 
 namespace talus {
 namespace {
 
-constexpr double seconds_in_log = 10.0;
+constexpr double seconds_on_terminal = 0.1;
+constexpr int usual_columns = 80;  ///< where the terminal does not say
+
+std::string progress_bar(double share) {
+  constexpr int cells = 14;
+  const auto full = static_cast<std::size_t>(cells * share);
+  return fmt::format("[{:#<{}}{:-<{}}]", "", full, "", cells - full);
+}
+
+/// Columns that a line can fill: some terminals wrap when the last one is filled.
+int columns_of_terminal() {
+  winsize size{};
+  const bool known = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+  return (known ? size.ws_col : usual_columns) - 1;
+}
+
+/// What is expected of a run, and where it was when this process began its phase.
+struct RunPace {
+  explicit RunPace(bool quiet) : line(quiet, seconds_on_terminal, 10.0) {}
+
+  StatusLine line;
+  std::optional<double> deposition_steps;  ///< 0: unknown
+  std::optional<double> program_steps;
+  std::optional<Phase> phase;
+  double began = 0.0;       ///< wall seconds
+  double began_with = 0.0;  ///< share of the phase that was done by then
+};
 
 /// Steps until the bed is at rest; 0 where they cannot be estimated without the file that the bed came from.
 double expected_deposition(const Scenario& scenario) {
@@ -14,61 +49,134 @@ double expected_deposition(const Scenario& scenario) {
   return static_cast<double>(estimate(scenario).deposition_steps);
 }
 
-}  // namespace
-
-ProgressLine::ProgressLine(bool quiet) : line_(quiet, seconds_in_log) {}
-
-std::optional<double> ProgressLine::share(const Session& session, RunShown& shown) {
-  switch (shown.phase) {
-    case Phase::deposition:
-      if (!deposition_steps_) deposition_steps_ = expected_deposition(session.scenario());
-      if (*deposition_steps_ == 0.0) return std::nullopt;
-      return static_cast<double>(session.world().step) / *deposition_steps_;
-    case Phase::tilt: {
-      const std::optional<double> end = session.scenario().tilt.end_angle;
-      const TiltProgram& program = session.program();
-      if (session.follows_program()) {
-        if (program.ends_at_repose()) shown.repose_assumed = assumed_repose;
-        if (!program_steps_) program_steps_ = static_cast<double>(expected_tilt_steps(session.scenario()));
-        return static_cast<double>(session.schedule().tilt_steps) / *program_steps_;
-      }
-      if (!end) shown.repose_assumed = assumed_repose;
-      return shown.tilt / end.value_or(assumed_repose);
-    }
-    case Phase::flow:
-    case Phase::done:
-      break;
+/// How far the phase is; above 1 where it takes longer than expected, none where nothing is known.
+std::optional<double> share_of(const Session& session, RunPace& pace) {
+  const Scenario& scenario = session.scenario();
+  if (session.phase() == Phase::deposition) {
+    if (!pace.deposition_steps) pace.deposition_steps = expected_deposition(scenario);
+    if (*pace.deposition_steps == 0.0) return std::nullopt;
+    return static_cast<double>(session.world().step) / *pace.deposition_steps;
   }
-  return std::nullopt;
+  if (session.phase() == Phase::flow) return std::nullopt;
+  if (!session.follows_program())
+    return degrees(session.world().tilt) / scenario.tilt.end_angle.value_or(assumed_repose);
+  if (!pace.program_steps) pace.program_steps = static_cast<double>(expected_tilt_steps(scenario));
+  return static_cast<double>(session.schedule().tilt_steps) / *pace.program_steps;
 }
 
-RunShown ProgressLine::shown(const RunProgress& progress) {
-  const Session& session = progress.session;
+RunShown shown_of(const Session& session, RunPace& pace) {
   const World& world = session.world();
   const StepReport& report = session.last_report();
-  RunShown shown;
-  shown.phase = session.phase() == Phase::done ? Phase::tilt : session.phase();
-  shown.time = world.time;
-  shown.tilt = degrees(world.tilt);
-  shown.residual = report.solver.residual.eta;
-  shown.kinetic_energy = report.motion.kinetic_energy;
-  shown.velocity = report.motion.rms_velocity / (world.gravity * time_step(session.scenario()));
-  shown.contacts = report.contacts;
-  shown.seconds = progress.wall_seconds;
-  shown.share = share(session, shown);
-  if (!shown.share) return shown;
-  if (phase_ != shown.phase) {
-    phase_ = shown.phase;
-    phase_began_ = progress.wall_seconds;
-    phase_began_with_ = *shown.share;
-  }
-  const double pace = (*shown.share - phase_began_with_) / (progress.wall_seconds - phase_began_ + 1e-9);
-  if (pace > 0.0) shown.remaining = (1.0 - *shown.share) / pace;
+  const bool until_failure =
+      session.follows_program() ? session.program().ends_at_repose() : !session.scenario().tilt.end_angle;
+  RunShown shown{.phase = session.phase() == Phase::done ? Phase::tilt : session.phase(),
+                 .time = world.time,
+                 .tilt = degrees(world.tilt),
+                 .share = share_of(session, pace),
+                 .repose_assumed = {},
+                 .residual = report.solver.residual.eta,
+                 .kinetic_energy = report.motion.kinetic_energy,
+                 .velocity = report.motion.rms_velocity / (world.gravity * time_step(session.scenario())),
+                 .contacts = report.contacts};
+  if (shown.phase == Phase::tilt && until_failure) shown.repose_assumed = assumed_repose;
   return shown;
 }
 
-void ProgressLine::show(const RunProgress& progress) {
-  if (line_.is_due()) line_.show(run_progress_text(shown(progress), line_.width()));
+/// Seconds until the end of the phase, at the pace since this process began it.
+std::optional<double> remaining(const RunShown& shown, double elapsed, RunPace& pace) {
+  if (!shown.share) return std::nullopt;
+  if (pace.phase != shown.phase) {
+    pace.phase = shown.phase;
+    pace.began = elapsed;
+    pace.began_with = *shown.share;
+  }
+  const double speed = (*shown.share - pace.began_with) / (elapsed - pace.began + 1e-9);
+  return speed > 0.0 ? std::optional((1.0 - *shown.share) / speed) : std::nullopt;
+}
+
+}  // namespace
+
+std::string progress_text(const Progress& progress, std::optional<int> width) {
+  const std::optional<double>& share = progress.share;
+  std::vector<std::pair<std::string, int>> fields = {{progress.what, 0}};
+  const bool known = share && *share >= 0.0 && *share <= 1.0;
+  if (known && width) fields.emplace_back(progress_bar(*share), 4);
+  if (known) fields.emplace_back(fmt::format("{:.0f} %", std::floor(100.0 * *share)), 3);
+  fields.emplace_back("elapsed " + duration_text(progress.elapsed), 2);
+  if (known && progress.remaining) fields.emplace_back("ETA " + duration_text(*progress.remaining), 1);
+  fields.insert(fields.end(), progress.more.begin(), progress.more.end());
+  const auto columns = static_cast<std::size_t>(std::max(0, width.value_or(1 << 20)));
+  for (int highest = 9;; --highest) {
+    std::string line;
+    for (const auto& [text, rank] : fields)
+      if (rank <= highest) line.append(line.empty() ? "" : "  ").append(text);
+    if (line.size() <= columns || highest == 0) return line.substr(0, columns);
+  }
+}
+
+Progress count_progress(const std::string& label, std::size_t done, std::size_t count, double elapsed) {
+  Progress progress{fmt::format("{} {}/{}", label, done, count), {}, elapsed, {}};
+  if (count > 0) progress.share = static_cast<double>(done) / static_cast<double>(count);
+  if (done > 0 && done < count)
+    progress.remaining = elapsed / static_cast<double>(done) * static_cast<double>(count - done);
+  return progress;
+}
+
+Progress run_progress(const RunShown& shown, double elapsed, std::optional<double> remaining) {
+  const bool deposition = shown.phase == Phase::deposition;
+  Progress progress{deposition                   ? fmt::format("deposition {:.3f} s", shown.time)
+                    : shown.phase == Phase::flow ? fmt::format("flow at {:.3f} deg", shown.tilt)
+                                                 : fmt::format("tilt {:.3f} deg", shown.tilt),
+                    shown.share, elapsed, remaining};
+  if (shown.repose_assumed && shown.share && *shown.share <= 1.0)
+    progress.more.emplace_back(fmt::format("if it fails at {:.0f} deg", *shown.repose_assumed), 6);
+  progress.more.emplace_back(fmt::format("residual {:.1e}", shown.residual), 5);
+  if (deposition)
+    progress.more.emplace_back(fmt::format("contacts {}", shown.contacts), 7);
+  else
+    progress.more.emplace_back(fmt::format("E_kin {:.1e} J", shown.kinetic_energy), 8);
+  progress.more.emplace_back(fmt::format("v = {:.2e} g h", shown.velocity), 7);
+  return progress;
+}
+
+StatusLine::StatusLine(bool quiet, double on_terminal, double in_log)
+    : quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0), interval_(terminal_ ? on_terminal : in_log) {}
+
+bool StatusLine::is_due(bool at_end) const {
+  return !quiet_ && ((at_end && terminal_) || Clock::now() - shown_ >= interval_);
+}
+
+void StatusLine::show(const Progress& progress) {
+  if (quiet_) return;
+  shown_ = Clock::now();
+  print_status(progress_text(progress, terminal_ ? std::optional(columns_of_terminal()) : std::nullopt),
+               terminal_);
+  open_ = terminal_;
+}
+
+void StatusLine::finish() {
+  if (open_) print_error("\n");
+  open_ = false;
+}
+
+CountDone count_shown(std::string label, bool quiet) {
+  return [label = std::move(label), quiet, line = std::shared_ptr<StatusLine>()](std::size_t done,
+                                                                                 std::size_t count) mutable {
+    if (!line) line = std::make_shared<StatusLine>(quiet, seconds_on_terminal, 5.0);
+    const bool last = done > 0 && done == count;
+    if (!line->is_due(last)) return;
+    line->show(count_progress(label, done, count, line->elapsed()));
+    if (last) line->finish();
+  };
+}
+
+std::function<void(const RunProgress&)> run_shown(bool quiet) {
+  return [pace = std::make_shared<RunPace>(quiet)](const RunProgress& progress) {
+    if (!pace->line.is_due()) return;
+    const RunShown shown = shown_of(progress.session, *pace);
+    const double elapsed = progress.wall_seconds;
+    pace->line.show(run_progress(shown, elapsed, remaining(shown, elapsed, *pace)));
+  };
 }
 
 }  // namespace talus

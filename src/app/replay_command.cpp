@@ -104,10 +104,9 @@ void replay_run(const ReplayArguments& arguments) {
   Session session = session_at_start(run.header(), arguments.run);
   session.use_threads(arguments.threads);
   std::optional<RunStore> store = begin_output(arguments, session, run);
-  ProgressLine line(arguments.quiet);
   RunControl control;
   control.stop = stop_request();
-  control.on_step = [&line](const RunProgress& progress) { line.show(progress); };
+  control.on_step = run_shown(arguments.quiet);
   if (!arguments.quiet)
     print("%s: %lld steps, %zu commands\n", arguments.run.c_str(),
           static_cast<long long>(run.checkpoint().world.step), commands.size());
@@ -115,7 +114,7 @@ void replay_run(const ReplayArguments& arguments) {
     const CommitOnSignals commit;
     return replay(session, store ? &*store : nullptr, commands, run.checkpoint().world.step, control);
   }();
-  line.finish();
+  control.on_step = {};  // ends the line
   if (end == RunEnd::stopped)
     throw Error(
         ExitCode::stopped,

@@ -8,13 +8,13 @@
 #include <memory>
 
 #include "app/commands.h"
-#include "app/count_progress.h"
 #include "app/ensemble_workers.h"
 #include "app/figure_files.h"
 #include "app/figure_runs.h"
 #include "app/figure_text.h"
 #include "app/gnuplot.h"
 #include "app/jobs_option.h"
+#include "app/progress.h"
 #include "app/stop_signals.h"
 #include "app/terminal.h"
 #include "core/errors.h"
@@ -125,17 +125,18 @@ ReproductionPictures draw_figures(const ReproductionPlan& plan, const Reproducti
   const std::string into = (fs::path(folder) / "figures").string();
   const auto catalogue = figure_catalogue();
   ReproductionPictures pictures;
-  CountProgress progress("figures", catalogue.size() + 1, false);
+  const CountDone progress = count_shown("figures", false);
+  progress(0, catalogue.size() + 1);
   if (const auto chart = agreement_figure(result))
     pictures.agreement.push_back(drawn(*chart, groups, into, {0, command_of(plan, folder)}));
   for (std::size_t k = 0; k < catalogue.size(); ++k) {
-    progress.show(k + 1);
+    progress(k + 1, catalogue.size() + 1);
     stop_if_asked();
     if (const auto figure = catalogue[k].make(groups))
       part_of(pictures, catalogue[k].subject)
           .push_back(drawn(*figure, groups, into, {0, command_of(*figure, into)}));
   }
-  progress.show(catalogue.size() + 1);
+  progress(catalogue.size() + 1, catalogue.size() + 1);
   return pictures;
 }
 

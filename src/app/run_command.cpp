@@ -217,14 +217,13 @@ void run(const RunArguments& arguments) {
   std::optional<LiveMaps> maps = prepare_maps(arguments, request, resumed);
   OpenRun open = open_run(arguments, request, resumed);
   if (maps) begin_maps(*maps, open, arguments);
-  ProgressLine line(arguments.quiet);
-  control.on_step = [&line](const RunProgress& progress) { line.show(progress); };
+  control.on_step = run_shown(arguments.quiet);
   if (maps) draw_beside(*maps, arguments.threads, open.session, control);
   const RunEnd end = [&] {
     const CommitOnSignals commit;
     return run_to_end(open.session, open.store, control);
   }();
-  line.finish();
+  control.on_step = {};  // ends the line
   if (end == RunEnd::stopped) end_stopped(arguments, open.session.world(), *control.stop != 0);
   print_end(arguments, open.session);
   if (maps) finish_maps(*maps, arguments);

@@ -10,13 +10,14 @@
 
 #include "app/choices.h"
 #include "app/commands.h"
+#include "app/json.h"
 #include "app/moving_step.h"
 #include "app/terminal.h"
 #include "core/output_file.h"
 #include "problems/local_solvers.h"
 #include "problems/problem_file.h"
 #include "problems/siconos_error.h"
-#include "scenario/json.h"
+#include "scenario/text.h"
 
 namespace talus {
 namespace {
@@ -117,30 +118,27 @@ SolveResult solve(const StoredProblem& stored, const SolveArguments& arguments) 
 }
 
 void print_json(const SolveArguments& arguments, const SolveResult& result) {
-  using json::number, json::quoted;
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   const StepTolerance of_run = result.of_run.value_or(StepTolerance{none, none, none});
-  const std::string text = json::object({
-      {"problem", quoted(arguments.problem)},
-      {"solver", quoted(name_of(arguments.settings.kind))},
-      {"form", quoted(result.bodies > 0 ? "bodies" : "local")},
-      {"start", quoted(arguments.cold ? "zero" : "guess")},
-      {"contacts", number(result.contacts)},
-      {"tolerance", number(arguments.settings.tolerance)},
-      {"asked_by", quoted(name_of(arguments.asked_by))},
-      {"converged", json::truth(result.report.converged)},
-      {"iterations", number(result.report.iterations)},
-      {"eta", number(result.report.residual.eta)},
-      {"siconos_error", number(result.siconos_error)},
-      {"largest_residual", number(result.report.residual.largest)},
-      {"carried_weight", number(result.carried_weight)},
-      {"bed_velocity", number(of_run.velocity)},
-      {"run_tolerance", number(of_run.asked)},
-      {"run_tolerance_at_rest", number(of_run.at_rest)},
-      {"seconds", number(result.seconds)},
-      {"ns_per_contact_iteration", number(result.nanoseconds_per_contact())},
-  });
-  print("%s\n", text.c_str());
+  const Json json = {{"problem", arguments.problem},
+                     {"solver", name_of(arguments.settings.kind)},
+                     {"form", result.bodies > 0 ? "bodies" : "local"},
+                     {"start", arguments.cold ? "zero" : "guess"},
+                     {"contacts", result.contacts},
+                     {"tolerance", arguments.settings.tolerance},
+                     {"asked_by", name_of(arguments.asked_by)},
+                     {"converged", result.report.converged},
+                     {"iterations", result.report.iterations},
+                     {"eta", result.report.residual.eta},
+                     {"siconos_error", result.siconos_error},
+                     {"largest_residual", result.report.residual.largest},
+                     {"carried_weight", result.carried_weight},
+                     {"bed_velocity", of_run.velocity},
+                     {"run_tolerance", of_run.asked},
+                     {"run_tolerance_at_rest", of_run.at_rest},
+                     {"seconds", result.seconds},
+                     {"ns_per_contact_iteration", result.nanoseconds_per_contact()}};
+  print("%s\n", json_text(json).c_str());
 }
 
 void print_number(const char* name, const char* format, double value) {

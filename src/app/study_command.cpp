@@ -9,12 +9,12 @@
 #include "app/commands.h"
 #include "app/ensemble_workers.h"
 #include "app/jobs_option.h"
+#include "app/json.h"
 #include "app/terminal.h"
 #include "core/output_file.h"
 #include "ensemble/pool.h"
 #include "ensemble/study_report.h"
 #include "io/durable_file.h"
-#include "scenario/json.h"
 
 namespace talus {
 namespace {
@@ -30,43 +30,37 @@ struct StudyArguments {
   bool json = false;
 };
 
-json::Members runs_json(const StudyResult& result) {
-  json::Members runs;
+Json runs_json(const StudyResult& result) {
+  Json runs = Json::object();
   for (const StudyOutcome& outcome : result.outcomes) {
-    json::Members figures;
-    for (std::size_t k = 0; k < study_quantity_count; ++k)
-      figures.emplace_back(study_fields()[k].name, json::number(outcome.figures[k]));
-    figures.emplace_back("state_hash", json::quoted(outcome.state_hash));
-    figures.emplace_back("version", json::quoted(outcome.version));
-    runs.emplace_back(result.plan.members[outcome.member].name, json::object(figures, 2));
+    Json& run = runs[result.plan.members[outcome.member].name];
+    for (std::size_t k = 0; k < study_quantity_count; ++k) run[study_fields()[k].name] = outcome.figures[k];
+    run["state_hash"] = outcome.state_hash;
+    run["version"] = outcome.version;
   }
   return runs;
 }
 
-std::string comparison_json(const Comparison& found) {
+Json comparison_json(const Comparison& found) {
   static const char* const words[] = {"unknown", "within error", "differs"};
-  return json::object({{"seeds", json::number(found.value.count)},
-                       {"mean", json::number(found.value.mean)},
-                       {"error", json::number(found.value.error)},
-                       {"difference", json::number(found.difference.mean)},
-                       {"difference_error", json::number(found.difference.error)},
-                       {"verdict", json::quoted(words[static_cast<int>(verdict(found.difference))])}},
-                      3);
+  return {{"seeds", found.value.count},
+          {"mean", found.value.mean},
+          {"error", found.value.error},
+          {"difference", found.difference.mean},
+          {"difference_error", found.difference.error},
+          {"verdict", words[static_cast<int>(verdict(found.difference))]}};
 }
 
 std::string study_json(const StudyResult& result) {
-  json::Members variations;
-  for (std::size_t v = 0; v < result.plan.variants.size(); ++v) {
-    json::Members quantities;
+  Json variations = Json::object();
+  for (std::size_t v = 0; v < result.plan.variants.size(); ++v)
     for (std::size_t k = 0; k < study_quantity_count; ++k)
-      quantities.emplace_back(study_fields()[k].name,
-                              comparison_json(compare(result, v, static_cast<StudyQuantity>(k))));
-    variations.emplace_back(result.plan.variants[v].name, json::object(quantities, 2));
-  }
-  return json::object({{"scenario", json::quoted(result.plan.scenario_file)},
-                       {"reference_deg", json::number(result.reference)},
-                       {"variations", json::object(variations, 1)},
-                       {"runs", json::object(runs_json(result), 1)}});
+      variations[result.plan.variants[v].name][study_fields()[k].name] =
+          comparison_json(compare(result, v, static_cast<StudyQuantity>(k)));
+  return json_text({{"scenario", result.plan.scenario_file},
+                    {"reference_deg", result.reference},
+                    {"variations", variations},
+                    {"runs", runs_json(result)}});
 }
 
 void study(const StudyArguments& arguments) {

@@ -27,7 +27,7 @@ struct FolderNames {
   std::map<std::string, int> claims;  ///< the highest of each
 };
 
-FolderNames names_in(const fs::path& folder) {
+FolderNames members_named_in(const fs::path& folder) {
   FolderNames names;
   std::error_code error;  // a folder that is not there has no members yet
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
@@ -66,7 +66,7 @@ std::vector<MemberState> look_at_members(const EnsemblePlan& plan) {
     const fs::path path = member.path;
     const std::string folder = path.parent_path().string();
     auto found = folders.find(folder);
-    if (found == folders.end()) found = folders.emplace(folder, names_in(folder)).first;
+    if (found == folders.end()) found = folders.emplace(folder, members_named_in(folder)).first;
     states.push_back(state_of(found->second, path.stem().string()));
   }
   return states;

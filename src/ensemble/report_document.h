@@ -6,26 +6,9 @@
 #include <variant>
 #include <vector>
 
+#include "core/text_table.h"
+
 namespace talus {
-
-/// How a cell is marked, beside its words.
-enum class Tone { plain, good, bad, muted };
-
-struct ReportCell {
-  std::string text;
-  std::string note = {};  ///< a second line, smaller
-  Tone tone = Tone::plain;
-};
-
-struct ReportColumn {
-  std::string title;
-  bool numbers = false;  ///< set to the right
-};
-
-struct ReportTable {
-  std::vector<ReportColumn> columns;
-  std::vector<std::vector<ReportCell>> rows;
-};
 
 struct ReportHeading {
   int level = 2;
@@ -50,7 +33,7 @@ struct ReportPicture {
 };
 
 using ReportBlock = std::variant<ReportHeading, ReportContents, ReportParagraph, ReportList, ReportCommands,
-                                 ReportTable, ReportPicture>;
+                                 TextTable, ReportPicture>;
 
 /// Texts are plain; `words between backticks` are set as code.
 struct ReportDocument {

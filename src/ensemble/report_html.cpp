@@ -82,7 +82,7 @@ std::string element(const std::string& tag, const std::string& inside, const std
   return fmt::format("<{0}{1}>{2}</{0}>", tag, attribute, inside);
 }
 
-std::string cell_html(const ReportCell& cell, bool number) {
+std::string cell_html(const TextCell& cell, bool number) {
   std::string classes = number ? "number" : "";
   if (cell.tone != Tone::plain) classes.append(classes.empty() ? "" : " ").append(class_of(cell.tone));
   std::string inside = escaped(cell.text);
@@ -131,10 +131,10 @@ struct HtmlWriter {
     for (const std::string& line : commands.lines) text += escaped(line) + "\n";
     return text + "</pre>\n";
   }
-  std::string operator()(const ReportTable& table) const {
+  std::string operator()(const TextTable& table) const {
     std::string text = "<div class=\"wide\"><table>\n<thead><tr>";
-    for (const auto& [title, numbers] : table.columns)
-      text += element("th", escaped(title), numbers ? "number" : "");
+    for (const TextColumn& column : table.columns)
+      text += element("th", escaped(column.title), column.numbers ? "number" : "");
     text += "</tr></thead>\n<tbody>\n";
     for (const auto& row : table.rows) {
       text += "<tr>";

@@ -22,7 +22,7 @@ std::string three_digits(double value) {
 std::string unit_text(std::string_view unit) { return unit == "1" ? "" : fmt::format(" {}", unit); }
 
 /// "about 3.5", and below it how far off a value may be, and where it stands.
-ReportCell paper_cell(const PaperValue& paper) {
+TextCell paper_cell(const PaperValue& paper) {
   std::string note;
   if (paper.relation == Relation::equals)
     note = fmt::format("{:.3g} ± {:.2g}{}; ", paper.value, paper.accuracy, unit_text(paper.unit));
@@ -41,15 +41,15 @@ std::string bed_text(const Variant& bed) {
                      short_text(bed.scenario.bed.length));
 }
 
-ReportTable beds_table(const ReproductionResult& result) {
-  ReportTable table{{{"bed"},
-                     {"H", true},
-                     {"grains", true},
-                     {"preparation"},
-                     {"seeds complete", true},
-                     {"theta_c [deg]", true},
-                     {"processor time", true}},
-                    {}};
+TextTable beds_table(const ReproductionResult& result) {
+  TextTable table{{{"bed"},
+                   {"H", true},
+                   {"grains", true},
+                   {"preparation"},
+                   {"seeds complete", true},
+                   {"theta_c [deg]", true},
+                   {"processor time", true}},
+                  {}};
   for (std::size_t b = 0; b < result.plan.variants.size(); ++b) {
     const Variant& bed = result.plan.variants[b];
     const auto outcomes = outcomes_of(result, b);
@@ -124,43 +124,43 @@ std::vector<ReportBlock> rule_blocks() {
       }}};
 }
 
-std::vector<ReportColumn> value_columns(const ReproductionPlan& plan, bool by_reading) {
-  std::vector<ReportColumn> columns = {{"quantity"}, {"paper"}};
+std::vector<TextColumn> value_columns(const ReproductionPlan& plan, bool by_reading) {
+  std::vector<TextColumn> columns = {{"quantity"}, {"paper"}};
   if (by_reading) columns.push_back({"overloaded are"});
   for (const std::size_t b : periodic_beds(plan))
     columns.push_back({preparation_text(plan.variants[b]), true});
   return columns;
 }
 
-std::vector<ReportCell> value_cells(const ReproductionResult& result, const PaperValue& paper,
-                                    const Reading& reading) {
-  std::vector<ReportCell> cells;
+std::vector<TextCell> value_cells(const ReproductionResult& result, const PaperValue& paper,
+                                  const Reading& reading) {
+  std::vector<TextCell> cells;
   for (const std::size_t b : periodic_beds(result.plan))
     cells.push_back(judged_cell(paper, spread_of(result, b, paper.quantity, reading),
                                 result.plan.variants[b].scenario.bed.depth));
   return cells;
 }
 
-ReportTable packing_table(const ReproductionResult& result) {
-  ReportTable table{value_columns(result.plan, false), {}};
+TextTable packing_table(const ReproductionResult& result) {
+  TextTable table{value_columns(result.plan, false), {}};
   for (const PaperValue& paper : packing_values()) {
-    std::vector<ReportCell> row = {{name_text(paper)}, paper_cell(paper)};
+    std::vector<TextCell> row = {{name_text(paper)}, paper_cell(paper)};
     std::ranges::move(value_cells(result, paper, base_readings().back()), std::back_inserter(row));
     table.rows.push_back(std::move(row));
   }
   return table;
 }
 
-ReportTable chain_table(const ReproductionResult& result) {
-  ReportTable table{value_columns(result.plan, true), {}};
+TextTable chain_table(const ReproductionResult& result) {
+  TextTable table{value_columns(result.plan, true), {}};
   for (const PaperValue& paper : chain_values()) {
     const bool by_reading = paper.quantity != PaperQuantity::theta_d_by_dilation;
     const std::span<const Reading> all = base_readings();
     for (const Reading& reading : by_reading ? all : all.first(1)) {
       const bool first = &reading == &all.front();
-      std::vector<ReportCell> row = {{first ? name_text(paper) : ""},
-                                     first ? paper_cell(paper) : ReportCell{""},
-                                     {by_reading ? reading.base : "none needed"}};
+      std::vector<TextCell> row = {{first ? name_text(paper) : ""},
+                                   first ? paper_cell(paper) : TextCell{""},
+                                   {by_reading ? reading.base : "none needed"}};
       std::ranges::move(value_cells(result, paper, reading), std::back_inserter(row));
       table.rows.push_back(std::move(row));
     }
@@ -168,8 +168,8 @@ ReportTable chain_table(const ReproductionResult& result) {
   return table;
 }
 
-ReportTable wall_table(const ReproductionResult& result) {
-  ReportTable table{{{"bed"}, {"quantity"}, {"paper"}, {"ours", true}}, {}};
+TextTable wall_table(const ReproductionResult& result) {
+  TextTable table{{{"bed"}, {"quantity"}, {"paper"}, {"ours", true}}, {}};
   for (const PaperValue& general : wall_values())
     for (std::size_t b = 0; b < result.plan.variants.size(); ++b) {
       const Variant& bed = result.plan.variants[b];
@@ -193,8 +193,8 @@ ReportTable wall_table(const ReproductionResult& result) {
   return table;
 }
 
-ReportTable definition_table() {
-  ReportTable table{{{"quantity"}, {"how ours is measured"}, {"data set of a run file"}}, {}};
+TextTable definition_table() {
+  TextTable table{{{"quantity"}, {"how ours is measured"}, {"data set of a run file"}}, {}};
   for (const PaperValue& paper : paper_values)
     table.rows.push_back({{std::string(paper.name)},
                           {std::string(paper.definition)},
@@ -256,7 +256,7 @@ std::string spread_text(const Spread& spread) {
   return text;
 }
 
-ReportCell judged_cell(const PaperValue& paper, const Spread& ours, double depth) {
+TextCell judged_cell(const PaperValue& paper, const Spread& ours, double depth) {
   const Judgement judgement = judge(paper, ours, depth);
   const Tone tones[] = {Tone::good, Tone::bad, Tone::bad, Tone::muted};
   return {spread_text(ours), judgement_text(judgement), tones[static_cast<std::size_t>(judgement.agreement)]};

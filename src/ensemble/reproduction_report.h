@@ -46,6 +46,6 @@ std::string preparation_text(const Variant& bed);
 std::string spread_text(const Spread& spread);
 
 /// A value of ours with its verdict below it.
-ReportCell judged_cell(const PaperValue& paper, const Spread& ours, double depth);
+TextCell judged_cell(const PaperValue& paper, const Spread& ours, double depth);
 
 }  // namespace talus

@@ -6,14 +6,12 @@
 #include <set>
 
 #include "core/text.h"
-#include "core/visible_text.h"
+#include "core/text_table.h"
 #include "ensemble/plus_minus.h"
 #include "scenario/text.h"
 
 namespace talus {
 namespace {
-
-using TextTable = std::vector<std::vector<std::string>>;
 
 std::vector<StudyQuantity> quantities_of(std::initializer_list<StudyGroup> groups) {
   std::vector<StudyQuantity> quantities;
@@ -70,43 +68,6 @@ std::string cell(const StudyResult& result, std::size_t variation, StudyQuantity
   return mean_text(found.value, field_of(quantity).factor, result.plan.seeds.size());
 }
 
-/// Characters of UTF-8 text.
-std::size_t width(const std::string& text) {
-  return static_cast<std::size_t>(
-      std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
-}
-
-/// A text of a user in a line of Markdown, where it is no HTML, no link and no column of its own.
-std::string plain_markdown(const std::string& text) {
-  std::string plain;
-  for (const char c : visible(text)) {
-    if (c == '<' || c == '&')
-      plain += c == '<' ? "&lt;" : "&amp;";
-    else if (c == '\n')
-      plain += ' ';
-    else
-      plain += (std::string_view("[]|*`").find(c) == std::string_view::npos ? "" : "\\") + std::string(1, c);
-  }
-  return plain;
-}
-
-/// A Markdown table with its columns one below the other; the first row is the head.
-std::string table_text(const TextTable& table) {
-  std::vector<std::size_t> widths(table.front().size(), 3);
-  for (const auto& row : table)
-    for (std::size_t k = 0; k < row.size(); ++k) widths[k] = std::max(widths[k], width(row[k]));
-  std::string text;
-  for (const auto& row : table) {
-    for (std::size_t k = 0; k < row.size(); ++k)
-      text += fmt::format("| {}{:{}}", row[k], "", widths[k] - width(row[k]) + 1);
-    text += "|\n";
-    if (&row != &table.front()) continue;
-    for (const std::size_t w : widths) text += fmt::format("|{:-<{}}", "", w + 2);
-    text += "|\n";
-  }
-  return text + "\n";
-}
-
 /// One row for each variation from `first` on, one column for each quantity that any run has.
 template <typename Cell>
 std::string table_of(const StudyResult& result, const std::vector<StudyQuantity>& quantities,
@@ -114,13 +75,14 @@ std::string table_of(const StudyResult& result, const std::vector<StudyQuantity>
   std::vector<StudyQuantity> known;
   for (const StudyQuantity quantity : quantities)
     if (is_known(result, quantity)) known.push_back(quantity);
-  TextTable table = {{"variation"}};
-  for (const StudyQuantity quantity : known) table.front().push_back(field_of(quantity).title);
+  TextTable table{{{"variation"}}, {}};
+  for (const StudyQuantity quantity : known) table.columns.push_back({field_of(quantity).title});
   for (std::size_t v = first; v < result.plan.variants.size(); ++v) {
-    table.push_back({plain_markdown(result.plan.variants[v].name)});
-    for (const StudyQuantity quantity : known) table.back().push_back(cell_text(v, quantity));
+    auto& row = table.rows.emplace_back();
+    row.push_back({markdown_escaped(result.plan.variants[v].name)});
+    for (const StudyQuantity quantity : known) row.push_back({cell_text(v, quantity)});
   }
-  return table_text(table);
+  return markdown_text(table) + "\n";
 }
 
 std::string introduction(const StudyResult& result) {
@@ -130,9 +92,9 @@ std::string introduction(const StudyResult& result) {
   std::string text = fmt::format(
       "# Study of {}\n\n{} of {} runs complete; seeds {}. Values are means over seeds ± standard error; "
       "worst residuals are the largest of all seeds.\n",
-      plain_markdown(plan.scenario_file), result.outcomes.size(), plan.members.size(),
+      markdown_escaped(plan.scenario_file), result.outcomes.size(), plan.members.size(),
       joined(plan.seeds, ", "));
-  if (!plan.baseline.empty()) text += fmt::format("Baseline: {}.\n", plain_markdown(plan.baseline));
+  if (!plan.baseline.empty()) text += fmt::format("Baseline: {}.\n", markdown_escaped(plan.baseline));
   for (const std::string& version : versions) text += fmt::format("Computed by Talus {}.\n", version);
   if (versions.size() > 1)
     text += "**Runs of several versions stand side by side: differences may be theirs.**\n";
@@ -164,19 +126,18 @@ std::string differences(const StudyResult& result) {
 }  // namespace
 
 std::string study_csv(const StudyResult& result) {
-  std::vector<std::string> head = {"variation", "seed"};
-  for (const StudyField& field : study_fields()) head.emplace_back(field.name);
-  head.insert(head.end(), {"reference_deg", "state_hash", "version"});
-  std::string text = joined(head, ",") + "\n";
+  TextTable table{{{"variation"}, {"seed"}}, {}};
+  for (const StudyField& field : study_fields()) table.columns.push_back({field.name});
+  for (const char* name : {"reference_deg", "state_hash", "version"}) table.columns.push_back({name});
   for (const StudyOutcome& outcome : result.outcomes) {
     const Member& run = result.plan.members[outcome.member];
-    std::vector<std::string> row = {csv_quoted(result.plan.variants[run.variant].name),
-                                    std::to_string(run.seed)};
-    for (const double value : outcome.figures) row.push_back(std::isnan(value) ? "" : short_text(value));
-    row.insert(row.end(), {short_text(result.reference), outcome.state_hash, outcome.version});
-    text += joined(row, ",") + "\n";
+    auto& row = table.rows.emplace_back();
+    row = {{csv_quoted(result.plan.variants[run.variant].name)}, {std::to_string(run.seed)}};
+    for (const double value : outcome.figures) row.push_back({std::isnan(value) ? "" : short_text(value)});
+    for (const std::string& text : {short_text(result.reference), outcome.state_hash, outcome.version})
+      row.push_back({text});
   }
-  return text;
+  return csv_text(table);
 }
 
 std::string study_markdown(const StudyResult& result) {

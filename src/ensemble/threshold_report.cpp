@@ -29,8 +29,8 @@ std::string deviation_text(const ReadingResult& result) {
 }
 
 /// The values of the chain as heads of columns.
-std::vector<ReportColumn> chain_columns() {
-  std::vector<ReportColumn> columns = {{"reading"}};
+std::vector<TextColumn> chain_columns() {
+  std::vector<TextColumn> columns = {{"reading"}};
   for (const PaperValue& paper : chain_values()) columns.push_back({name_text(paper), true});
   columns.push_back({"agree", true});
   columns.push_back({"half within", true});
@@ -38,16 +38,16 @@ std::vector<ReportColumn> chain_columns() {
 }
 
 /// A value without its seeds missing: columns are narrow.
-ReportCell chain_cell(const Spread& spread, const Judgement& judgement) {
+TextCell chain_cell(const Spread& spread, const Judgement& judgement) {
   const Tone tone = judgement.agreement == Agreement::agrees           ? Tone::good
                     : judgement.agreement == Agreement::not_comparable ? Tone::muted
                                                                        : Tone::plain;
   return {spread_text(spread), judgement.agreement == Agreement::agrees ? "agrees" : "", tone};
 }
 
-ReportTable preparation_table(std::span<const ReadingResult> results, std::size_t preparation) {
-  ReportTable table{chain_columns(), {}};
-  std::vector<ReportCell> paper = {{"the paper", "", Tone::muted}};
+TextTable preparation_table(std::span<const ReadingResult> results, std::size_t preparation) {
+  TextTable table{chain_columns(), {}};
+  std::vector<TextCell> paper = {{"the paper", "", Tone::muted}};
   for (const PaperValue& value : chain_values())
     paper.push_back({fmt::format("{:.3g}", value.value), "", Tone::muted});
   paper.resize(table.columns.size());
@@ -55,8 +55,8 @@ ReportTable preparation_table(std::span<const ReadingResult> results, std::size_
   for (const ReadingResult& result : results) {
     if (result.preparation != preparation) continue;
     const Reading& reading = readings()[result.reading];
-    std::vector<ReportCell> row = {reading.change.empty() ? ReportCell{reading.base}
-                                                          : ReportCell{"", reading.change}};
+    std::vector<TextCell> row = {reading.change.empty() ? TextCell{reading.base}
+                                                        : TextCell{"", reading.change}};
     for (std::size_t v = 0; v < result.values.size(); ++v)
       row.push_back(chain_cell(result.values[v], result.judgements[v]));
     row.push_back({score_text(result)});

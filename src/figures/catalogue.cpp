@@ -2,7 +2,6 @@
 
 #include <array>
 
-#include "figures/ranking_figure.h"
 #include "figures/recipes.h"
 
 namespace talus {
@@ -62,8 +61,6 @@ std::span<const FigureRecipe> figure_catalogue() {
        Subject::further, "a run that has failed", quantities_before_failure},
       {"precursors", "What precedes failure in the contacts", values, Subject::further,
        "a run that has failed", precursors_figure},
-      {"precursor-ranking", "What announces failure best", values, Subject::further,
-       "eight runs of an ensemble or more that have failed", ranking_figure},
       {"weak-contacts", "Directions of weak contacts over their mobilised friction", distributions,
        Subject::further, "a run that has failed", weak_contacts_figure},
       {"persistence", "Persistence of the force network", frames, Subject::further, "a run that has failed",

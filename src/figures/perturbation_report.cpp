@@ -6,6 +6,7 @@
 #include <fmt/core.h>
 #include <vector>
 
+#include "core/text_table.h"
 #include "core/trigonometry.h"
 #include "figures/group_table.h"
 #include "figures/perturbation_figure.h"
@@ -50,10 +51,10 @@ std::string push_text(double strength) {
   return strength <= weakest_push ? fmt::format("< {:.3g}", weakest_push) : fmt::format("{:.2f}", strength);
 }
 
-/// The row of the states whose distance to theta_c lies in (low, high]; nothing where there is none.
-std::string range_row(const std::vector<MeasuredState>& states, double low, double high) {
+/// Adds the row of the states whose distance to theta_c lies in (low, high], if there are any.
+void add_range(TextTable& table, const std::vector<MeasuredState>& states, double low, double high) {
   std::vector<double> middles;
-  int alone = 0, none = 0, erratic = 0;
+  std::size_t alone = 0, none = 0, erratic = 0;
   for (const MeasuredState& state : states) {
     const double distance = state.theta_c - state.tilt;
     if (!(distance > low && distance <= high)) continue;
@@ -62,48 +63,52 @@ std::string range_row(const std::vector<MeasuredState>& states, double low, doub
     none += std::isinf(state.threshold.with) ? 1 : 0;
     erratic += state.threshold.monotone ? 0 : 1;
   }
-  if (middles.empty()) return {};
+  if (middles.empty()) return;
   std::ranges::sort(middles);
   const std::string range =
       high < range_edges.back() ? fmt::format("{:.3g} - {:.3g}", low, high) : fmt::format("> {:.3g}", low);
-  return fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} |\n", range, middles.size(), alone, none,
-                     erratic, push_text(middles.front()), push_text(middles[middles.size() / 2]),
-                     push_text(middles.back()));
+  auto& row = table.rows.emplace_back();
+  row = {{range}};
+  for (const std::size_t count : {middles.size(), alone, none, erratic})
+    row.push_back({std::to_string(count)});
+  for (const double value : {middles.front(), middles[middles.size() / 2], middles.back()})
+    row.push_back({push_text(value)});
 }
 
-std::string state_row(const MeasuredState& state) {
+std::vector<TextCell> state_row(const MeasuredState& state) {
   const Threshold& threshold = state.threshold;
   std::string bracket = "does not hold";
   if (threshold.held)
     bracket = std::isinf(threshold.with)
                   ? fmt::format("> {:.3g}", threshold.without)
                   : fmt::format("{:.3g} ... {:.3g}", threshold.without, threshold.with);
-  const std::string moved = state.moved > 0 ? std::to_string(state.moved) : "-";
-  const std::string distance =
-      std::isnan(state.theta_c) ? "-" : fmt::format("{:.2f}", state.theta_c - state.tilt);
-  return fmt::format("| {} | {:.2f} | {} | {}{} | {} |\n", state.seed, state.tilt, distance, bracket,
-                     threshold.monotone ? "" : ", erratic", moved);
+  return {{std::to_string(state.seed)},
+          {fmt::format("{:.2f}", state.tilt)},
+          {number_cell("{:.2f}", state.theta_c - state.tilt)},
+          {bracket + (threshold.monotone ? "" : ", erratic")},
+          {state.moved > 0 ? std::to_string(state.moved) : "-"}};
 }
 
 }  // namespace
 
 std::string perturbation_markdown(const RunGroup& group, std::span<const PerturbationTable> tables) {
   const std::vector<MeasuredState> states = states_of(group, tables);
-  std::string text = fmt::format(
-      "# Weakest push that starts an avalanche\n\n{}, patch of {} D, {} states of {}. Pushes in sqrt(g D), "
-      "angles in deg. Least, median and most are those of the middles of the brackets.\n\n",
-      group.label, patch_text(tables.front().plan.patch), states.size(), runs_text(group.runs.size()));
-  text +=
-      "| theta_c - theta | states | do not hold | no avalanche | erratic | least | median | most |\n"
-      "|---|--:|--:|--:|--:|--:|--:|--:|\n";
+  TextTable ranges{{{"theta_c - theta"}}, {}};
+  for (const char* title : {"states", "do not hold", "no avalanche", "erratic", "least", "median", "most"})
+    ranges.columns.push_back({title, true});
   double low = 0.0;
   for (const double high : range_edges) {
-    text += range_row(states, low, high);
+    add_range(ranges, states, low, high);
     low = high;
   }
-  text += "\n| seed | theta | theta_c - theta | bracket | grains moved |\n|--:|--:|--:|---|--:|\n";
-  for (const MeasuredState& state : states) text += state_row(state);
-  return text;
+  TextTable each{
+      {{"seed", true}, {"theta", true}, {"theta_c - theta", true}, {"bracket"}, {"grains moved", true}}, {}};
+  for (const MeasuredState& state : states) each.rows.push_back(state_row(state));
+  return fmt::format(
+      "# Weakest push that starts an avalanche\n\n{}, patch of {} D, {} states of {}. Pushes in sqrt(g D), "
+      "angles in deg. Least, median and most are those of the middles of the brackets.\n\n{}\n{}",
+      group.label, patch_text(tables.front().plan.patch), states.size(), runs_text(group.runs.size()),
+      markdown_text(ranges), markdown_text(each));
 }
 
 }  // namespace talus

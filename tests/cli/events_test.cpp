@@ -55,7 +55,7 @@ TEST_F(Events, of_a_bed_that_stands_still_are_none) {
 TEST_F(Events, that_are_not_over_are_marked_and_not_counted) {
   const Outcome outcome = events(all_moves);
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  expect_texts(outcome.out, {"\n1 event up to 1.50 deg", "    deg     deg sqrt(D/g)", "  not over\n",
+  expect_texts(outcome.out, {"\n1 event up to 1.50 deg", "   deg      deg  sqrt(D/g)", "  not over\n",
                              "number, and energy released       0, 0 m g D\n"});
 }
 

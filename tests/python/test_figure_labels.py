@@ -30,7 +30,7 @@ OF_GROUPS = re.compile(
     r"|summary_\d+|mean_\d+|r_\d+_\d+)_1"
 )
 #: Columns that are no quantities: what is on the horizontal axis is not changed either, but for angles.
-COUNTS = "n|seed|cycle|estimator|factor|rank|series|row|agrees|group|critical|radius|x|y"
+COUNTS = "n|seed|cycle|estimator|factor|series|row|agrees|group|critical|radius|x|y"
 ANGLES = {"theta", "angle_left"}
 #: How a bed of a test differs from the one that was computed.
 BEDS = {
@@ -218,7 +218,7 @@ def all_figures(tmp_path_factory):
     two = ["--seeds", "1-2", "--vary", "deposition.method=pour,collapse", "-o", "two"]
     run_talus("ensemble", "bed.toml", *two, folder=folder)
     run_talus("events", "grains.h5", "-q", folder=folder)
-    draw(folder, [ROOT / "docs/data/paper-pbc/ensemble.h5"], "precursor-ranking,angle-distributions,angle-correlations")
+    draw(folder, [ROOT / "docs/data/paper-pbc/ensemble.h5"], "angle-distributions,angle-correlations")
     draw(folder, ["walls.h5"], "6,7")
     draw(folder, ["cycles.h5"], "cycles")
     draw(folder, ["flow.h5"], "dynamic-angle")

@@ -17,8 +17,8 @@ ReportDocument small_report() {
       "Title & more",
       {ReportHeading{2, "Part"}, ReportParagraph{"a < b with `x_1 < y`"}, ReportList{{"one", "two_2"}},
        ReportCommands{{"talus run a.toml"}},
-       ReportTable{{{"name"}, {"value", true}},
-                   {{{"p_o | all"}, {"0.3", "agrees", Tone::good}}, {{""}, {"", "not run", Tone::muted}}}}}};
+       TextTable{{{"name"}, {"value", true}},
+                 {{{"p_o | all"}, {"0.3", "agrees", Tone::good}}, {{""}, {"", "not run", Tone::muted}}}}}};
 }
 
 TEST(Html, escapes_everything_and_marks_cells) {

@@ -64,6 +64,7 @@ const std::vector<Home> homes = {
     {"hdf5", "src/io/hdf5_handle.h"},
     {"imgui", "src/gui/"},
     {"immintrin.h", "src/solver/"},
+    {"nlohmann/", "src/app/json.h"},
     {"png.h", "render/png"},
     {"stb/", "render/"},
     {"toml++/", "src/scenario/toml.cpp"},

@@ -1,8 +1,10 @@
 /// Lines of progress fit the terminal, and keep what matters most.
 
-#include "app/progress_text.h"
+#include "app/progress.h"
 
 #include <gtest/gtest.h>
+
+#include "session/estimate.h"
 
 namespace talus {
 namespace {
@@ -15,12 +17,18 @@ RunShown tilting() {
   shown.tilt = 12.345;
   shown.share = 12.345 / 20.0;
   shown.repose_assumed = 20.0;
-  shown.remaining = 11000.0;
   shown.residual = 2.9e-7;
   shown.kinetic_energy = 1.2e-12;
   shown.velocity = 1.23e-3;
-  shown.seconds = 3725.0;
   return shown;
+}
+
+std::string run_text(const RunShown& shown, std::optional<int> width) {
+  return progress_text(run_progress(shown, 3725.0, 11000.0), width);
+}
+
+std::string count_text(std::size_t done, double elapsed, std::optional<int> width) {
+  return progress_text(count_progress("rendering", done, 48, elapsed), width);
 }
 
 TEST(Durations, AreTextsOfTwoUnitsAtMost) {
@@ -34,12 +42,12 @@ TEST(ProgressText, FitsEveryWidth) {
   for (const Phase phase : {Phase::deposition, Phase::tilt, Phase::flow}) {
     shown.phase = phase;
     for (int width = 0; width <= 250; ++width)
-      EXPECT_LE(run_progress_text(shown, width).size(), static_cast<std::size_t>(width));
+      EXPECT_LE(run_text(shown, width).size(), static_cast<std::size_t>(width));
   }
 }
 
 TEST(ProgressText, KeepsWhatMattersMost) {
-  const auto line = [](int width) { return run_progress_text(tilting(), width); };
+  const auto line = [](int width) { return run_text(tilting(), width); };
   EXPECT_EQ(line(60), "tilt 12.345 deg  61 %  elapsed 1 h 02 min  ETA 3 h 03 min");
   EXPECT_EQ(line(79), "tilt 12.345 deg  [########------]  61 %  elapsed 1 h 02 min  ETA 3 h 03 min");
   EXPECT_EQ(line(109),
@@ -51,7 +59,7 @@ TEST(ProgressText, KeepsWhatMattersMost) {
 }
 
 TEST(ProgressText, OfALogHasAllButTheBar) {
-  EXPECT_EQ(run_progress_text(tilting(), std::nullopt),
+  EXPECT_EQ(run_text(tilting(), std::nullopt),
             "tilt 12.345 deg  61 %  elapsed 1 h 02 min  ETA 3 h 03 min  if it fails at 20 deg  "
             "residual 2.9e-07  E_kin 1.2e-12 J  v = 1.23e-03 g h");
 }
@@ -59,7 +67,7 @@ TEST(ProgressText, OfALogHasAllButTheBar) {
 TEST(ProgressText, PromisesNothingBeyondTheExpectedEnd) {
   RunShown shown = tilting();
   shown.share = 1.05;
-  const std::string line = run_progress_text(shown, 200);
+  const std::string line = run_text(shown, 200);
   EXPECT_FALSE(has(line, "%") || has(line, "ETA") || has(line, "[")) << line;
 }
 
@@ -69,27 +77,25 @@ TEST(ProgressText, OfOtherStages) {
   shown.phase = Phase::deposition;
   shown.time = 0.25;
   shown.contacts = 2000;
-  EXPECT_EQ(run_progress_text(shown, 79),
+  EXPECT_EQ(run_text(shown, 79),
             "deposition 0.250 s  [########------]  61 %  elapsed 1 h 02 min  ETA 3 h 03 min");
   shown.phase = Phase::flow;
   shown.share.reset();
-  EXPECT_EQ(run_progress_text(shown, 60), "flow at 12.345 deg  elapsed 1 h 02 min  residual 2.9e-07");
+  EXPECT_EQ(run_text(shown, 60), "flow at 12.345 deg  elapsed 1 h 02 min  residual 2.9e-07");
 }
 
 TEST(ProgressText, OfThingsThatAreCounted) {
-  EXPECT_EQ(count_progress_text("rendering", 0, 48, 1.0, 79),
-            "rendering 0/48  [--------------]  0 %  elapsed 1 s");
-  EXPECT_EQ(count_progress_text("rendering", 12, 48, 10.0, 79),
-            "rendering 12/48  [###-----------]  25 %  elapsed 10 s  ETA 30 s");
-  EXPECT_EQ(count_progress_text("rendering", 48, 48, 40.0, std::nullopt),
-            "rendering 48/48  100 %  elapsed 40 s");
+  EXPECT_EQ(count_text(0, 1.0, 79), "rendering 0/48  [--------------]  0 %  elapsed 1 s");
+  EXPECT_EQ(count_text(12, 10.0, 79), "rendering 12/48  [###-----------]  25 %  elapsed 10 s  ETA 30 s");
+  EXPECT_EQ(count_text(48, 40.0, std::nullopt), "rendering 48/48  100 %  elapsed 40 s");
 }
 
 TEST(ProgressBar, IsFullAtTheEnd) {
-  EXPECT_EQ(progress_bar(0.0), "[--------------]");
-  EXPECT_EQ(progress_bar(0.5), "[#######-------]");
-  EXPECT_EQ(progress_bar(1.0), "[##############]");
-  EXPECT_EQ(progress_bar(7.0), progress_bar(1.0));
+  const auto line = [](double share) { return progress_text({"a", share, 1.0, {}}, 79); };
+  EXPECT_EQ(line(0.0), "a  [--------------]  0 %  elapsed 1 s");
+  EXPECT_EQ(line(0.5), "a  [#######-------]  50 %  elapsed 1 s");
+  EXPECT_EQ(line(1.0), "a  [##############]  100 %  elapsed 1 s");
+  EXPECT_EQ(line(7.0), "a  elapsed 1 s") << "beyond what was expected";
 }
 
 }  // namespace

@@ -1,0 +1,121 @@
+#include "core/text_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/core.h>
+
+#include "core/text.h"
+#include "core/visible_text.h"
+
+namespace talus {
+namespace {
+
+/// Characters of UTF-8 text.
+std::size_t width_of(const std::string& text) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
+}
+
+/// The width of each column, `least` where all texts are narrower.
+std::vector<std::size_t> widths_of(const TextTable& table, std::size_t least) {
+  std::vector<std::size_t> widths;
+  for (const TextColumn& column : table.columns)
+    widths.push_back(std::max({least, width_of(column.title), width_of(column.unit)}));
+  for (const auto& row : table.rows)
+    for (std::size_t k = 0; k < row.size(); ++k) widths[k] = std::max(widths[k], width_of(row[k].text));
+  return widths;
+}
+
+std::string padded(const std::string& text, std::size_t width, bool to_the_right) {
+  const std::size_t blanks = width - std::min(width, width_of(text));
+  return fmt::format("{:{}}{}{:{}}", "", to_the_right ? blanks : 0, text, "", to_the_right ? 0 : blanks);
+}
+
+std::string trimmed(std::string line) {
+  line.erase(line.find_last_not_of(' ') + 1);
+  return line.append("\n");
+}
+
+/// A line of aligned text; `text_of(k)` is that of column k.
+template <typename TextOf>
+std::string line_of(const TextTable& table, const std::vector<std::size_t>& widths, std::size_t indent,
+                    const TextOf& text_of) {
+  std::string line(indent, ' ');
+  for (std::size_t k = 0; k < widths.size(); ++k)
+    line += fmt::format("{}{}",
+                        k == 0                           ? ""
+                        : table.columns[k].group.empty() ? "  "
+                                                         : " | ",
+                        padded(text_of(k), widths[k], table.columns[k].numbers));
+  return trimmed(line);
+}
+
+/// The groups, each from the left edge of its first column on.
+std::string group_line(const TextTable& table, const std::vector<std::size_t>& widths, std::size_t indent) {
+  std::string line;
+  std::size_t place = indent;
+  for (std::size_t k = 0; k < widths.size(); ++k) {
+    const std::string& group = table.columns[k].group;
+    if (!group.empty()) line = fmt::format("{} | {}", padded(line, place, false), group);
+    place += (k == 0 ? 0 : group.empty() ? 2 : 3) + widths[k];
+  }
+  return trimmed(line);
+}
+
+}  // namespace
+
+std::string number_cell(std::string_view format, double value) {
+  return std::isnan(value) ? "-" : fmt::format(fmt::runtime(format), value);
+}
+
+std::string aligned_text(const TextTable& table, std::size_t indent) {
+  const std::vector<std::size_t> widths = widths_of(table, 0);
+  const std::vector<TextColumn>& columns = table.columns;
+  const auto line = [&](const auto& text_of) { return line_of(table, widths, indent, text_of); };
+  std::string text;
+  if (!std::ranges::all_of(columns, &std::string::empty, &TextColumn::group))
+    text += group_line(table, widths, indent);
+  text += line([&](std::size_t k) { return columns[k].title; });
+  if (!std::ranges::all_of(columns, &std::string::empty, &TextColumn::unit))
+    text += line([&](std::size_t k) { return columns[k].unit; });
+  for (const auto& row : table.rows)
+    text += line([&](std::size_t k) { return k < row.size() ? row[k].text : std::string(); });
+  return text;
+}
+
+std::string csv_text(const TextTable& table, bool titles) {
+  std::string text = titles ? fmt::format("{}\n", joined(table.columns, ",", &TextColumn::title)) : "";
+  for (const auto& row : table.rows) text += joined(row, ",", &TextCell::text) + "\n";
+  return text;
+}
+
+std::string markdown_text(const TextTable& table) {
+  const std::vector<std::size_t> widths = widths_of(table, 3);
+  std::string head, rule, body;
+  for (std::size_t k = 0; k < widths.size(); ++k) {
+    const bool numbers = table.columns[k].numbers;
+    head += fmt::format("| {} ", padded(table.columns[k].title, widths[k], numbers));
+    rule += fmt::format("|{:-<{}}{}", "", widths[k] + (numbers ? 1 : 2), numbers ? ":" : "");
+  }
+  for (const auto& row : table.rows) {
+    for (std::size_t k = 0; k < row.size(); ++k)
+      body += fmt::format("| {} ", padded(row[k].text, widths[k], table.columns[k].numbers));
+    body += "|\n";
+  }
+  return fmt::format("{}|\n{}|\n{}", head, rule, body);
+}
+
+std::string markdown_escaped(std::string_view text) {
+  std::string escaped;
+  for (const char c : visible(text)) {
+    if (c == '<' || c == '&')
+      escaped += c == '<' ? "&lt;" : "&amp;";
+    else if (c == '\n')
+      escaped += ' ';
+    else
+      escaped.append(std::string_view("[]|*`").find(c) == std::string_view::npos ? "" : "\\").append(1, c);
+  }
+  return escaped;
+}
+
+}  // namespace talus
