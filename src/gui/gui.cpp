@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "gui/actions.h"
 #include "gui/panels.h"
-#include "gui/run_actions.h"
 
 namespace talus {
 namespace {

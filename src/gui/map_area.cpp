@@ -3,33 +3,15 @@
 #include <fmt/core.h>
 
 #include "core/trigonometry.h"
-#include "gui/branching.h"
+#include "gui/actions.h"
+#include "gui/map_mouse.h"
 #include "gui/panels.h"
-#include "gui/select_tools.h"
-#include "gui/view_actions.h"
 #include "render/layout.h"
 
 namespace talus {
 namespace {
 
 constexpr float least_picture = 4.0f;  ///< em
-
-/// The map as it lies in the window.
-struct ShownMap {
-  ImVec2 corner;
-  Camera camera;
-
-  Point bed_place(const ImVec2& mouse) const {
-    const double right = (static_cast<double>(mouse.x - corner.x) - camera.origin_x) / camera.scale;
-    const double down = (static_cast<double>(mouse.y - corner.y) - camera.origin_y) / camera.scale;
-    return {camera.cosine * right + camera.sine * down, camera.sine * right - camera.cosine * down};
-  }
-  ImVec2 pixel(double x, double y) const {
-    const double right = camera.cosine * x + camera.sine * y, down = camera.sine * x - camera.cosine * y;
-    return {corner.x + static_cast<float>(camera.origin_x + camera.scale * right),
-            corner.y + static_cast<float>(camera.origin_y + camera.scale * down)};
-  }
-};
 
 constexpr float caption_line = 1.2f;  ///< em
 
@@ -106,12 +88,9 @@ void use_mouse(Gui& gui, const MapPane& pane, const ShownMap& shown) {
   const Point place = shown.bed_place(io.MousePos);
   const Vec2 linked = in_first(place);
   // The second view is looked at; what is selected, or pulled, is so in the first.
-  const BedPlace bed_place = [&](const ImVec2& px) { return shown.bed_place(px); };
   const bool first = !pane.beside;
-  if (first &&
-      drag_grain(gui, place.x, place.y, {[&](double x, double y) { return shown.pixel(x, y); }, bed_place}))
-    return;
-  const bool outlining = first && select_by_outline(gui, bed_place);
+  if (first && drag_grain(gui, place.x, place.y, shown)) return;
+  const bool outlining = first && select_by_outline(gui, shown);
   if (ImGui::IsItemHovered()) {
     if (io.MouseWheel != 0.0f)
       zoom_about(gui, std::pow(1.25, static_cast<double>(io.MouseWheel)), linked.x, linked.y);

@@ -1,8 +1,8 @@
 #include <algorithm>
 
 #include "core/trigonometry.h"
+#include "gui/actions.h"
 #include "gui/panels.h"
-#include "gui/view_actions.h"
 
 namespace talus {
 namespace {

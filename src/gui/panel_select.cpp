@@ -6,9 +6,9 @@
 #include <fmt/core.h>
 #include <numeric>
 
+#include "gui/actions.h"
 #include "gui/panels.h"
 #include "gui/plot_widget.h"
-#include "gui/view_actions.h"
 #include "view/selection_table.h"
 
 namespace talus {

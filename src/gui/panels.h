@@ -17,6 +17,8 @@ void draw_run_panel(Gui& gui);
 std::string frame_counter(std::size_t frame, std::size_t count);
 /// Which map is drawn, and how.
 void draw_map_panel(Gui& gui);
+/// The button of a replay that begins a branch.
+void draw_branch_button(Gui& gui);
 /// Commands to a run that is computed.
 void draw_action_panel(Gui& gui);
 /// Selecting by a condition; what is selected as a table.
