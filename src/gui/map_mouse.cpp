@@ -42,7 +42,7 @@ void draw_outline(const std::vector<Vec2>& corners, ImU32 colour) {
 }
 
 void toggle_grain(Gui& gui, double x, double y) {
-  const auto grain = gui.model.grain_at(x, y);
+  const auto grain = find_grain(gui.model.bed(), x, y);
   if (grain)
     gui.model.select(toggled(gui.model.selected_grains(), *grain));
   else
@@ -71,7 +71,7 @@ void finish(Gui& gui, const ShownMap& map) {
     const Point at = map.bed_place({static_cast<float>(corner.x), static_cast<float>(corner.y)});
     corners.push_back({at.x, at.y});
   }
-  const std::vector<Index> found = gui.model.grains_within(corners);
+  const std::vector<Index> found = grains_within(gui.model.bed(), corners);
   gui.model.select_found(found);
   gui.model.state.message =
       fmt::format("Grains within: {}; selected: {}.", found.size(), gui.model.selected_grains().size());
@@ -110,7 +110,7 @@ std::optional<Index> first_grain(const ViewModel& model, const ShownMap& map) {
   if (!ImGui::IsMouseDragging(0, least_drag)) return {};
   const Vec2 first = selecting.outline.front();
   const Point at = map.bed_place({static_cast<float>(first.x), static_cast<float>(first.y)});
-  const std::optional<Index> grain = model.grain_at(at.x, at.y);
+  const std::optional<Index> grain = find_grain(model.bed(), at.x, at.y);
   return grain && *grain < model.statics().free_count ? grain : std::nullopt;
 }
 
@@ -196,7 +196,7 @@ void select_clicked(Gui& gui, double x, double y) {
   const auto contact =
       contacts ? model.contact_at(x, y, small_contact_reach * model.mean_diameter()) : std::nullopt;
   if (contact) return model.select(*contact);
-  const std::optional<Index> grain = model.grain_at(x, y);
+  const std::optional<Index> grain = find_grain(model.bed(), x, y);
   if (!grain) model.state.message = "No grain is there.";
   model.select(grain);
 }

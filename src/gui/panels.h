@@ -35,12 +35,8 @@ void draw_plots(Gui& gui);
 void draw_time_line(Gui& gui);
 /// The map with its title and legend, the mouse on it.
 void draw_map_area(Gui& gui);
-/// A picture of the bed with the mouse on it: the map, or the second view.
-struct MapPane {
-  bool beside = false;
-  bool gravity = true;  ///< its arrow is drawn on the right below
-};
-void draw_map_pane(Gui& gui, const MapPane& pane, const ImVec2& room);
+/// A picture of the bed with the mouse on it, and the arrow of gravity on the right below it.
+void draw_map_pane(Gui& gui, const View& view, const ImVec2& room, bool with_gravity);
 /// The map and the second view, beside each other or one above the other, whichever shows more. False where
 /// there is no room for two, which the message says; nothing is drawn then.
 bool draw_pair(Gui& gui);
@@ -48,7 +44,7 @@ bool draw_pair(Gui& gui);
 void choose_beside(Gui& gui);
 /// What the map tells of a grain under the mouse, as rich text: what its bar measures, with the unit, and
 /// gamma on maps of overloaded grains.
-std::string grain_text(const ViewModel& model, Index grain);
+std::string grain_text(const View& view, Index grain);
 /// The height of the map with its title and legend in a width, around a picture of `picture` px.
 float map_area_height(const FrameView& annotated, float width, float picture, float em);
 /// All keys.

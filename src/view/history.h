@@ -2,7 +2,6 @@
 /// What single grains and a contact went through: read from all frames of a run, while the view is used.
 
 #include <condition_variable>
-#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -11,6 +10,7 @@
 #include <vector>
 
 #include "core/snapshot.h"
+#include "view/frame_source.h"
 #include "view/selection.h"
 
 namespace talus {
@@ -45,9 +45,6 @@ HistoryInstant instant_of(const Frame& frame, const HistoryQuestion& question);
 /// Reads in a thread of its own. All members are for one other thread.
 class HistorySeries {
  public:
-  /// Frame k; called by the thread of the series.
-  using ReadFrame = std::function<std::shared_ptr<const Frame>(std::size_t k)>;
-
   explicit HistorySeries(ReadFrame read);
   /// Finishes the frame under way.
   ~HistorySeries() = default;
