@@ -5,12 +5,14 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "core/snapshot.h"
 #include "view/frame_source.h"
+#include "view/plots.h"
 #include "view/selection.h"
 
 namespace talus {
@@ -78,5 +80,10 @@ class HistorySeries {
   Shared shared_;
   std::jthread thread_;  ///< the last: it is joined before the rest goes
 };
+
+/// "contact forces", over the weight `weight` (N/m), and "mobilisation", with 1, where it slides: along the
+/// run. `friction` of each instant. An open contact has no mobilisation.
+std::vector<Plot> contact_plots(std::span<const HistoryInstant> instants, std::span<const double> friction,
+                                double weight, const PlotAbscissa& abscissa);
 
 }  // namespace talus

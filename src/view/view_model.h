@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "render/frame_view.h"
-#include "view/contact_inspection.h"
 #include "view/frame_ahead.h"
 #include "view/frame_series.h"
 #include "view/frame_source.h"
@@ -23,7 +22,6 @@
 #include "view/live_run.h"
 #include "view/plots.h"
 #include "view/scene.h"
-#include "view/selection_scene.h"
 #include "view/timeline.h"
 #include "view/view_state.h"
 
@@ -306,7 +304,8 @@ class ViewModel {
   // view_selection.cpp
   /// What conditions and tables of grains go by.
   GrainSource grain_source(const MapSettings& settings);
-  SelectionMarks selection_marks() const;
+  /// What is selected in the frame shown, beside the grain that is looked at.
+  Overlay selection_marks() const;
   /// mu between grains at a step, as commands have set it.
   double friction_at(std::int64_t step) const;
   /// Reads what trails and the selected contact need; true where something has come in.

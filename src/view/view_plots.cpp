@@ -15,7 +15,7 @@ void ViewModel::plot_rows() { plot_observables(rows_, statics(), abscissa(), plo
 void ViewModel::plot_values() {
   const std::vector<double>& times = frames_->instants().times;
   plot_frames(series_->values(), times, mean_diameter(), abscissa(), plots_);
-  if (analysis_) plot_stored(analysis_->frames, times, mean_diameter(), abscissa(), plots_);
+  if (analysis_) plot_frames(analysis_->frames, times, mean_diameter(), abscissa(), plots_, true);
   plot_ghost(ghost(), axis_, series_->rule().threshold_factor, plots_);
 }
 

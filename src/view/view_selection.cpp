@@ -13,17 +13,12 @@ namespace talus {
 
 GrainSource ViewModel::grain_source(const MapSettings& settings) {
   if (!first_frame_ && frame_count() > 0) first_frame_ = frame_at(0);
-  const OverloadRule& rule = settings;
-  const double threshold = threshold_of(rule);
   return {*stored_,
           *frame_,
           first_frame_.get(),
           statics(),
           shown_clusters(settings),
-          {.threshold = threshold,
-           .end_ratio = threshold,
-           .l_min = l_min_ * statics().mean_diameter,
-           .cut = length_cut(statics(), l_min_)}};
+          coarse_graining_rule(settings, statics())};
 }
 
 const std::vector<double>& ViewModel::grain_values(const GrainQuantity& quantity) {
@@ -35,9 +30,9 @@ const std::vector<double>& ViewModel::grain_values(const GrainQuantity& quantity
   return place->second;
 }
 
-SelectionMarks ViewModel::selection_marks() const {
+Overlay ViewModel::selection_marks() const {
   const Selection& selection = state.selecting.selection;
-  SelectionMarks marks;
+  Overlay marks;
   for (const Index grain : selection.grains)
     if (grain < frame_->grain_count()) marks.grains.push_back(grain);
   if (selection.contact) marks.contact = contact_of_key(frame_->contacts, *selection.contact);

@@ -55,11 +55,7 @@ const Inspection* ViewModel::inspect_selected(const View& view) {
         statics().periodic ? statics().length : 2.0 * std::max(statics().length, statics().depth);
     const double neighbourhood = std::clamp(asked.neighbourhood * statics().mean_diameter, 0.0, widest);
     inspection_ = {frame_, rule, asked.neighbourhood,
-                   inspect(bed(), shown_clusters(by),
-                           {.threshold = threshold_of(rule),
-                            .l_min = l_min_ * statics().mean_diameter,
-                            .cut = length_cut(statics(), l_min_),
-                            .neighbourhood = neighbourhood},
+                   inspect(bed(), shown_clusters(by), coarse_graining_rule(rule, statics()), neighbourhood,
                            *asked.selected)};
   }
   return &inspection_.of;
@@ -122,7 +118,7 @@ const FrameView& View::whole_map(const MapExtent& shown) const {
 }
 
 FrameView View::picture(const MapExtent& shown) const {
-  Overlay overlay;
+  Overlay overlay = run.selection_marks();
   if (const Inspection* of = run.inspect_selected(*this)) {
     overlay.selected = of->grain;
     if (state.highlight_cluster) overlay.cluster = of->cluster;
@@ -132,8 +128,8 @@ FrameView View::picture(const MapExtent& shown) const {
       overlay.critical_length = of->coarse_graining_length;
     }
   }
-  FrameView view = shown_map(whole_map(shown), shown, run.bed(), overlay, run.shown_clusters(settings()));
-  add_selection(view, run.bed(), run.selection_marks());
+  FrameView view = shown_map(whole_map(shown), shown, run.bed());
+  add_overlay(view, run.bed(), overlay, run.shown_clusters(settings()));
   return view;
 }
 

@@ -13,8 +13,8 @@
 #include "support/temporary_folder.h"
 #include "unit/view/example_bed.h"
 #include "unit/view/opened_view.h"
-#include "view/contact_inspection.h"
-#include "view/rings.h"
+#include "view/inspection.h"
+#include "view/scene.h"
 
 namespace talus {
 namespace {

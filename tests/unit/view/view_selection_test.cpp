@@ -7,7 +7,7 @@
 #include "support/temporary_folder.h"
 #include "unit/view/example_bed.h"
 #include "unit/view/opened_view.h"
-#include "view/rings.h"
+#include "view/scene.h"
 
 namespace talus {
 namespace {
