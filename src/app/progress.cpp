@@ -166,7 +166,7 @@ CountDone count_shown(std::string label, bool quiet) {
     const bool last = done > 0 && done == count;
     if (!line->is_due(last)) return;
     line->show(count_progress(label, done, count, line->elapsed()));
-    if (last) line->finish();
+    if (last) line.reset();  // who counts again begins another line
   };
 }
 

@@ -78,7 +78,8 @@ const std::vector<std::pair<std::string, PlotAxis>> clocks = {
 void show_beside(ViewModel& model, const ViewArguments& arguments) {
   BesideState& beside = model.state.beside;
   if (!arguments.beside_map.empty()) beside.layers = map_layers(arguments.beside_map);
-  if (!arguments.beside_minus.empty()) beside.minus = model.tilt_of(arguments.beside_minus);
+  if (!arguments.beside_minus.empty())
+    beside.minus = model.frame_tilts().at(model.frame_at_angle(arguments.beside_minus));
   beside.shown = beside.minus || !beside.layers.empty();
   if (arguments.beside.empty()) return;
   model.open_beside(arguments.beside);
@@ -100,7 +101,7 @@ std::vector<std::string> names_of_themes() {
 /// What is shown first.
 void show_first(ViewModel& model, const ViewArguments& arguments) {
   if (!arguments.map.empty()) model.state.map.layers = map_layers(arguments.map);
-  if (!arguments.at.empty()) model.go_to_angle(arguments.at);
+  if (!arguments.at.empty()) model.go_to(model.frame_at_angle(arguments.at));
   if (arguments.grain && *arguments.grain >= model.statics().free_count)
     throw Error(ExitCode::usage, fmt::format("--grain {}: the grains are 0 to {}", *arguments.grain,
                                              model.statics().free_count - 1));
@@ -190,9 +191,9 @@ std::string close(ViewModel model) {
 
 void save_picture(const std::string& path, GuiWindow& window, ViewModel& model) {
   output_target(path, {.overwrite = false});
-  Image picture = window.draw_image(model.furnished_map(), picture_width);
+  Image picture = window.draw_image(model.first().furnished_map(), picture_width);
   if (model.state.beside.shown)
-    picture = beside({picture, window.draw_image(model.furnished_map_beside(), picture_width)});
+    picture = beside({picture, window.draw_image(model.second().furnished_map(), picture_width)});
   write_png(path, picture);
   model.state.message = "written: " + path;
 }

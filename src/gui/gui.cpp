@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "gui/actions.h"
 #include "gui/panels.h"
-#include "gui/run_actions.h"
 
 namespace talus {
 namespace {
@@ -21,21 +21,21 @@ struct Places {
 
 /// The plots get what the map does not need, unless somebody has moved the border between them; none if there
 /// is no room for both.
-float height_of_plots(const ViewModel& model, float width, float height, float em) {
+float height_of_plots(ViewModel& model, float width, float height, float em) {
   const float least = 12.0f * em;
   const auto map_height = [&](float picture) {
-    return map_area_height(model.annotated_map(), width, picture, em);
+    return map_area_height(model.first().annotated_map(), width, picture, em);
   };
   const float least_map = std::max(least, map_height(4.0f * em));
   if (!model.state.show_plots || height < 1.1f * (least_map + least)) return 0.0f;
   const float wanted = model.state.picture_share > 0.0f
                            ? model.state.picture_share * height
-                           : map_height(width / static_cast<float>(model.bed_aspect())) *
+                           : map_height(width / static_cast<float>(model.first().bed_aspect())) *
                                  (model.state.beside.shown ? 2.1f : 1.0f);
   return height - std::clamp(wanted, least_map, height - least);
 }
 
-Places lay_out_window(const ViewModel& model, const ImVec2& size, float em) {
+Places lay_out_window(ViewModel& model, const ImVec2& size, float em) {
   const ViewState& state = model.state;
   Places places;
   const bool wide = size.x >= 75.0f * em;

@@ -1,164 +1,328 @@
+#include <algorithm>
 #include <fmt/core.h>
 
-#include "gui/beside_actions.h"
-#include "gui/branching.h"
+#include "core/trigonometry.h"
+#include "gui/actions.h"
+#include "gui/input.h"
 #include "gui/panels.h"
-#include "gui/run_actions.h"
-#include "gui/view_actions.h"
+#include "pictures/map_kind.h"
+#include "render/colour_map.h"
 
 namespace talus {
 namespace {
 
-struct KeyLine {
-  const char* keys;
+/// A line of the list of keys, and what its keys do.
+struct Key {
+  const char* name;  ///< as the list has it
   const char* what;
+  ImWchar codes[9];  ///< characters, or numbers of KeyCode from 256 on; 0: no more
+  void (*act)(Gui& gui, ImWchar code);
 };
 
-constexpr KeyLine key_lines[] = {
-    {"space", "play, pause"},
-    {"right, left", "one step or frame forward; one frame back (shift 10, ctrl 100)"},
-    {"home, end", "first, last frame; of a run that goes on, as it is now"},
-    {"d, j, p, c", "to θ_d; to the jump of ℓ_c; to where a cluster first spans; to θ_c"},
-    {"< >", "speed of a replay"},
-    {"1 ... 9", "the maps, in the order of their list"},
-    {"0", "no overlay"},
-    {"o", "next overlay"},
-    {"m", "next colours"},
-    {"v", "motion and strain since the angle shown, or per degree"},
-    {"[ ]", "threshold of overloaded grains"},
-    {", .", "length of coarse graining"},
-    {"; '", "neighbourhood of the selected grain"},
-    {"t", "turn the bed to its slope"},
-    {"+ -, wheel", "zoom"},
-    {"w a x z, drag", "move the picture"},
-    {"f", "whole bed"},
-    {"n", "select the next grain; escape: none"},
-    {"T, L", "trails of the selected grains; follow the selected grain"},
-    {"i, y", "outline its cluster; draw its neighbourhoods"},
-    {"B", "bookmark of the frame shown, with a note"},
-    {"P, D", "a second view; in it, what changes from the frame shown on"},
-    {"g, b", "run to the angle; deposit the bed"},
-    {"r", "reset, with the seed given"},
-    {"s", "save the state of a run that is computed"},
-    {"e", "write the picture to the file named under files"},
-    {"u, k", "push the selected grain; drop grains there"},
-    {"N, U", "branch: go on from the frame shown; back before the last command"},
-    {"R M A S F G", "unfold run, map, act, select, files, grain; tab: from field to field"},
-    {"h", "show or hide the columns"},
-    {"l", "show or hide the plots"},
-    {"C", "next theme: light, dark, print"},
-    {"?", "this list"},
-    {"q", "quit"},
-};
-
-int factor_of_modifiers() {
-  const ImGuiIO& io = ImGui::GetIO();
-  return io.KeyCtrl ? 100 : io.KeyShift ? 10 : 1;
+/// Turns something that is shown on or off, and says which.
+void toggle(Gui& gui, bool& shown, const std::string& on, const std::string& off) {
+  shown = !shown;
+  say(gui, shown ? on : off);
 }
 
-bool pressed(ImGuiKey key) { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key)); }
-
-void ask_for_panel(Gui& gui, ImWchar key) {
-  gui.model.state.show_controls = true;
-  gui.panel_asked = group_of_key(key);
+/// Of a selected grain only: what is drawn once there is one.
+std::string of_selected(const Gui& gui, const std::string& what) {
+  return what + (gui.model.state.selected ? "." : ", once a grain is selected.");
 }
 
-void act(Gui& gui, ImWchar key) {
-  ViewModel& model = gui.model;
-  switch (key) {
-    case ' ':
-      toggle_playing(gui);
-      break;
-    case 'd':
-      go_to_landmark(gui, Landmark::theta_d);
-      break;
-    case 'p':
-      go_to_landmark(gui, Landmark::percolation);
-      break;
-    case 'c':
-      go_to_landmark(gui, Landmark::theta_c);
-      break;
-    case 'j':
-      go_to_landmark(gui, Landmark::length_jump);
-      break;
-    case '<':
-      change_speed(gui, 0.8);
-      break;
-    case '>':
-      change_speed(gui, 1.25);
-      break;
-    case 'b':
-      deposit(gui);
-      break;
-    case 'B':
-      model.state.bookmark_asked = true;
-      break;
-    case 'P':
-      toggle_beside(gui);
-      break;
-    case 'D':
-      show_change_since_here(gui);
-      break;
-    case 'N':
-      branch_here(gui);
-      break;
-    case 'U':
-      go_back(gui);
-      break;
-    case 'R':
-    case 'M':
-    case 'A':
-    case 'S':
-    case 'F':
-    case 'G':
-      ask_for_panel(gui, key);
-      break;
-    case 'T':
-      toggle_trails(gui);
-      break;
-    case 'L':
-      toggle_following(gui);
-      break;
-    case 'u':
-      push_selected(gui);
-      break;
-    case 'k':
-      drop_here(gui);
-      break;
-    case 'e':
-      gui.requests.save_png_path = model.state.picture_path;
-      break;
-    case 'q':
-      gui.requests.quit = model.may_discard();
-      break;
-    case 'g':
-      run_to_tilt(gui);
-      break;
-    case 'r':
-      reset(gui);
-      break;
-    case 's':
-      save_state(gui);
-      break;
-    default:
-      if (!change_view(gui, key) && key > ' ')
-        model.state.message =
-            key < 127 ? fmt::format("{} does nothing here; ? lists the keys.", static_cast<char>(key))
-                      : "That key does nothing here; ? lists the keys.";
+/// Changes a number of the map by a step within its limits, and says what it is now.
+void change_number(Gui& gui, double& value, double step, double low, double high, const char* what,
+                   const char* unit) {
+  value = std::clamp(value + step, low, high);
+  const char* limit = value == low ? ", the minimum" : value == high ? ", the maximum" : "";
+  say(gui, fmt::format("{}: {:.3g} {}{}.", what, value, unit, limit));
+}
+
+void say_map(Gui& gui) {
+  const MapLayers& layers = gui.model.state.map.layers;
+  say(gui, fmt::format("Map: {}{}.", layers_name(layers), layers.size() > 1 ? "" : ", no overlay"));
+}
+
+void choose_map(Gui& gui, ImWchar digit) {
+  MapLayers& layers = gui.model.state.map.layers;
+  if (const auto k = static_cast<std::size_t>(digit - '1'); k < map_kinds().size()) {
+    layers[0] = map_kinds()[k];
+    if (layers.size() > 1 && layers[1] == layers[0]) layers.pop_back();
   }
+  say_map(gui);
 }
 
-/// Ends what is least missed: the list of keys, else what is selected.
-void escape(Gui& gui) {
+void next_overlay(Gui& gui, ImWchar) {
+  MapLayers& layers = gui.model.state.map.layers;
+  const auto kinds = map_kinds();
+  const std::size_t count = kinds.size();
+  std::size_t next = layers.size() > 1
+                         ? static_cast<std::size_t>(std::ranges::find(kinds, layers[1]) - kinds.begin()) + 1
+                         : 0;
+  if (next < count && kinds[next] == layers[0]) ++next;
+  layers.resize(1);
+  if (next < count) layers.push_back(kinds[next]);
+  say_map(gui);
+}
+
+/// Its own, then each colour map.
+void next_colours(Gui& gui, ImWchar) {
+  std::optional<ColourMap>& colours = gui.model.state.map.colours;
+  const auto all = colour_maps();
+  const std::size_t next =
+      colours ? static_cast<std::size_t>(std::ranges::find(all, *colours) - all.begin()) + 1 : 0;
+  colours = next < all.size() ? std::optional(all[next]) : std::nullopt;
+  say(gui, fmt::format("Colours of the bar: {}.",
+                       colours ? colour_map_name(*colours) : std::string_view("those of the map")));
+}
+
+void change_reference(Gui& gui, ImWchar) {
+  std::optional<double>& since = gui.model.state.since;
+  since = since ? std::nullopt : std::optional(gui.model.frame().tilt);
+  say(gui, since
+               ? fmt::format("Maps of motion and strain show what has moved since {:.2f}°.", degrees(*since))
+               : std::string("Maps of motion and strain show what moves in a degree of tilt."));
+}
+
+void move_by_key(Gui& gui, ImWchar key) {
+  const double step = 3.0 * gui.model.mean_diameter();
+  move_picture(gui,
+               key == 'x'   ? step
+               : key == 'a' ? -step
+                            : 0.0,
+               key == 'w'   ? step
+               : key == 'z' ? -step
+                            : 0.0);
+}
+
+void zoom_by_key(Gui& gui, ImWchar key) {
+  const ViewCamera& camera = gui.model.state.camera;
+  zoom_about(gui, key == '-' ? 0.8 : 1.25, camera.centre_x, camera.centre_y);
+}
+
+void advance_by_key(Gui& gui, ImWchar key) {
+  const ImGuiIO& io = ImGui::GetIO();
+  const int count = io.KeyCtrl ? 100 : io.KeyShift ? 10 : 1;
+  advance(gui, key == key_right ? count : -count);
+}
+
+void go_by_key(Gui& gui, ImWchar key) {
+  go_to_landmark(gui, key == 'd'   ? Landmark::theta_d
+                      : key == 'j' ? Landmark::length_jump
+                      : key == 'p' ? Landmark::percolation
+                                   : Landmark::theta_c);
+}
+
+/// Selects the next grain. Escape ends what is least missed: the list of keys, else what is selected.
+void select_by_key(Gui& gui, ImWchar key) {
   ViewState& state = gui.model.state;
   const bool selected =
       state.selected || !state.selecting.selection.grains.empty() || state.selecting.selection.contact;
-  if (state.show_help)
+  if (key == 'n')
+    gui.model.select(state.selected ? (*state.selected + 1) % gui.model.statics().free_count : 0);
+  else if (ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopup))
+    return;  // it closes itself
+  else if (state.show_help)
     state.show_help = false;
   else if (selected)
     gui.model.select(std::optional<Index>());
   else
-    state.message = "Nothing is selected.";
+    say(gui, "Nothing is selected.");
+}
+
+/// The speed of a replay times a factor.
+void change_speed(Gui& gui, double factor) {
+  constexpr double fastest_replay = 20.0;  // deg/s
+  ViewModel& model = gui.model;
+  if (model.is_live())
+    return say(gui, "A run that is computed goes as fast as it can; < and > are for a replay.");
+  model.set_speed(std::min(factor * model.speed(), fastest_replay));
+  say(gui, fmt::format("Speed of the replay: {:.3g} deg/s{}.", model.speed(),
+                       model.speed() >= fastest_replay ? ", the maximum" : ""));
+}
+
+void toggle_trails(Gui& gui) {
+  SelectingState& selecting = gui.model.state.selecting;
+  selecting.trails = !selecting.trails;
+  const std::size_t count = gui.model.selected_grains().size();
+  if (!selecting.trails)
+    say(gui, "No trails are drawn.");
+  else if (count == 0)
+    say(gui, "Trails are drawn of selected grains, once there are some.");
+  else
+    say(gui, fmt::format("Trails of {} selected grain{}, from the first frame to the one shown.", count,
+                         count == 1 ? "" : "s"));
+}
+
+/// Shows or hides the second view; another map where it would be the first view again.
+void toggle_second_view(Gui& gui) {
+  ViewState& state = gui.model.state;
+  BesideState& beside = state.beside;
+  beside.shown = !beside.shown;
+  const bool alike = !beside.minus && gui.model.run_beside() == nullptr &&
+                     (beside.layers.empty() || beside.layers == state.map.layers);
+  if (beside.shown && alike)
+    beside.layers = {state.map.layers.at(0) == MapKind::displacement ? MapKind::gamma
+                                                                     : MapKind::displacement};
+}
+
+/// The second view shows what has changed from the frame shown on.
+void show_change_since_here(Gui& gui) {
+  BesideState& beside = gui.model.state.beside;
+  beside.shown = true;
+  beside.minus = gui.model.frame().tilt;
+  gui.model.state.message =
+      fmt::format("The second view shows what has changed since {:.2f}°.", degrees(*beside.minus));
+}
+
+/// All keys, in the order of the list; docs/view.md is compared with it by a test.
+constexpr Key all_keys[] = {
+    {"space", "play, pause", {' '}, [](Gui& gui, ImWchar) { toggle_playing(gui); }},
+    {"right, left",
+     "one step or frame forward; one frame back (shift 10, ctrl 100)",
+     {key_right, key_left},
+     advance_by_key},
+    {"home, end",
+     "first, last frame; of a run that goes on, as it is now",
+     {key_home, key_end},
+     [](Gui& gui, ImWchar key) { go_to_landmark(gui, key == key_home ? Landmark::first : Landmark::last); }},
+    {"d, j, p, c",
+     "to θ_d; to the jump of ℓ_c; to where a cluster first spans; to θ_c",
+     {'d', 'j', 'p', 'c'},
+     go_by_key},
+    {"< >",
+     "speed of a replay",
+     {'<', '>'},
+     [](Gui& gui, ImWchar key) { change_speed(gui, key == '<' ? 0.8 : 1.25); }},
+    {"1 ... 9",
+     "the maps, in the order of their list",
+     {'1', '2', '3', '4', '5', '6', '7', '8', '9'},
+     choose_map},
+    {"0",
+     "no overlay",
+     {'0'},
+     [](Gui& gui, ImWchar) {
+       gui.model.state.map.layers.resize(1);
+       say_map(gui);
+     }},
+    {"o", "next overlay", {'o'}, next_overlay},
+    {"m", "next colours", {'m'}, next_colours},
+    {"v", "motion and strain since the angle shown, or per degree", {'v'}, change_reference},
+    {"[ ]",
+     "threshold of overloaded grains",
+     {'[', ']'},
+     [](Gui& gui, ImWchar key) {
+       change_number(gui, gui.model.state.map.threshold_factor, key == '[' ? -0.1 : 0.1, 0.1, 4.0,
+                     "Threshold of overloaded grains", "Γc");
+     }},
+    {", .",
+     "length of coarse graining",
+     {',', '.'},
+     [](Gui& gui, ImWchar key) {
+       change_number(gui, gui.model.state.map.length, key == ',' ? -1.0 : 1.0, 1.0, 40.0,
+                     "Length of coarse graining, for the maps coarse, density, stress", "D");
+     }},
+    {"; '",
+     "neighbourhood of the selected grain",
+     {';', '\''},
+     [](Gui& gui, ImWchar key) {
+       change_number(gui, gui.model.state.neighbourhood, key == ';' ? -1.0 : 1.0, 1.0, 40.0,
+                     "Neighbourhood of the selected grain", "D");
+     }},
+    {"t",
+     "turn the bed to its slope",
+     {'t'},
+     [](Gui& gui, ImWchar) {
+       toggle(gui, gui.model.state.map.turned, "The bed is turned to its slope.",
+              "The bed lies along the picture.");
+     }},
+    {"+ -, wheel", "zoom", {'+', '=', '-'}, zoom_by_key},
+    {"w a x z, drag", "move the picture", {'w', 'a', 'x', 'z'}, move_by_key},
+    {"f", "whole bed", {'f'}, [](Gui& gui, ImWchar) { show_whole_bed(gui); }},
+    {"n", "select the next grain; escape: none", {'n', key_escape}, select_by_key},
+    {"T, L",
+     "trails of the selected grains; follow the selected grain",
+     {'T', 'L'},
+     [](Gui& gui, ImWchar key) { key == 'T' ? toggle_trails(gui) : toggle_following(gui); }},
+    {"i, y",
+     "outline its cluster; draw its neighbourhoods",
+     {'i', 'y'},
+     [](Gui& gui, ImWchar key) {
+       ViewState& state = gui.model.state;
+       if (key == 'i')
+         toggle(gui, state.highlight_cluster,
+                of_selected(gui, "The cluster of an overloaded grain is outlined"),
+                "No cluster is outlined.");
+       else
+         toggle(gui, state.show_neighbourhoods, of_selected(gui, "The neighbourhoods of the grain are drawn"),
+                "No neighbourhoods are drawn.");
+     }},
+    {"B",
+     "bookmark of the frame shown, with a note",
+     {'B'},
+     [](Gui& gui, ImWchar) { gui.model.state.bookmark_asked = true; }},
+    {"P, D",
+     "a second view; in it, what changes from the frame shown on",
+     {'P', 'D'},
+     [](Gui& gui, ImWchar key) { key == 'P' ? toggle_second_view(gui) : show_change_since_here(gui); }},
+    {"g, b",
+     "run to the angle; deposit the bed",
+     {'g', 'b'},
+     [](Gui& gui, ImWchar key) { key == 'g' ? run_to_tilt(gui) : deposit(gui); }},
+    {"r", "reset, with the seed given", {'r'}, [](Gui& gui, ImWchar) { reset(gui); }},
+    {"s", "save the state of a run that is computed", {'s'}, [](Gui& gui, ImWchar) { save_state(gui); }},
+    {"e",
+     "write the picture to the file named under files",
+     {'e'},
+     [](Gui& gui, ImWchar) { gui.requests.save_png_path = gui.model.state.picture_path; }},
+    {"u, k",
+     "push the selected grain; drop grains there",
+     {'u', 'k'},
+     [](Gui& gui, ImWchar key) { key == 'u' ? push_selected(gui) : drop_here(gui); }},
+    {"N, U",
+     "branch: go on from the frame shown; back before the last command",
+     {'N', 'U'},
+     [](Gui& gui, ImWchar key) { key == 'N' ? branch_here(gui) : go_back(gui); }},
+    {"R M A S F G",
+     "unfold run, map, act, select, files, grain; tab: from field to field",
+     {'R', 'M', 'A', 'S', 'F', 'G'},
+     [](Gui& gui, ImWchar key) {
+       gui.model.state.show_controls = true;
+       gui.panel_asked = group_of_key(key);
+     }},
+    {"h",
+     "show or hide the columns",
+     {'h'},
+     [](Gui& gui, ImWchar) {
+       ViewState& state = gui.model.state;
+       toggle(gui, state.show_controls, "The columns are shown, where there is room.",
+              "The columns are hidden: h shows them.");
+       state.show_inspector = state.show_controls;
+     }},
+    {"l",
+     "show or hide the plots",
+     {'l'},
+     [](Gui& gui, ImWchar) {
+       toggle(gui, gui.model.state.show_plots, "The plots are shown, where there is room.",
+              "The plots are hidden: l shows them.");
+     }},
+    {"C",
+     "next theme: light, dark, print",
+     {'C'},
+     [](Gui& gui, ImWchar) { gui.model.state.theme = next_theme(gui.model.state.theme); }},
+    {"?",
+     "this list",
+     {'?'},
+     [](Gui& gui, ImWchar) { gui.model.state.show_help = !gui.model.state.show_help; }},
+    {"q", "quit", {'q'}, [](Gui& gui, ImWchar) { gui.requests.quit = gui.model.may_discard(); }},
+};
+
+void act(Gui& gui, ImWchar code) {
+  for (const Key& key : all_keys)
+    if (code != 0 && std::ranges::find(key.codes, code) != std::end(key.codes)) return key.act(gui, code);
+  if (code > ' ')
+    say(gui, code < 127 ? fmt::format("{} does nothing here; ? lists the keys.", static_cast<char>(code))
+                        : "That key does nothing here; ? lists the keys.");
 }
 
 }  // namespace
@@ -166,13 +330,9 @@ void escape(Gui& gui) {
 void handle_keys(Gui& gui) {
   const ImGuiIO& io = ImGui::GetIO();
   if (io.WantTextInput) return;
-  for (const ImWchar key : io.InputQueueCharacters) act(gui, key);
-  if (pressed(ImGuiKey_RightArrow)) advance(gui, factor_of_modifiers());
-  if (pressed(ImGuiKey_LeftArrow)) advance(gui, -factor_of_modifiers());
-  if (pressed(ImGuiKey_Home)) go_to_landmark(gui, Landmark::first);
-  if (pressed(ImGuiKey_End)) go_to_landmark(gui, Landmark::last);
-  const bool list_open = ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopup);  // it closes itself
-  if (pressed(ImGuiKey_Escape) && !list_open) escape(gui);
+  for (const ImWchar character : io.InputQueueCharacters) act(gui, std::min<ImWchar>(character, 127));
+  for (const int key : {key_right, key_left, key_home, key_end, key_escape})
+    if (ImGui::IsKeyPressed(key)) act(gui, static_cast<ImWchar>(key));
 }
 
 void draw_help(Gui& gui) {
@@ -181,10 +341,10 @@ void draw_help(Gui& gui) {
   ImGui::SetNextWindowSizeConstraints({0.0f, 0.0f}, {0.95f * size.x, 0.95f * size.y});
   ImGui::Begin("Keys", &gui.model.state.show_help,
                ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_AlwaysAutoResize);
-  for (const KeyLine& line : key_lines) {
-    ImGui::TextUnformatted(line.keys);
+  for (const Key& key : all_keys) {
+    ImGui::TextUnformatted(key.name);
     ImGui::SameLine(9.0f * gui.em);
-    rich_text(line.what);
+    rich_text(key.what);
   }
   ImGui::TextUnformatted("On the map: click a grain, drag to move, wheel to zoom.");
   ImGui::TextUnformatted(

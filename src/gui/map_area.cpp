@@ -3,33 +3,15 @@
 #include <fmt/core.h>
 
 #include "core/trigonometry.h"
-#include "gui/branching.h"
+#include "gui/actions.h"
+#include "gui/map_mouse.h"
 #include "gui/panels.h"
-#include "gui/select_tools.h"
-#include "gui/view_actions.h"
 #include "render/layout.h"
 
 namespace talus {
 namespace {
 
 constexpr float least_picture = 4.0f;  ///< em
-
-/// The map as it lies in the window.
-struct ShownMap {
-  ImVec2 corner;
-  Camera camera;
-
-  Point bed_place(const ImVec2& mouse) const {
-    const double right = (static_cast<double>(mouse.x - corner.x) - camera.origin_x) / camera.scale;
-    const double down = (static_cast<double>(mouse.y - corner.y) - camera.origin_y) / camera.scale;
-    return {camera.cosine * right + camera.sine * down, camera.sine * right - camera.cosine * down};
-  }
-  ImVec2 pixel(double x, double y) const {
-    const double right = camera.cosine * x + camera.sine * y, down = camera.sine * x - camera.cosine * y;
-    return {corner.x + static_cast<float>(camera.origin_x + camera.scale * right),
-            corner.y + static_cast<float>(camera.origin_y + camera.scale * down)};
-  }
-};
 
 constexpr float caption_line = 1.2f;  ///< em
 
@@ -80,51 +62,42 @@ void draw_gravity(const ImVec2& middle, float em, double fall, ImU32 ink) {
   list.AddText({middle.x - 1.5f * em, middle.y - 0.5f * em}, ink, "g");
 }
 
-/// What is under the mouse in the first view, or in the second.
-void tell_grain(const Gui& gui, const MapPane& pane, const Point& place, Index grain) {
-  const ViewModel& model = gui.model;
-  const ViewModel& of = pane.beside && model.run_beside() ? *model.run_beside() : model;
-  const double diameter = of.mean_diameter();
+/// What is under the mouse. A second view of the same run tells what the first one does, and what it has of
+/// its own: another map, or what has changed.
+void tell_grain(Gui& gui, const View& view, const Point& place, Index grain) {
+  const View told = &view.run == &gui.model ? gui.model.first() : view;
+  const double diameter = view.run.mean_diameter();
   ImGui::BeginTooltip();
   rich_text(
-      fmt::format("{:.1f}, {:.1f} D: {}", place.x / diameter, place.y / diameter, grain_text(of, grain)));
-  // A second view of the same run shows another map, or what has changed.
-  const GrainValues none, &shown = pane.beside ? model.values_beside() : none;
+      fmt::format("{:.1f}, {:.1f} D: {}", place.x / diameter, place.y / diameter, grain_text(told, grain)));
+  const GrainValues none, &shown = view.second ? view.values() : none;
   const auto k = static_cast<std::size_t>(grain);
   if (k < shown.values.size() && !std::isnan(shown.values[k]))
     rich_text(fmt::format("{}: {:.4g}", shown.title, shown.values[k]));
   ImGui::EndTooltip();
 }
 
-void use_mouse(Gui& gui, const MapPane& pane, const ShownMap& shown) {
+void use_mouse(Gui& gui, const View& view, const ShownMap& shown) {
   const ImGuiIO& io = ImGui::GetIO();
-  ViewModel& model = gui.model;
-  ViewState& state = model.state;
   const auto in_first = [&](const Point& of) {
-    return pane.beside ? model.place_in_first(of.x, of.y) : Vec2{of.x, of.y};
+    return place_in(gui.model.statics(), view.run.statics(), of.x, of.y);
   };
   const Point place = shown.bed_place(io.MousePos);
   const Vec2 linked = in_first(place);
   // The second view is looked at; what is selected, or pulled, is so in the first.
-  const BedPlace bed_place = [&](const ImVec2& px) { return shown.bed_place(px); };
-  const bool first = !pane.beside;
-  if (first &&
-      drag_grain(gui, place.x, place.y, {[&](double x, double y) { return shown.pixel(x, y); }, bed_place}))
-    return;
-  const bool outlining = first && select_by_outline(gui, bed_place);
+  if (!view.second && drag_grain(gui, place.x, place.y, shown)) return;
+  const bool outlining = !view.second && select_by_outline(gui, shown);
   if (ImGui::IsItemHovered()) {
     if (io.MouseWheel != 0.0f)
       zoom_about(gui, std::pow(1.25, static_cast<double>(io.MouseWheel)), linked.x, linked.y);
-    const std::optional<Index> grain =
-        pane.beside ? model.grain_beside_at(place.x, place.y) : model.grain_at(place.x, place.y);
-    if (grain && !ImGui::IsMouseDown(0)) tell_grain(gui, pane, place, *grain);
+    const std::optional<Index> grain = find_grain(view.run.bed(), place.x, place.y);
+    if (grain && !ImGui::IsMouseDown(0)) tell_grain(gui, view, place, *grain);
     const bool dragged = io.MouseDragMaxDistanceSqr[0] > 16.0f;
-    const bool own = !pane.beside || model.run_beside() == nullptr;  // the inspector tells of the first run
     if (ImGui::IsMouseReleased(0) && !dragged && !outlining) {
-      if (own)
+      if (&view.run == &gui.model)  // the inspector tells of the first run
         select_clicked(gui, place.x, place.y);
       else
-        state.message = "Grains are selected in the first run only: click there.";
+        say(gui, "Grains are selected in the first run only: click there.");
     }
   }
   if (outlining) return;
@@ -149,12 +122,13 @@ float below_map(const FrameView& annotated, float width, float em) {
 
 }  // namespace
 
-std::string grain_text(const ViewModel& model, Index grain) {
+std::string grain_text(const View& view, Index grain) {
+  const ViewModel& model = view.run;
   std::string text = fmt::format("grain {}", grain);
   if (grain >= model.statics().free_count) return "floor " + text;
   const auto of_grain = static_cast<std::size_t>(grain);
   bool gamma_told = false;
-  for (const Legend& legend : model.annotated_map().legends)
+  for (const Legend& legend : view.annotated_map().legends)
     for (const Bar& bar : legend.bars) {
       if (of_grain >= bar.values.size()) continue;
       const double value = bar.values[of_grain];
@@ -164,13 +138,13 @@ std::string grain_text(const ViewModel& model, Index grain) {
       else
         text += fmt::format(", {} = {:.3g}{}{}", bar.symbol, value,
                             bar.unit.empty() || bar.unit.starts_with("°") ? "" : " ", bar.unit);
-      if (bar.symbol == "γ" && !std::isnan(value)) text += ", " + reading_text(model.state.map);
+      if (bar.symbol == "γ" && !std::isnan(value)) text += ", " + reading_text(view.state.map);
     }
-  if (gamma_told || !any_layer(model.state.map.layers, [](MapKind kind) { return shows_gamma(kind); }))
+  if (gamma_told || !any_layer(view.state.map.layers, [](MapKind kind) { return shows_gamma(kind); }))
     return text;
   const double gamma = model.frame().gamma[of_grain];
   return std::isnan(gamma) ? text + ", carries nothing"
-                           : fmt::format("{}, γ = {:.3g}, {}", text, gamma, reading_text(model.state.map));
+                           : fmt::format("{}, γ = {:.3g}, {}", text, gamma, reading_text(view.state.map));
 }
 
 float map_area_height(const FrameView& annotated, float width, float picture, float em) {
@@ -180,39 +154,38 @@ float map_area_height(const FrameView& annotated, float width, float picture, fl
          2.0f * (style.WindowPadding.y + style.ItemSpacing.y);
 }
 
-void draw_map_pane(Gui& gui, const MapPane& pane, const ImVec2& room) {
+void draw_map_pane(Gui& gui, const View& of, const ImVec2& room, bool with_gravity) {
   const int pixels = std::max(static_cast<int>(room.x), smallest_width);
-  const double aspect = static_cast<double>(room.x) / static_cast<double>(room.y);
-  const FrameView view = pane.beside ? gui.model.map_beside(aspect) : gui.model.map(aspect);
+  const FrameView view = of.map(static_cast<double>(room.x) / static_cast<double>(room.y));
   const Layout layout = lay_out(view, pixels, embedded_font());
   const float shown_height = room.x * static_cast<float>(layout.height) / static_cast<float>(layout.width);
   ShownMap shown{ImGui::GetCursorScreenPos(), layout.bed.camera};
   const ImVec2 end{shown.corner.x + room.x, shown.corner.y + std::min(shown_height, room.y)};
-  const char* name = pane.beside ? "map beside" : "map";
+  const char* name = of.second ? "map beside" : "map";
   ImGui::InvisibleButton(name, {room.x, std::max(1.0f, end.y - shown.corner.y)},
                          ImGuiButtonFlags_MouseButtonLeft);
   note_place(gui, name);
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  list.AddImage(gui.draw_map(view, pixels, pane.beside ? 1 : 0), shown.corner, end, {0.0f, 0.0f},
+  list.AddImage(gui.draw_map(view, pixels, of.second ? 1 : 0), shown.corner, end, {0.0f, 0.0f},
                 {1.0f, (end.y - shown.corner.y) / shown_height});
   const ImVec2 under{shown.corner.x + room.x - 1.4f * gui.em, ImGui::GetCursorScreenPos().y + 1.2f * gui.em};
-  if (shows_gravity(room.x, gui.em) && pane.gravity) {
+  if (shows_gravity(room.x, gui.em) && with_gravity) {
     draw_gravity(under, gui.em, view.tilt - view.turn, packed(gui.colours.ink));
     note_place(gui, "gravity", {under.x - 1.5f * gui.em, under.y - 1.1f * gui.em},
                {under.x + 1.1f * gui.em, under.y + 1.1f * gui.em});
   }
-  use_mouse(gui, pane, shown);
+  use_mouse(gui, of, shown);
 }
 
 void draw_map_area(Gui& gui) {
   if (gui.model.state.beside.shown && draw_pair(gui)) return;
   const float width = ImGui::GetContentRegionAvail().x;
-  const FrameView& annotated = gui.model.annotated_map();
+  const FrameView& annotated = gui.model.first().annotated_map();
   draw_caption(annotated, width);
   const float below = below_map(annotated, width, gui.em) + ImGui::GetStyle().ItemSpacing.y;
   const ImVec2 room{std::max(width, 1.0f),
                     std::max(ImGui::GetContentRegionAvail().y - below, least_picture * gui.em)};
-  draw_map_pane(gui, {}, room);
+  draw_map_pane(gui, gui.model.first(), room, true);
   draw_legends(gui, annotated, legend_width(width, gui.em), true);
 }
 

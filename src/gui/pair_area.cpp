@@ -40,10 +40,11 @@ std::string shortened(const std::string& name, float width) {
 }
 
 /// Name and angle share a line if both have room.
-PaneHead head_of(const ViewModel& of, const FrameView& annotated, float width) {
+PaneHead head_of(const View& of, float width) {
+  const FrameView& annotated = of.annotated_map();
   const ImFont& font = *ImGui::GetFont();
   const float size = ImGui::GetFontSize();
-  const std::string name = shortened(std::filesystem::path(of.path()).filename().string(), width);
+  const std::string name = shortened(std::filesystem::path(of.run.path()).filename().string(), width);
   const bool both =
       ImGui::CalcTextSize(name.c_str()).x + rich_width(font, size, annotated.caption) + size < width;
   PaneHead head = {{name, true, false}};
@@ -80,23 +81,21 @@ struct PairLayout {
   bool columns = true;
   ImVec2 pane;         ///< each, with what is above and below its picture
   ImVec2 picture;      ///< room for it
-  int lines = 2;       ///< above it
+  int lines = 0;       ///< above it
   float below = 0.0f;  ///< height of the legend below it
   std::array<PaneHead, 2> heads;
 };
 
-PairLayout pair_layout(const Gui& gui, const ImVec2& room, bool columns) {
+PairLayout pair_layout(const Gui& gui, const std::array<View, 2>& views, const ImVec2& room, bool columns) {
   const float em = gui.em;
   PairLayout of;
   of.columns = columns;
   of.pane = columns ? ImVec2{0.5f * (room.x - gap * em), room.y} : ImVec2{room.x, 0.5f * (room.y - gap * em)};
-  const ViewModel& model = gui.model;
-  of.heads[0] = head_of(model, model.annotated_map(), of.pane.x);
-  of.heads[1] =
-      head_of(model.run_beside() ? *model.run_beside() : model, model.annotated_map_beside(), of.pane.x);
-  of.lines = std::max(lines_of(of.heads[0]), lines_of(of.heads[1]));
-  of.below = std::max(legend_height(model.annotated_map(), of.pane.x),
-                      legend_height(model.annotated_map_beside(), of.pane.x));
+  for (std::size_t k = 0; k < views.size(); ++k) {
+    of.heads[k] = head_of(views[k], of.pane.x);
+    of.lines = std::max(of.lines, lines_of(of.heads[k]));
+    of.below = std::max(of.below, legend_height(views[k].annotated_map(), of.pane.x));
+  }
   const float between = ImGui::GetStyle().ItemSpacing.y;
   of.picture = {of.pane.x, of.pane.y - of.below - 1.2f * static_cast<float>(of.lines) * em - 3.0f * between};
   return of;
@@ -114,8 +113,9 @@ bool draw_pair(Gui& gui) {
   static constexpr const char* no_room =
       "There is no room for two views: make the window larger, or hide panels (h, l).";
   const ImVec2 room = ImGui::GetContentRegionAvail();
-  const double aspect = gui.model.bed_aspect();
-  const PairLayout columns = pair_layout(gui, room, true), rows = pair_layout(gui, room, false);
+  const std::array<View, 2> views = {gui.model.first(), gui.model.second()};
+  const double aspect = views[0].bed_aspect();
+  const PairLayout columns = pair_layout(gui, views, room, true), rows = pair_layout(gui, views, room, false);
   const float by_columns = bed_width(columns, aspect, gui.em), by_rows = bed_width(rows, aspect, gui.em);
   std::string& message = gui.model.state.message;
   if (by_columns == 0.0f && by_rows == 0.0f) {
@@ -124,14 +124,13 @@ bool draw_pair(Gui& gui) {
   }
   if (message == no_room) message.clear();
   const PairLayout& of = by_columns >= by_rows ? columns : rows;
-  for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
+  for (std::size_t k = 0; k < views.size(); ++k) {
     if (k == 1 && of.columns) ImGui::SameLine(0.0f, gap * gui.em);
     ImGui::BeginChild(k == 0 ? "first view" : "second view", of.pane, false,
                       ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
     draw_head(of.heads[k], of.pane.x, of.lines);
-    draw_map_pane(gui, {.beside = k == 1, .gravity = false}, of.picture);
-    draw_legends(gui, k == 0 ? gui.model.annotated_map() : gui.model.annotated_map_beside(), of.pane.x,
-                 k == 0);
+    draw_map_pane(gui, views[k], of.picture, false);
+    draw_legends(gui, views[k].annotated_map(), of.pane.x, k == 0);
     ImGui::EndChild();
   }
   return true;

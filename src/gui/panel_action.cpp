@@ -1,6 +1,5 @@
-#include "gui/branching.h"
+#include "gui/actions.h"
 #include "gui/panels.h"
-#include "gui/run_actions.h"
 
 namespace talus {
 
@@ -34,7 +33,10 @@ void draw_action_panel(Gui& gui) {
     send(gui, {0, CommandKind::tilt_rate, -1, *rate, 0.0});
   ImGui::Separator();
   ImGui::TextWrapped("ctrl and the mouse drag a grain of the map.");
-  draw_back_button(gui);
+  ImGui::BeginDisabled(status.commands_given == 0);
+  if (named_button(gui, "back", "back before it", "as the run was before the last command, to the bit: U"))
+    go_back(gui);
+  ImGui::EndDisabled();
   ImGui::TextWrapped("Commands, each after the step that is named; talus replay repeats them:");
   for (const Command& command : given_commands(live->commands()))
     ImGui::TextWrapped("%lld: %s", static_cast<long long>(command.step), command_text(command).c_str());

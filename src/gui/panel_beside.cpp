@@ -1,15 +1,27 @@
 #include <algorithm>
-#include <fmt/core.h>
 
 #include "core/errors.h"
 #include "core/trigonometry.h"
-#include "gui/beside_actions.h"
+#include "gui/actions.h"
 #include "gui/panels.h"
 
 namespace talus {
 namespace {
 
 constexpr PlotAxis clocks[] = {PlotAxis::tilt, PlotAxis::angle_left, PlotAxis::time};
+
+/// By what runs are linked.
+std::string clock_name(PlotAxis clock) {
+  switch (clock) {
+    case PlotAxis::tilt:
+      return "θ";
+    case PlotAxis::angle_left:
+      return "θc − θ";
+    case PlotAxis::time:
+      return "t";
+  }
+  return {};
+}
 
 void choose_map_beside(Gui& gui) {
   BesideState& beside = gui.model.state.beside;
@@ -69,37 +81,6 @@ void choose_beside(Gui& gui) {
   choose_map_beside(gui);
   choose_minus(gui);
   choose_run_beside(gui);
-}
-
-std::string clock_name(PlotAxis clock) {
-  switch (clock) {
-    case PlotAxis::tilt:
-      return "θ";
-    case PlotAxis::angle_left:
-      return "θc − θ";
-    case PlotAxis::time:
-      return "t";
-  }
-  return {};
-}
-
-void toggle_beside(Gui& gui) {
-  ViewState& state = gui.model.state;
-  BesideState& beside = state.beside;
-  beside.shown = !beside.shown;
-  const bool alike = !beside.minus && gui.model.run_beside() == nullptr &&
-                     (beside.layers.empty() || beside.layers == state.map.layers);
-  if (beside.shown && alike)
-    beside.layers = {state.map.layers.at(0) == MapKind::displacement ? MapKind::gamma
-                                                                     : MapKind::displacement};
-}
-
-void show_change_since_here(Gui& gui) {
-  BesideState& beside = gui.model.state.beside;
-  beside.shown = true;
-  beside.minus = gui.model.frame().tilt;
-  gui.model.state.message =
-      fmt::format("The second view shows what has changed since {:.2f}°.", degrees(*beside.minus));
 }
 
 void show_run_beside(Gui& gui) {

@@ -2,9 +2,8 @@
 #include <filesystem>
 
 #include "core/paths.h"
-#include "gui/beside_actions.h"
+#include "gui/actions.h"
 #include "gui/panels.h"
-#include "gui/run_actions.h"
 
 namespace talus {
 namespace {

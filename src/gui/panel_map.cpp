@@ -1,8 +1,8 @@
 #include <algorithm>
 
 #include "core/trigonometry.h"
+#include "gui/actions.h"
 #include "gui/panels.h"
-#include "gui/view_actions.h"
 
 namespace talus {
 namespace {
@@ -53,7 +53,7 @@ void choose_range(Gui& gui) {
   if (!has_bar(map.layers)) return;
   bool own = map.range_low || map.range_high;
   if (named_checkbox(gui, "range", "range", own, "the ends of the bar, instead of the map's own")) {
-    const FrameView shown = gui.model.annotated_map();
+    const FrameView shown = gui.model.first().annotated_map();
     map.range_low.reset();
     map.range_high.reset();
     const auto with_bar =

@@ -4,11 +4,9 @@
 
 #include "core/errors.h"
 #include "core/trigonometry.h"
-#include "gui/branching.h"
+#include "gui/actions.h"
 #include "gui/icons.h"
 #include "gui/panels.h"
-#include "gui/run_actions.h"
-#include "gui/view_actions.h"
 
 namespace talus {
 namespace {
@@ -27,6 +25,19 @@ void draw_status(const Palette& colours, const LiveStatus& status, bool theta_c_
   ImGui::PushStyleColor(ImGuiCol_Text, packed(colours.warning));
   ImGui::TextWrapped("%s", status.error.c_str());
   ImGui::PopStyleColor();
+}
+
+/// Of a branch: which run it has left, and the way back to that.
+void draw_branch_origin(Gui& gui) {
+  const auto line = gui.model.branch_line();
+  if (!line) return;
+  ImGui::TextWrapped("branch at frame %zu, %.2f°", line->frame, degrees(line->tilts[line->frame]));
+  if (named_button(gui, "return to the run", "return to the run",
+                   "open the run again that this branch left")) {
+    gui.requests.open_path = line->run;
+    gui.requests.open_frame = line->frame;
+  }
+  ImGui::Separator();
 }
 
 void draw_live(Gui& gui, LiveRun& live) {
@@ -135,6 +146,12 @@ void draw_replay(Gui& gui) {
 }
 
 }  // namespace
+
+void draw_branch_button(Gui& gui) {
+  if (named_button(gui, "branch here", "branch here",
+                   "go on from this frame, as a run of its own: N; the run stays as it is"))
+    branch_here(gui);
+}
 
 std::string frame_counter(std::size_t frame, std::size_t count) {
   return fmt::format("frame {} (0 to {})", frame, count - 1);

@@ -6,9 +6,10 @@
 #include <fmt/core.h>
 #include <numeric>
 
+#include "core/statistics.h"
+#include "gui/actions.h"
 #include "gui/panels.h"
 #include "gui/plot_widget.h"
-#include "gui/view_actions.h"
 #include "view/selection_table.h"
 
 namespace talus {
@@ -85,13 +86,15 @@ void draw_histogram(Gui& gui, const std::vector<Index>& grains) {
   choose_quantity(gui);
   const GrainNumber& number = grain_number(gui.model.state.selecting.quantity);
   const std::vector<double>& values = gui.model.grain_values(number);
-  const GrainStatistics of = statistics_of(grains, values);
-  if (of.count > 0) {
+  const std::vector<double> known = known_values(grains, values);
+  if (!known.empty()) {
+    const Statistics of = statistics_of(known);
     fact("mean", std::isnan(of.deviation) ? fmt::format("{:.4g}", of.mean)
                                           : fmt::format("{:.4g} ± {:.3g}", of.mean, of.deviation));
-    fact("from, to", fmt::format("{:.4g}, {:.4g}", of.least, of.largest));
+    const auto [least, largest] = std::ranges::minmax(known);
+    fact("from, to", fmt::format("{:.4g}, {:.4g}", least, largest));
   }
-  if (of.count < grains.size()) fact("without a value", fmt::format("{}", grains.size() - of.count));
+  if (known.size() < grains.size()) fact("without a value", fmt::format("{}", grains.size() - known.size()));
   std::vector<Index> all(static_cast<std::size_t>(gui.model.statics().free_count));
   std::iota(all.begin(), all.end(), 0);
   const Plot plot = histogram_of(number, grains, all, values);

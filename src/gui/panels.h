@@ -17,6 +17,8 @@ void draw_run_panel(Gui& gui);
 std::string frame_counter(std::size_t frame, std::size_t count);
 /// Which map is drawn, and how.
 void draw_map_panel(Gui& gui);
+/// The button of a replay that begins a branch.
+void draw_branch_button(Gui& gui);
 /// Commands to a run that is computed.
 void draw_action_panel(Gui& gui);
 /// Selecting by a condition; what is selected as a table.
@@ -33,12 +35,8 @@ void draw_plots(Gui& gui);
 void draw_time_line(Gui& gui);
 /// The map with its title and legend, the mouse on it.
 void draw_map_area(Gui& gui);
-/// A picture of the bed with the mouse on it: the map, or the second view.
-struct MapPane {
-  bool beside = false;
-  bool gravity = true;  ///< its arrow is drawn on the right below
-};
-void draw_map_pane(Gui& gui, const MapPane& pane, const ImVec2& room);
+/// A picture of the bed with the mouse on it, and the arrow of gravity on the right below it.
+void draw_map_pane(Gui& gui, const View& view, const ImVec2& room, bool with_gravity);
 /// The map and the second view, beside each other or one above the other, whichever shows more. False where
 /// there is no room for two, which the message says; nothing is drawn then.
 bool draw_pair(Gui& gui);
@@ -46,7 +44,7 @@ bool draw_pair(Gui& gui);
 void choose_beside(Gui& gui);
 /// What the map tells of a grain under the mouse, as rich text: what its bar measures, with the unit, and
 /// gamma on maps of overloaded grains.
-std::string grain_text(const ViewModel& model, Index grain);
+std::string grain_text(const View& view, Index grain);
 /// The height of the map with its title and legend in a width, around a picture of `picture` px.
 float map_area_height(const FrameView& annotated, float width, float picture, float em);
 /// All keys.

@@ -1,12 +1,10 @@
-#include "gui/run_actions.h"
-
 #include <algorithm>
 #include <cmath>
 #include <fmt/core.h>
 
 #include "core/errors.h"
 #include "core/trigonometry.h"
-#include "gui/view_actions.h"
+#include "gui/actions.h"
 
 namespace talus {
 
@@ -29,9 +27,10 @@ void advance_frames(Gui& gui, int count) {
   model.go_to(static_cast<std::size_t>(to));
 }
 
-}  // namespace
-
+/// The next multiple of 5 deg above a tilt (deg), as one to run to.
 double next_round_tilt(double tilt) { return 5.0 * (std::floor(tilt / 5.0 + 1e-6) + 1.0); }
+
+}  // namespace
 
 void toggle_playing(Gui& gui) {
   ViewModel& model = gui.model;
@@ -177,6 +176,38 @@ void drop_here(Gui& gui) {
   const double x = state.selected ? frame.x[*state.selected] : state.camera.centre_x;
   send(gui, {0, CommandKind::drop, static_cast<Index>(state.drop_count), x,
              state.drop_height * gui.model.mean_diameter()});
+}
+
+void branch_here(Gui& gui) {
+  ViewModel& model = gui.model;
+  if (model.is_live()) {
+    model.state.message = "This run is being computed already; U goes back before its last command.";
+    return;
+  }
+  try {
+    model.play(false);
+    model.branch();
+    model.state.run_to_tilt = std::max(model.state.run_to_tilt, next_round_tilt(degrees(model.frame().tilt)));
+    model.state.message = fmt::format(
+        "A branch begins at {:.2f}°: push, drop or drag grains (ctrl), change friction or tilt, and play.",
+        degrees(model.frame().tilt));
+  } catch (const Error& error) {
+    model.state.message = error.what();
+  }
+}
+
+void go_back(Gui& gui) {
+  ViewModel& model = gui.model;
+  if (!model.is_live()) return refuse_in_replay(gui, "There is no command to take back");
+  try {
+    model.state.drag.reset();
+    model.back();
+    model.state.message = fmt::format("As it was before the command, after step {}.", model.frame().step);
+    if (!model.recording().output.empty())
+      model.state.message += " It is recorded in " + model.recording().output + " from here on.";
+  } catch (const Error& error) {
+    model.state.message = error.what();
+  }
 }
 
 }  // namespace talus

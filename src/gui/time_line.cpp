@@ -184,7 +184,7 @@ void draw_bookmark_note(Gui& gui) {
   ImGui::SameLine();
   ImGui::BeginDisabled(model.bookmark() == nullptr);
   if (named_button(gui, "remove bookmark", "remove")) {
-    model.remove_bookmark();
+    model.set_bookmark(std::nullopt);
     ImGui::CloseCurrentPopup();
   }
   ImGui::EndDisabled();

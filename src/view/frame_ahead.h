@@ -2,12 +2,12 @@
 /// The frame of a replay that will be shown next, made while the one before it is drawn.
 
 #include <cstddef>
-#include <functional>
 #include <future>
 #include <memory>
 #include <optional>
 
 #include "core/snapshot.h"
+#include "view/frame_source.h"
 
 namespace talus {
 
@@ -19,9 +19,6 @@ struct ShownFrame {
 /// Makes one frame at a time in the background. All members are for one thread.
 class FrameAhead {
  public:
-  /// Frame k; called by a thread of its own.
-  using ReadFrame = std::function<std::shared_ptr<const Frame>(std::size_t k)>;
-
   FrameAhead(RunStatics statics, ReadFrame read);
   /// Finishes what is under way.
   ~FrameAhead() = default;

@@ -3,7 +3,6 @@
 
 #include <condition_variable>
 #include <cstddef>
-#include <functional>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -11,6 +10,7 @@
 #include <vector>
 
 #include "pictures/picture_series.h"
+#include "view/frame_source.h"
 #include "view/frame_values.h"
 
 namespace talus {
@@ -18,9 +18,6 @@ namespace talus {
 /// Reads frames in a thread of its own. All members are for one other thread.
 class FrameSeries {
  public:
-  /// Frame k; called by the thread of the series.
-  using ReadFrame = std::function<std::shared_ptr<const Frame>(std::size_t k)>;
-
   /// `read` lives as long as the series. Nothing is read before begin.
   FrameSeries(const RunStatics& statics, ReadFrame read);
   /// Finishes the frame under way.

@@ -15,15 +15,18 @@ bool is_near(double one, double other) { return std::abs(one - other) <= 1e-9 * 
 
 }  // namespace
 
-FrameRecord overload_record(const BedFrame& bed, const Clusters& clusters, const OverloadRule& rule) {
+CoarseGrainingRule coarse_graining_rule(const OverloadRule& rule, const RunStatics& statics) {
   const double threshold = threshold_of(rule);
+  return {.threshold = threshold,
+          .end_ratio = threshold,
+          .l_min = rule.l_min * statics.mean_diameter,
+          .cut = length_cut(statics, rule.l_min)};
+}
+
+FrameRecord overload_record(const BedFrame& bed, const Clusters& clusters, const OverloadRule& rule) {
   FrameThreshold at;
-  take_overloaded(count_overloaded(bed, threshold), bed.statics, at);
-  take_lengths(coarse_graining(bed, {.threshold = threshold,
-                                     .end_ratio = threshold,
-                                     .l_min = rule.l_min * bed.statics.mean_diameter,
-                                     .cut = length_cut(bed.statics, rule.l_min)}),
-               at);
+  take_overloaded(count_overloaded(bed, threshold_of(rule)), bed.statics, at);
+  take_lengths(coarse_graining(bed, coarse_graining_rule(rule, bed.statics)), at);
   take_clusters(clusters, bed_edges(bed), at);
   return {.tilt = bed.frame.tilt, .thresholds = {at}};
 }

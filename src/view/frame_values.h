@@ -6,11 +6,15 @@
 #include <vector>
 
 #include "analysis/clusters.h"
+#include "analysis/coarse_graining.h"
 #include "analysis/record.h"
 #include "io/run_file.h"
 #include "pictures/overload_rule.h"
 
 namespace talus {
+
+/// How overloaded grains and their l_c are found in frames of mapped_frame with the rule.
+CoarseGrainingRule coarse_graining_rule(const OverloadRule& rule, const RunStatics& statics);
 
 /// The record of a frame of mapped_frame with its clusters: its tilt, and what it has at the threshold of the
 /// rule, without the values of single grains.

@@ -5,6 +5,8 @@
 #include <iterator>
 #include <utility>
 
+#include "view/inspection.h"
+
 namespace talus {
 
 HistoryInstant instant_of(const Frame& frame, const HistoryQuestion& question) {
@@ -83,6 +85,26 @@ void HistorySeries::work(const std::stop_token& stop) {
     shared_.ready.push_back(std::move(instant));
     ++next;
   }
+}
+
+std::vector<Plot> contact_plots(std::span<const HistoryInstant> instants, std::span<const double> friction,
+                                double weight, const PlotAbscissa& abscissa) {
+  PlotSeries normal{"f_n", {}, {}}, tangential{"f_t", {}, {}}, mobilisation{"|f_t|/μf_n", {}, {}},
+      sliding{"slides", {}, {}, true};
+  for (std::size_t k = 0; k < instants.size(); ++k) {
+    const HistoryInstant& at = instants[k];
+    const double x = place_on(abscissa, at.tilt, at.time);
+    for (PlotSeries* series : {&normal, &tangential, &mobilisation, &sliding}) series->x.push_back(x);
+    normal.y.push_back(at.fn / weight);
+    tangential.y.push_back(at.ft / weight);
+    mobilisation.y.push_back(mobilised(at.fn, at.ft, friction[k]));
+    sliding.y.push_back(1.0);
+  }
+  std::vector<Plot> plots = {
+      plot_along_run("contact forces", "f/mg", {std::move(normal), std::move(tangential)}),
+      plot_along_run("mobilisation", "", {std::move(mobilisation), std::move(sliding)})};
+  name_axis(abscissa.axis, plots);
+  return plots;
 }
 
 }  // namespace talus

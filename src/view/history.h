@@ -2,15 +2,17 @@
 /// What single grains and a contact went through: read from all frames of a run, while the view is used.
 
 #include <condition_variable>
-#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "core/snapshot.h"
+#include "view/frame_source.h"
+#include "view/plots.h"
 #include "view/selection.h"
 
 namespace talus {
@@ -45,9 +47,6 @@ HistoryInstant instant_of(const Frame& frame, const HistoryQuestion& question);
 /// Reads in a thread of its own. All members are for one other thread.
 class HistorySeries {
  public:
-  /// Frame k; called by the thread of the series.
-  using ReadFrame = std::function<std::shared_ptr<const Frame>(std::size_t k)>;
-
   explicit HistorySeries(ReadFrame read);
   /// Finishes the frame under way.
   ~HistorySeries() = default;
@@ -81,5 +80,10 @@ class HistorySeries {
   Shared shared_;
   std::jthread thread_;  ///< the last: it is joined before the rest goes
 };
+
+/// "contact forces", over the weight `weight` (N/m), and "mobilisation", with 1, where it slides: along the
+/// run. `friction` of each instant. An open contact has no mobilisation.
+std::vector<Plot> contact_plots(std::span<const HistoryInstant> instants, std::span<const double> friction,
+                                double weight, const PlotAbscissa& abscissa);
 
 }  // namespace talus

@@ -40,7 +40,7 @@ std::vector<GrainContact> contacts_of(const BedFrame& bed, Index grain) {
 }
 
 /// l_c, as coarse_graining has it.
-double length_of(const NeighbourhoodCurve& curve, const InspectionRule& rule) {
+double length_of(const NeighbourhoodCurve& curve, const CoarseGrainingRule& rule) {
   for (std::size_t k = 0; k < curve.l.size() && curve.l[k] <= rule.cut; ++k) {
     const bool below = k + 1 < curve.l.size() && curve.l[k + 1] <= rule.l_min;
     if (!below && curve.gamma[k] <= rule.threshold) return std::max(curve.l[k], rule.l_min);
@@ -61,7 +61,8 @@ std::string body_name(const BedFrame& bed, Index body, double nx) {
   return fmt::format("{} {}", body < bed.statics.free_count ? "grain" : "floor grain", body);
 }
 
-Inspection inspect(const BedFrame& bed, const Clusters& clusters, const InspectionRule& rule, Index grain) {
+Inspection inspect(const BedFrame& bed, const Clusters& clusters, const CoarseGrainingRule& rule,
+                   double neighbourhood, Index grain) {
   const auto i = static_cast<std::size_t>(grain);
   Inspection of;
   of.grain = grain;
@@ -82,10 +83,38 @@ Inspection inspect(const BedFrame& bed, const Clusters& clusters, const Inspecti
   of.overloaded = is_overloaded(of.gamma, rule.threshold);
   of.cluster = clusters.label[i];
   if (of.cluster >= 0) of.cluster_size = clusters.size[static_cast<std::size_t>(of.cluster)];
-  const double widest = std::max(rule.cut, rule.neighbourhood);
+  const double widest = std::max(rule.cut, neighbourhood);
   of.curve = neighbourhood_curve(bed, grain, widest);
   if (of.overloaded) of.coarse_graining_length = length_of(of.curve, rule);
-  of.neighbourhood_gamma = gamma_at(of.curve, rule.neighbourhood);
+  of.neighbourhood_gamma = gamma_at(of.curve, neighbourhood);
+  return of;
+}
+
+double mobilised(double fn, double ft, double friction) {
+  return fn > 0.0 && friction > 0.0 ? std::abs(ft) / (friction * fn) : not_known;
+}
+
+ContactInspection inspect_contact(const BedFrame& bed, const ContactKey& key, double friction) {
+  ContactInspection of;
+  of.key = key;
+  of.friction = friction;
+  of.mobilisation = not_known;
+  const FrameContacts& contacts = bed.frame.contacts;
+  if (const auto found = contact_of_key(contacts, key)) {
+    const auto c = static_cast<std::size_t>(*found);
+    of.carries = true;
+    of.fn = contacts.fn[c];
+    of.ft = contacts.ft[c];
+    of.nx = contacts.nx[c];
+    of.ny = contacts.ny[c];
+    of.px = contacts.px[c];
+    of.py = contacts.py[c];
+    of.status = contacts.status[c];
+    if (is_with_wall(bed.frame, *found)) of.friction = bed.statics.wall_friction;
+    of.mobilisation = mobilised(of.fn, of.ft, of.friction);
+  }
+  of.a_name = body_name(bed, key.a, -of.nx);
+  of.b_name = body_name(bed, key.b, of.nx);
   return of;
 }
 

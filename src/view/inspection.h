@@ -1,5 +1,5 @@
 #pragma once
-/// What there is to say of one grain.
+/// What there is to say of one grain, and of one contact.
 
 #include <optional>
 #include <string>
@@ -46,17 +46,31 @@ struct Inspection {
 /// component nx) points to it: "left wall".
 std::string body_name(const BedFrame& bed, Index body, double nx);
 
-/// What it depends on beside the frame.
-struct InspectionRule {
-  double threshold = 0.0;      ///< stress ratio from which on a grain is overloaded
-  double l_min = 0.0;          ///< m: that of the frame; the search for l_c begins at this diameter
-  double cut = 0.0;            ///< m: the search for l_c ends at this diameter
-  double neighbourhood = 0.0;  ///< m: diameter of neighbourhood_gamma
+/// Of a grain of a frame of mapped_frame, floor included; one of the floor has contacts, but no
+/// neighbourhoods. `clusters` are those of the overloaded grains of the frame, which are found by the rule;
+/// `neighbourhood` (m) is the diameter of neighbourhood_gamma.
+Inspection inspect(const BedFrame& bed, const Clusters& clusters, const CoarseGrainingRule& rule,
+                   double neighbourhood, Index grain);
+
+/// All there is to say of one contact.
+struct ContactInspection {
+  ContactKey key;
+  std::string a_name, b_name;  ///< "grain 431", "floor grain 8012", "left wall"
+  bool carries = false;        ///< force in the frame shown; if not, what follows is 0
+  double fn = 0.0, ft = 0.0;   ///< on b along the normal from a to b and along it turned by +90 deg, N/m
+  double nx = 0.0, ny = 0.0;
+  double px = 0.0, py = 0.0;  ///< m
+  ContactStatus status = ContactStatus::open;
+  double friction = 0.0;      ///< mu, in the frame shown
+  double mobilisation = 0.0;  ///< the size of f_t over mu f_n; NaN without friction
 };
 
-/// Of a grain of a frame of mapped_frame, floor included; one of the floor has contacts, but no
-/// neighbourhoods. `clusters` are those of the overloaded grains of the frame.
-Inspection inspect(const BedFrame& bed, const Clusters& clusters, const InspectionRule& rule, Index grain);
+/// `friction`: that between grains at the time of the frame. A contact with a side wall has that of the
+/// walls.
+ContactInspection inspect_contact(const BedFrame& bed, const ContactKey& key, double friction);
+
+/// The share of friction that is mobilised, |f_t| / (friction f_n); NaN where it is open, or has none.
+double mobilised(double fn, double ft, double friction);
 
 /// The grain whose disc holds the place (m, frame of the bed; in a periodic bed any image of it), else the
 /// one whose edge is nearest, not farther than a mean diameter.

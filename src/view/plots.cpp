@@ -140,23 +140,11 @@ void plot_observables(std::span<const ObservableRow> rows, const RunStatics& sta
 }
 
 void plot_frames(std::span<const FrameRecord> frames, std::span<const double> times, double mean_diameter,
-                 const PlotAbscissa& abscissa, std::vector<Plot>& plots) {
+                 const PlotAbscissa& abscissa, std::vector<Plot>& plots, bool stored) {
   for (Plot& plot : plots)
     for (PlotSeries& series : plot.series) {
       if (!series.quantity || series.quantity->display.observable) continue;
-      clear(series);
-      for (std::size_t k = 0; k < frames.size(); ++k)
-        add(series, place_on(abscissa, frames[k].tilt, times[k]),
-            shown(*series.quantity, number_of(*series.quantity, frames[k]), mean_diameter));
-    }
-}
-
-void plot_stored(std::span<const FrameRecord> frames, std::span<const double> times, double mean_diameter,
-                 const PlotAbscissa& abscissa, std::vector<Plot>& plots) {
-  for (Plot& plot : plots)
-    for (PlotSeries& series : plot.series) {
-      if (!series.quantity || series.quantity->display.observable || needs_threshold(*series.quantity))
-        continue;
+      if (stored && needs_threshold(*series.quantity)) continue;
       clear(series);
       for (std::size_t k = 0; k < frames.size(); ++k)
         add(series, place_on(abscissa, frames[k].tilt, times[k]),

@@ -95,14 +95,11 @@ void name_axis(PlotAxis axis, std::vector<Plot>& plots);
 /// laws beside them, and the energy.
 void plot_observables(std::span<const ObservableRow> rows, const RunStatics& statics,
                       const PlotAbscissa& abscissa, std::vector<Plot>& plots);
-/// Fills the curves of all other quantities, from frames with one threshold; `times` (s) are theirs, and may
-/// be more. Values that are NaN make a gap.
+/// Fills the curves of all other quantities, from frames with one threshold, or, of a `stored` analysis,
+/// those of quantities that depend on no threshold; `times` (s) are of the frames, and may be more. Values
+/// that are NaN make a gap.
 void plot_frames(std::span<const FrameRecord> frames, std::span<const double> times, double mean_diameter,
-                 const PlotAbscissa& abscissa, std::vector<Plot>& plots);
-/// Fills the curves of quantities that depend on no threshold and are in no row, from the frames of a stored
-/// analysis.
-void plot_stored(std::span<const FrameRecord> frames, std::span<const double> times, double mean_diameter,
-                 const PlotAbscissa& abscissa, std::vector<Plot>& plots);
+                 const PlotAbscissa& abscissa, std::vector<Plot>& plots, bool stored = false);
 /// Notes the threshold, in Gamma_c, of the plots whose quantities have one; `assumed` (rad): the theta_c that
 /// it follows from while the slope has not failed.
 void note_threshold(double factor, std::optional<double> assumed, std::vector<Plot>& plots);

@@ -4,19 +4,14 @@
 #include <cmath>
 #include <utility>
 
-#include "analysis/free_grains.h"
-#include "analysis/links.h"
 #include "core/errors.h"
 #include "pictures/bed_view.h"
 #include "pictures/change_map.h"
-#include "pictures/texts.h"
-#include "view/rings.h"
 
 namespace talus {
 namespace {
 
-constexpr Colour length_colour{220, 50, 0}, circle_colour{70, 110, 170};
-constexpr Colour cluster_colour{240, 130, 0}, light_wall{190, 196, 206};
+constexpr Colour light_wall{190, 196, 206};
 
 void add_grains(FrameView& view, const FrameView& map) {
   view.discs.reserve(map.discs.size());
@@ -24,49 +19,6 @@ void add_grains(FrameView& view, const FrameView& map) {
     if (is_seen(view, disc)) view.discs.push_back(disc);
   for (const Line& line : map.lines)
     if (is_seen(view, line)) view.lines.push_back(line);
-}
-
-/// A stroke between each grain of a cluster and each neighbour that is not of it. Fills and rims of grains
-/// stay as they are: a cluster can be most of the bed.
-void add_outline(FrameView& view, const BedFrame& bed, const Clusters& clusters, Index cluster) {
-  if (cluster < 0) return;
-  const RunStatics& statics = bed.statics;
-  const double period = period_of(statics);
-  for (const Link& link : neighbour_links(bed)) {
-    if ((clusters.label[link.a] == cluster) == (clusters.label[link.b] == cluster)) continue;
-    const double r = statics.radius[link.a], x = bed.frame.x[link.a], y = bed.frame.y[link.a];
-    const double dx = bed.frame.x[link.b] + link.shift * period - x, dy = bed.frame.y[link.b] - y;
-    const double distance = std::hypot(dx, dy);
-    const double ux = dx / distance, uy = dy / distance;
-    const double reach = r + 0.5 * (distance - r - statics.radius[link.b]);
-    const double half = 0.6 * std::min(r, statics.radius[link.b]);
-    add_line(view,
-             {static_cast<float>(x + reach * ux - half * uy), static_cast<float>(y + reach * uy + half * ux),
-              static_cast<float>(x + reach * ux + half * uy), static_cast<float>(y + reach * uy - half * ux),
-              static_cast<float>(0.07 * statics.mean_diameter), cluster_colour},
-             statics);
-  }
-}
-
-/// On a white ground, to be seen over dark grains and light ones.
-void add_ring(FrameView& view, Vec2 centre, double radius, double half_width, const Colour& colour,
-              const RunStatics& statics) {
-  add_circle(view, centre, radius, 2.0 * half_width, white, statics);
-  add_circle(view, centre, radius, half_width, colour, statics);
-}
-
-void add_overlay(FrameView& view, const BedFrame& bed, const Overlay& overlay) {
-  if (!overlay.selected) return;
-  const RunStatics& statics = bed.statics;
-  const double d = statics.mean_diameter;
-  const double pen = std::min(d, (view.x_max - view.x_min) / 60.0);  // finer where little is shown
-  const auto grain = static_cast<std::size_t>(*overlay.selected);
-  const Vec2 centre{bed.frame.x[grain], bed.frame.y[grain]};
-  for (const double diameter : overlay.diameters)
-    add_ring(view, centre, 0.5 * diameter, 0.05 * pen, circle_colour, statics);
-  if (overlay.critical_length)
-    add_ring(view, centre, 0.5 * *overlay.critical_length, 0.09 * pen, length_colour, statics);
-  add_ring(view, centre, statics.radius[grain] + 0.05 * d, 0.08 * pen, selection_colour, statics);
 }
 
 /// Side walls, and a smooth floor; light where there is no white behind them.
@@ -154,17 +106,7 @@ std::optional<ScaleRange> own_range(const MapSource& source, const RunStatics& s
   return std::nullopt;
 }
 
-std::vector<double> growing_diameters(double largest) {
-  if (!(largest > 0.0)) return {};
-  const double step = round_step(largest, 5);
-  std::vector<double> diameters;
-  for (int k = 1; k * step < largest - 0.25 * step; ++k) diameters.push_back(k * step);
-  diameters.push_back(largest);
-  return diameters;
-}
-
-FrameView shown_map(const FrameView& map, const MapExtent& part, const BedFrame& bed, const Overlay& overlay,
-                    const Clusters& clusters) {
+FrameView shown_map(const FrameView& map, const MapExtent& part, const BedFrame& bed) {
   FrameView view = empty_view(part);
   view.turn = map.turn;
   view.turn_max = map.turn_max;
@@ -173,8 +115,6 @@ FrameView shown_map(const FrameView& map, const MapExtent& part, const BedFrame&
   view.transparent = map.transparent;
   add_grains(view, map);
   add_boundary(view, bed);
-  add_outline(view, bed, clusters, overlay.cluster);
-  add_overlay(view, bed, overlay);
   return view;
 }
 

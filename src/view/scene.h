@@ -49,20 +49,28 @@ FrameView draw_map(const PictureSeries& series, std::size_t k, const Frame& fram
 /// map of the series; drawn as draw_map where it cannot be. Both are frames of mapped_frame.
 FrameView draw_change(const PictureSeries& series, const Frame& frame, const Frame* reference);
 
+/// The part of a map that is shown. Nothing is drawn beyond the extent of the map but side walls and a smooth
+/// floor, as lines.
+FrameView shown_map(const FrameView& map, const MapExtent& part, const BedFrame& bed);
+
+/// Of what is selected, and of where it has been.
+inline constexpr Colour selection_colour{0, 90, 220}, trail_colour{0, 60, 150};
+
 /// What is drawn over the map of a frame.
 struct Overlay {
-  std::optional<Index> selected;
+  std::optional<Index> selected;          ///< the grain that is looked at
   Index cluster = -1;                     ///< to be outlined; -1: none
   std::vector<double> diameters;          ///< of circles about the selected grain, m
   std::optional<double> critical_length;  ///< l_c of the selected grain, m: a circle in another colour
+  std::vector<Index> grains;              ///< each with a thin ring
+  std::optional<Index> contact;  ///< of those of the frame: a ring about its point, a line between its bodies
+  /// Places of grains from frame to frame, m; in a periodic bed they go on beyond its edge.
+  std::vector<std::vector<Vec2>> trails;
 };
 
 /// Diameters for circles of a neighbourhood that has grown to `largest`: round steps, and the largest.
 std::vector<double> growing_diameters(double largest);
 
-/// The part of a map that is shown, with what is over it. Nothing is drawn beyond the extent of the map but
-/// side walls and a smooth floor, as lines.
-FrameView shown_map(const FrameView& map, const MapExtent& part, const BedFrame& bed, const Overlay& overlay,
-                    const Clusters& clusters);
+void add_overlay(FrameView& view, const BedFrame& bed, const Overlay& overlay, const Clusters& clusters);
 
 }  // namespace talus

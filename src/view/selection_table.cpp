@@ -39,27 +39,11 @@ PlotSeries stairs_of(const std::string& name, std::span<const Index> grains, std
 
 }  // namespace
 
-GrainStatistics statistics_of(std::span<const Index> grains, std::span<const double> values) {
-  GrainStatistics of;
-  double sum = 0.0;
-  for (const Index grain : grains) {
-    const double value = value_of(values, grain);
-    if (std::isnan(value)) continue;
-    of.least = of.count == 0 ? value : std::min(of.least, value);
-    of.largest = of.count == 0 ? value : std::max(of.largest, value);
-    sum += value;
-    ++of.count;
-  }
-  if (of.count == 0) return of;
-  of.mean = sum / static_cast<double>(of.count);
-  if (of.count < 2) return of;
-  double squares = 0.0;
-  for (const Index grain : grains) {
-    const double value = value_of(values, grain);
-    if (!std::isnan(value)) squares += (value - of.mean) * (value - of.mean);
-  }
-  of.deviation = std::sqrt(squares / static_cast<double>(of.count - 1));
-  return of;
+std::vector<double> known_values(std::span<const Index> grains, std::span<const double> values) {
+  std::vector<double> known;
+  for (const Index grain : grains)
+    if (const double value = value_of(values, grain); !std::isnan(value)) known.push_back(value);
+  return known;
 }
 
 std::vector<Index> sorted_by(std::vector<Index> grains, std::span<const double> values, bool descending) {
@@ -81,10 +65,11 @@ Plot histogram_of(const GrainNumber& number, std::span<const Index> selected, st
   plot.x_title = number.name + (unit == "1" ? "" : " in " + unit);
   std::ranges::replace(plot.x_title, '_', ' ');  // which would set a subscript
   plot.along_run = false;
-  const GrainStatistics of = statistics_of(all, values);
-  if (of.count == 0) return plot;
-  const double room = of.largest > of.least ? 0.0 : of.least == 0.0 ? 0.5 : 0.5 * std::abs(of.least);
-  const double low = of.least - room, high = of.largest + room;
+  const std::vector<double> known = known_values(all, values);
+  if (known.empty()) return plot;
+  const auto [least, largest] = std::ranges::minmax(known);
+  const double room = largest > least ? 0.0 : least == 0.0 ? 0.5 : 0.5 * std::abs(least);
+  const double low = least - room, high = largest + room;
   if (!std::isfinite(low) || !std::isfinite(high)) return plot;
   plot.series.push_back(stairs_of("selected", selected, values, low, high));
   plot.series.push_back(stairs_of("all", all, values, low, high));

@@ -10,15 +10,8 @@
 
 namespace talus {
 
-/// Of the values of some grains; those that are NaN do not count.
-struct GrainStatistics {
-  std::size_t count = 0;
-  double mean = not_known, deviation = not_known;  ///< standard deviation, over count - 1; NaN below two
-  double least = not_known, largest = not_known;
-};
-
-/// `values` of all grains, by their ids.
-GrainStatistics statistics_of(std::span<const Index> grains, std::span<const double> values);
+/// The values of some grains that have one; `values` of all grains, by their ids.
+std::vector<double> known_values(std::span<const Index> grains, std::span<const double> values);
 
 /// The grains by ascending values, or descending ones; those without a value come last, and equal ones by
 /// their ids.

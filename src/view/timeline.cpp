@@ -8,7 +8,6 @@
 #include "analysis/transition.h"
 #include "core/trigonometry.h"
 #include "session/command.h"
-#include "view/landmarks.h"
 
 namespace talus {
 namespace {
@@ -97,9 +96,11 @@ void add_of_rows(EventList& list, double theta_c) {
 
 void add_of_frames(EventList& list, double theta_c) {
   const TimelineSource& source = list.source;
-  if (const auto first = percolation_frame(source.values))
-    list.add_at("spans", "spans", "a cluster first spans from floor to surface", source.values[*first].tilt,
-                static_cast<double>(*first), *first < source.times.size() ? source.times[*first] : not_known,
+  const auto first = std::ranges::find_if(
+      source.values, [](const FrameRecord& frame) { return frame.thresholds.front().spans_depth != 0; });
+  if (const auto k = static_cast<std::size_t>(first - source.values.begin()); k < source.values.size())
+    list.add_at("spans", "spans", "a cluster first spans from floor to surface", first->tilt,
+                static_cast<double>(k), k < source.times.size() ? source.times[k] : not_known,
                 TimelineEvent::Kind::transition);
   if (source.may_change || source.values.size() < source.tilts.size()) return;
   const auto [begin, frames, tilts, other_side] = last_rise(source.values);
@@ -140,6 +141,22 @@ void add_rearrangements(EventList& list) {
 }
 
 }  // namespace
+
+std::string_view event_name(Landmark landmark) {
+  switch (landmark) {
+    case Landmark::theta_d:
+      return "dilation";
+    case Landmark::length_jump:
+      return "length jump";
+    case Landmark::percolation:
+      return "spans";
+    case Landmark::first:
+    case Landmark::theta_c:
+    case Landmark::last:
+      break;
+  }
+  return {};
+}
 
 double place_among(std::span<const double> tilts, double tilt) {
   const auto after = std::ranges::lower_bound(tilts, tilt);

@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/command.h"
@@ -12,6 +13,19 @@
 #include "view/frame_values.h"
 
 namespace talus {
+
+/// Places of a run worth going to.
+enum class Landmark {
+  first,
+  theta_d,      ///< where contraction turns into dilation (paper, Fig. 14)
+  length_jump,  ///< where the largest l_c jumps (paper, Fig. 12b)
+  percolation,  ///< the first frame in which a cluster of overloaded grains spans from floor to surface
+  theta_c,      ///< the last frame before the slope fails
+  last,
+};
+
+/// The name of the event that is there; empty for the first and the last frame and that before failure.
+std::string_view event_name(Landmark landmark);
 
 struct TimelineEvent {
   enum class Kind { transition, failure, command, rearrangement, bookmark };

@@ -7,18 +7,13 @@
 #include "core/errors.h"
 #include "view/camera.h"
 #include "view/run_clock.h"
-#include "view/view_data.h"
+#include "view/view_model.h"
 
 namespace talus {
 namespace {
 
 const MapLayers& layers_beside(const ViewState& asked) {
   return asked.beside.layers.empty() ? asked.map.layers : asked.beside.layers;
-}
-
-/// The same share of its length, as many D above the floor.
-Vec2 place_in(const RunStatics& to, const RunStatics& from, double x, double y) {
-  return {x / from.length * to.length, y / from.mean_diameter * to.mean_diameter};
 }
 
 /// Holds both, with ends of few digits.
@@ -29,92 +24,103 @@ ScaleRange common_range(const ScaleRange& one, const ScaleRange& two) {
   return {step * std::floor(low / step + hair), step * std::ceil(high / step - hair)};
 }
 
-const GrainValues& values_of(MapCache& cache, const RunStatics& statics) {
-  if (!cache.values) cache.values = cache.source.frame ? grain_values(cache.source, statics) : GrainValues{};
-  return *cache.values;
-}
-
 }  // namespace
 
-RunInstants ViewModel::Data::instants() const {
-  RunInstants of;
-  of.tilts = replay ? frames->file().all_frame_tilts() : frame_tilts();
-  of.times = all_frame_times();
-  of.tilt_count = replay ? frames->file().frame_count() : of.tilts.size();
-  of.theta_c = theta_c.value_or(not_known);
+Vec2 place_in(const RunStatics& to, const RunStatics& from, double x, double y) {
+  if (&to == &from) return {x, y};
+  return {x / from.length * to.length, y / from.mean_diameter * to.mean_diameter};
+}
+
+RunInstants ViewModel::instants() const {
+  RunInstants of = frames_->instants();
+  of.theta_c = theta_c_.value_or(not_known);
   return of;
 }
 
-bool ViewModel::Data::same_map(const ViewState& asked) const {
-  return other && !asked.beside.minus && layers_beside(asked) == asked.map.layers;
+std::vector<double> ViewModel::tilts_of_tilt() const {
+  std::vector<double> tilts = frames_->instants().tilts;
+  tilts.resize(frames_->instants().tilt_count);
+  return tilts;
 }
 
-ViewState ViewModel::Data::beside_state(const ViewState& asked) const {
-  ViewState state = asked;
-  state.map.layers = layers_beside(asked);
-  state.minus = asked.beside.minus;
-  if (state.minus || state.map.layers != asked.map.layers) {  // these are of another map
-    state.map.range_low.reset();
-    state.map.range_high.reset();
-  }
-  if (!other) return state;
-  if (linked.range && same_map(asked) && !asked.map.range_low && !asked.map.range_high) {
-    state.map.range_low = linked.range->low;
-    state.map.range_high = linked.range->high;
-  }
-  const Vec2 centre = place_in(other->statics(), statics(), asked.camera.centre_x, asked.camera.centre_y);
-  state.camera = {centre.x, centre.y, asked.camera.zoom};
-  state.selected.reset();
-  return state;
+std::vector<double> ViewModel::times_of_tilt() const {
+  std::vector<double> times = frames_->instants().times;
+  times.resize(frames_->instants().tilt_count);
+  return times;
 }
 
-void ViewModel::Data::link_ranges(const ViewState& asked) {
-  if (!same_map(asked)) {
-    linked = {};
+bool ViewModel::same_map() const {
+  return other_ && !state.beside.minus && layers_beside(state) == state.map.layers;
+}
+
+ViewState ViewModel::beside_state() const {
+  ViewState of = state;
+  of.map.layers = layers_beside(state);
+  of.minus = state.beside.minus;
+  if (of.minus || of.map.layers != state.map.layers) {  // these are of another map
+    of.map.range_low.reset();
+    of.map.range_high.reset();
+  }
+  if (!other_) return of;
+  if (linked_.range && same_map() && !state.map.range_low && !state.map.range_high) {
+    of.map.range_low = linked_.range->low;
+    of.map.range_high = linked_.range->high;
+  }
+  const Vec2 centre = place_in(other_->statics(), statics(), state.camera.centre_x, state.camera.centre_y);
+  of.camera = {centre.x, centre.y, state.camera.zoom};
+  of.selected.reset();
+  return of;
+}
+
+View ViewModel::second() {
+  if (other_) return {*other_, other_->state, other_->map_, true};
+  second_state_ = beside_state();
+  return {*this, second_state_, second_map_, true};
+}
+
+void ViewModel::link_ranges() {
+  if (!same_map()) {
+    linked_ = {};
     return;
   }
-  const double other_theta_c = other->theta_c();
-  if (linked.layers == asked.map.layers && linked.theta_c == shown_theta_c() &&
-      linked.other_theta_c == other_theta_c)
+  if (linked_.layers == state.map.layers && linked_.theta_c == theta_c() &&
+      linked_.other_theta_c == other_->theta_c())
     return;
   // By their frames of now: ranges are the same in all.
-  linked = {asked.map.layers, shown_theta_c(), other_theta_c, std::nullopt};
-  const Data& beside = *other->data_;
-  ViewState plain = asked;
+  linked_ = {state.map.layers, theta_c(), other_->theta_c(), std::nullopt};
+  ViewState plain = state;
   plain.map.range_low.reset();
   plain.map.range_high.reset();
-  const auto range = [&](const Data& of) {
-    return own_range({of.frame, nullptr, of.map_settings(plain), of.bed, std::nullopt, 0, false},
-                     of.statics());
+  const auto range = [&plain](ViewModel& of) {
+    const View view{of, plain, of.map_};
+    return own_range({of.frame_, nullptr, view.settings(), of.bed_, std::nullopt, 0, false}, of.statics());
   };
-  const std::optional<ScaleRange> one = range(*this), two = range(beside);
-  if (one && two && !(*one == *two)) linked.range = common_range(*one, *two);
+  const std::optional<ScaleRange> one = range(*this), two = range(*other_);
+  if (one && two && !(*one == *two)) linked_.range = common_range(*one, *two);
 }
 
-bool ViewModel::Data::follow_beside(const ViewState& asked, double seconds) {
-  if (!other) return false;
-  link_ranges(asked);
-  other->state = beside_state(asked);
+bool ViewModel::follow_beside(double seconds) {
+  if (!other_) return false;
+  link_ranges();
+  other_->state = beside_state();
   const RunInstants shown = instants();
-  const bool in_flow = shown_index() >= shown.tilt_count;
+  const bool in_flow = frame_index() >= shown.tilt_count;
   const auto k =
-      linked_frame(asked.beside.clock, shown, {frame->tilt, frame->time, in_flow}, other->data_->instants());
-  bool changed = false;
-  if (k && *k != other->frame_index()) {
-    other->go_to(*k);
-    changed = true;
-  }
-  changed = other->update(seconds) || changed;
-  const auto as_high = [](const Data& as, const Data& in) {
-    MapExtent extent = as.bed;
-    const double scale = in.statics().mean_diameter / as.statics().mean_diameter;
+      linked_frame(state.beside.clock, shown, {frame_->tilt, frame_->time, in_flow}, other_->instants());
+  const bool goes = k && *k != other_->frame_index();
+  if (goes) other_->go_to(*k);
+  const bool changed = other_->update(seconds) || goes;
+  const auto as_high = [](const ViewModel& as, const ViewModel& in) {
+    MapExtent extent = as.bed_;
+    const double scale = in.mean_diameter() / as.mean_diameter();
     extent.y_min *= scale;
     extent.y_max *= scale;
     return extent;
   };
-  bed_beside = as_high(*other->data_, *this);
-  other->data_->bed_beside = as_high(*this, *other->data_);
-  if (!other->state.message.empty() && other->state.message != asked.message) error = other->state.message;
+  bed_beside_ = as_high(*other_, *this);
+  other_->bed_beside_ = as_high(*this, *other_);
+  if (!other_->state.message.empty() && other_->state.message != state.message)
+    error_ = other_->state.message;
   return changed;
 }
 
@@ -124,61 +130,27 @@ void ViewModel::open_beside(const std::string& path) {
                                      " is being computed. Show another map of it, or what has changed");
   if (!is_run(path)) throw Error(ExitCode::usage, path + ": only a run file can be shown beside another run");
   {
-    const std::scoped_lock lock(*data_->turn);
-    auto data = std::make_unique<Data>();
-    data->pictures.path = path;
-    data->turn = data_->turn;
-    data->open_replay();
-    data_->other.reset(new ViewModel(std::move(data)));
+    const std::scoped_lock lock(*turn_);
+    std::unique_ptr<ViewModel> next(new ViewModel);
+    next->pictures_.path = path;
+    next->turn_ = turn_;
+    next->open_replay();
+    other_ = std::move(next);
   }
-  data_->linked = {};
+  linked_ = {};
   state.beside.shown = true;
-  state.beside.clock = has_program() && data_->other->has_program() ? PlotAxis::time : PlotAxis::tilt;
-  data_->follow_beside(state, 0.0);
+  state.beside.clock = has_program() && other_->has_program() ? PlotAxis::time : PlotAxis::tilt;
+  follow_beside(0.0);
 }
 
 void ViewModel::close_beside() {
-  data_->other.reset();
-  data_->linked = {};
-  data_->bed_beside.reset();
+  other_.reset();
+  linked_ = {};
+  bed_beside_.reset();
 }
-
-const ViewModel* ViewModel::run_beside() const { return data_->other.get(); }
 
 bool ViewModel::has_clock(PlotAxis clock) const {
-  return clock != PlotAxis::angle_left || (data_->theta_c && data_->other && data_->other->theta_c_known());
-}
-
-FrameView ViewModel::map_beside(double aspect) const {
-  if (data_->other) return data_->other->map(aspect);
-  const ViewState beside = data_->beside_state(state);
-  return data_->picture(beside, data_->part(beside, aspect), data_->map_beside);
-}
-
-const FrameView& ViewModel::annotated_map_beside() const {
-  if (data_->other) return data_->other->annotated_map();
-  const ViewState beside = data_->beside_state(state);
-  return data_->whole_map(beside, common_part(data_->part(beside, data_->aspect), data_->bed),
-                          data_->map_beside);
-}
-
-FrameView ViewModel::furnished_map_beside() const {
-  if (data_->other) return data_->other->furnished_map();
-  return data_->furnished(data_->beside_state(state), data_->map_beside);
-}
-
-std::optional<Index> ViewModel::grain_beside_at(double x, double y) const {
-  return data_->other ? data_->other->grain_at(x, y) : grain_at(x, y);
-}
-
-Vec2 ViewModel::place_in_first(double x, double y) const {
-  return data_->other ? place_in(statics(), data_->other->statics(), x, y) : Vec2{x, y};
-}
-
-const GrainValues& ViewModel::values() const { return values_of(data_->map, statics()); }
-
-const GrainValues& ViewModel::values_beside() const {
-  return data_->other ? data_->other->values() : values_of(data_->map_beside, statics());
+  return clock != PlotAxis::angle_left || (theta_c_ && other_ && other_->theta_c_known());
 }
 
 }  // namespace talus

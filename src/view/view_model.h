@@ -1,20 +1,24 @@
 #pragma once
 /// The interactive view without its widgets: a run file that is replayed or a run that is computed, the frame
-/// shown, its map, what is known of the grain selected, and the curves beside the map.
+/// shown, what is known of the grain selected, and the curves beside its maps. Two views show it.
 
 #include <array>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "render/frame_view.h"
-#include "view/contact_inspection.h"
+#include "view/frame_ahead.h"
+#include "view/frame_series.h"
+#include "view/frame_source.h"
 #include "view/ghost.h"
 #include "view/grain_quantities.h"
+#include "view/history.h"
 #include "view/inspection.h"
-#include "view/landmarks.h"
 #include "view/live_run.h"
 #include "view/plots.h"
 #include "view/scene.h"
@@ -38,26 +42,74 @@ struct BranchLine {
   std::vector<double> tilts;  ///< rad, of its frames
 };
 
+/// A map, and what it was made from.
+struct MapCache {
+  MapSource source;
+  bool dark = false;  ///< on_dark_ground
+  FrameView view;
+  std::optional<GrainValues> values;  ///< of its grains, once asked for
+};
+
+class ViewModel;
+
+/// One of the two views: a map of a run, for as long as neither is changed. The second shows another map of
+/// the same run, or a run that stands beside it.
+struct View {
+  ViewModel& run;
+  const ViewState& state;  ///< with the map of this view
+  MapCache& cache;
+  bool second = false;
+
+  /// The map of the frame shown, for a picture of that aspect (width / height), with the selection, the
+  /// growing neighbourhoods and the highlighted cluster drawn into it; without furniture: that is drawn by
+  /// widgets.
+  FrameView map(double aspect) const;
+  /// Title, caption and legends of the map asked for last; made again only where something has changed.
+  const FrameView& annotated_map() const;
+  /// The map on white whatever the theme, with its legends, its title and its caption, and without what is
+  /// beside the bed; of the aspect that map was asked for last. A map that cannot be drawn has the reason as
+  /// its title.
+  FrameView furnished_map() const;
+  /// The numbers that the map gives its free grains; made when they are first asked for of a frame.
+  const GrainValues& values() const;
+  /// The part of the bed that map(aspect) shows, m.
+  MapExtent part(double aspect) const;
+  /// Width over height of a picture in which the whole bed just has room, as it is shown: turned or not.
+  double bed_aspect() const;
+  /// The settings of the map, with what the run has to say.
+  MapSettings settings() const;
+  /// The angle (rad) since which motions are shown, where the frame shown comes after it.
+  std::optional<double> since() const;
+
+ private:
+  const FrameView& whole_map(const MapExtent& shown) const;
+  FrameView picture(const MapExtent& shown) const;
+};
+
+/// A place (m) of one bed in another: the same share of its length, as many D above the floor.
+Vec2 place_in(const RunStatics& to, const RunStatics& from, double x, double y);
+
 class ViewModel {
  public:
   /// A run file (replay) or a scenario (live), by what the file is. `output` of a live run may be empty:
   /// nothing is recorded. Throws Error as opening does.
   static ViewModel open(const std::string& path, const std::vector<std::string>& settings,
                         const std::string& output, bool overwrite, const std::string& command_line);
-  ViewModel(ViewModel&&) noexcept;
-  ViewModel& operator=(ViewModel&&) noexcept;
-  ~ViewModel();
 
   ViewState state;  ///< changed by whoever shows it
 
-  bool is_live() const;
-  const std::string& path() const;
-  LiveRun* live();  ///< null where a run file is replayed
+  View first() { return {*this, state, map_, false}; }
+  /// What state.beside asks for; the frame of another run is that which belongs to the frame shown.
+  View second();
+
+  bool is_live() const { return live_ != nullptr; }
+  const std::string& path() const { return pictures_.path; }
+  LiveRun* live() const { return live_.get(); }  ///< null where a run file is replayed
+  std::uint64_t seed() const { return pictures_.run.seed; }
   /// A live run anew from its scenario, with this seed, and without the commands made before. Where the run
   /// before was recorded, this one is too, in a file beside it: "slope-2.h5" after "slope.h5". Throws as
   /// LiveRun; then the run before is still there.
   void restart(std::uint64_t seed);
-  std::uint64_t seed() const;
   /// A replay goes on from the frame shown, as a live run that is not recorded. A branch is reset to that
   /// frame, whatever the seed. Nothing in a live run. Throws as checkpoint_at_frame; then the replay is still
   /// there.
@@ -75,90 +127,62 @@ class ViewModel {
   /// as HDF5 is for one thread at a time.
   void hold();
 
-  // Frames: of a replay those of RunFile::all_frame_tilts(), of a live run those recorded so far.
-  std::size_t frame_count() const;
+  // Frames: of a replay all of its file, of a live run those recorded so far.
+  std::size_t frame_count() const { return frames_->count(); }
   std::size_t frame_index() const;  ///< of a live run that is followed, the count
-  std::vector<double> frame_tilts() const;
+  const std::vector<double>& frame_tilts() const { return frames_->instants().tilts; }
   /// Whether the tilt follows a programme, and so may fall and be held.
-  bool has_program() const;
-  std::span<const TimelineEvent> events() const;
+  bool has_program() const { return pictures_.has_program; }
+  std::span<const TimelineEvent> events() const { return events_; }
   /// The bookmark of the frame shown; of a live run that is followed, of the frame recorded last. Null where
   /// there is none.
   const Bookmark* bookmark() const;
-  /// Gives that frame a bookmark, or takes it away, and writes the file beside the run. What stands in the
-  /// way is put into state.message, and nothing is changed.
-  void set_bookmark(const std::string& note);
-  void remove_bookmark();
+  /// Gives that frame a bookmark, or without a note takes it away, and writes the file beside the run. What
+  /// stands in the way is put into state.message, and nothing is changed.
+  void set_bookmark(const std::optional<std::string>& note);
   /// In a live run, which goes on, until it is followed again; nothing where it has no frame yet.
   void go_to(std::size_t frame);
-  bool looks_back() const;  ///< whether a live run is not followed
+  bool looks_back() const { return held_.has_value(); }  ///< whether a live run is not followed
   void follow();
   /// The frame nearest to an angle in degrees, or "repose": as frames_at, which says what is thrown. Throws
   /// Error(usage) for a live run.
-  void go_to_angle(const std::string& angle);
-  /// The tilt of that frame, rad. Throws as go_to_angle.
-  double tilt_of(const std::string& angle) const;
+  std::size_t frame_at_angle(const std::string& angle) const;
   void go_to(Landmark landmark);  ///< does nothing where the run has no such place
-  bool has(Landmark landmark) const;
-  bool playing() const;
+  bool has(Landmark landmark) const { return place_of(landmark).has_value(); }
+  bool playing() const { return replay_ && replay_->playing(); }
   void play(bool on);  ///< from the start where it is at the end
   void set_speed(double degrees_per_second);
-  double speed() const;
+  double speed() const { return replay_ ? replay_->speed() : 0.0; }
 
   /// Call once a picture: takes the newest frame of a live run, moves a playing replay on by so many seconds,
   /// takes in what background work has finished, and brings the camera back to the bed. What went wrong, as a
   /// frame that cannot be read, is put into state.message. True where what is shown has changed.
   bool update(double seconds);
 
-  const RunStatics& statics() const;
-  const Frame& frame() const;
+  /// Those of the frame shown: while a bed is poured, of the grains that have arrived.
+  const RunStatics& statics() const { return pictures_.run.statics; }
+  const Frame& frame() const { return *frame_; }
+  BedFrame bed() const { return {frame(), statics()}; }
   double theta_c() const;  ///< rad; what maps are scaled by: of the run, or assumed (20 deg) while not known
-  bool theta_c_known() const;
-  double mean_diameter() const;
+  bool theta_c_known() const { return theta_c_.has_value(); }
+  double mean_diameter() const { return statics().mean_diameter; }
 
-  /// The map of the frame shown, for a picture of that aspect (width / height), with the selection, the
-  /// growing neighbourhoods and the highlighted cluster drawn into it; without furniture: that is drawn by
-  /// widgets.
-  FrameView map(double aspect) const;
-  /// The same, on white whatever the theme, with its legends, its title and its caption, and without what is
-  /// beside the bed; of the aspect that map was asked for last. A map that cannot be drawn has the reason as
-  /// its title.
-  FrameView furnished_map() const;
-  /// Title, caption and legends of the map asked for last.
-  const FrameView& annotated_map() const;
-  /// Width over height of a picture in which the whole bed just has room, as it is shown: turned or not.
-  double bed_aspect() const;
-  /// The part of the bed that map(aspect) shows, m: x_min, x_max, y_min, y_max.
-  std::array<double, 4> shown_region(double aspect) const;
   /// Moves the camera there, but not beyond the bed nor nearer than a few grains. False if the same part of
   /// the bed is shown as before.
   bool look(const ViewCamera& camera);
   /// Zooms by a factor about a place (m), which keeps its position in the picture; false as look.
   bool zoom(double factor, double x, double y);
-  /// The grain whose disc holds the place (m, frame of the bed), or is nearest to it within a D.
-  std::optional<Index> grain_at(double x, double y) const;
 
-  // The second view, state.beside: of the same frame, or of that of another run which belongs to it.
   /// Another run, a replay beside a replay. Throws as open, and Error(usage) where one of them is computed.
   /// Shows the second view, by the time where both have a programme.
   void open_beside(const std::string& path);
   /// The second view is of this run again.
   void close_beside();
   /// The other run; null: the second view is of this run.
-  const ViewModel* run_beside() const;
+  const ViewModel* run_beside() const { return other_.get(); }
   /// Whether frames of the other run are found by it: theta_c - theta needs that both have failed.
   bool has_clock(PlotAxis clock) const;
-  /// As map, annotated_map, furnished_map and grain_at, of the second view.
-  FrameView map_beside(double aspect) const;
-  const FrameView& annotated_map_beside() const;
-  FrameView furnished_map_beside() const;
-  std::optional<Index> grain_beside_at(double x, double y) const;
-  /// A place of the bed of the second view (m), as one of the first: the same share of its length, as many D
-  /// above the floor.
-  Vec2 place_in_first(double x, double y) const;
-  /// The numbers that the map of a view gives its free grains; made when they are first asked for of a frame.
-  const GrainValues& values() const;
-  const GrainValues& values_beside() const;
+
   // Selecting: state.selected is the grain that is looked at, state.selecting what is selected beside it.
   /// One grain, or none, and nothing else.
   void select(std::optional<Index> grain);
@@ -175,12 +199,10 @@ class ViewModel {
   void select_by_condition();
   /// All that are selected and there in the frame shown, by ascending ids.
   std::vector<Index> selected_grains() const;
-  /// grains_within, in the frame shown.
-  std::vector<Index> grains_within(std::span<const Vec2> outline) const;
   /// find_contact, in the frame shown.
   std::optional<ContactKey> contact_at(double x, double y, double reach) const;
   /// Of all grains of the frame shown, by their ids. Made once for a frame and an overload rule.
-  const std::vector<double>& grain_values(const GrainNumber& number) const;
+  const std::vector<double>& grain_values(const GrainNumber& number);
 
   /// Of the selected contact in the frame shown; none where none is selected.
   std::optional<ContactInspection> contact_inspection() const;
@@ -196,9 +218,9 @@ class ViewModel {
 
   /// Of state.selected in the frame shown; none where nothing is selected. Made once for a frame and a
   /// selection.
-  const Inspection* inspection() const;
+  const Inspection* inspection() { return inspect_selected(first()); }
   /// Plots in the order in which they are shown; values that are worked out in the background come in later.
-  std::span<const Plot> plots() const;
+  std::span<const Plot> plots() const { return plots_; }
   /// Quantities of the table of which this run has a number in each frame, at a threshold or at none, and of
   /// which there is no added plot: all if it has a stored analysis, else those of its rows and of overload.
   std::vector<const Quantity*> more_quantities() const;
@@ -207,12 +229,12 @@ class ViewModel {
   void remove_plot(const std::string& name);
   /// What all plots along the run are over; the angle left only where theta_c is known. Another axis takes
   /// back what was zoomed and chosen on the one before; one that the run does not have is ignored.
-  PlotAxis plot_axis() const;
-  bool has_plot_axis(PlotAxis axis) const;
+  PlotAxis plot_axis() const { return axis_; }
+  bool has_plot_axis(PlotAxis axis) const { return axis != PlotAxis::angle_left || theta_c_known(); }
   void set_plot_axis(PlotAxis axis);
   /// Another run, or an ensemble, behind the curves along the run; none takes it away.
   void set_ghost(std::optional<Ghost> ghost);
-  const Ghost* ghost() const;  ///< null where there is none
+  const Ghost* ghost() const { return ghost_ ? &*ghost_ : nullptr; }  ///< null where there is none
   /// On that axis: the frame shown, theta_c, rearrangements.
   PlotMarks plot_marks() const;
   /// The frame nearest to a place on that axis (deg or s).
@@ -220,15 +242,171 @@ class ViewModel {
 
   /// "talus render RUN --map ... --at 12.25 ...": draws what is shown. Empty for a live run that is not
   /// recorded.
-  std::string render_command() const;
+  std::string render_command();
 
  private:
+  friend struct View;
+
+  ViewModel() = default;
+
+  // view_run.cpp: the run, and how it goes on.
+  void open_replay();
+  /// Begins the run of scenario_, and shows it instead of what was shown.
+  void start_live(const std::string& output, bool overwrite);
+  /// Takes over what a live run has recorded, from its beginning.
+  void take_all_recorded();
+  void begin_series();
+  /// Ends all that is read in the background.
+  void end_series();
+  /// Frame k of those that can be gone to; null, with the reason in error_, where it cannot be read.
+  std::shared_ptr<const Frame> frame_at(std::size_t k);
+  /// Shows the frame that a replay is at; where it cannot be read, the one before stays and playing ends.
+  void show_replayed();
+  /// Another frame is shown; `mapped` where it is known already.
+  void show(std::shared_ptr<const Frame> next, std::shared_ptr<const Frame> mapped = nullptr);
+  /// Makes frame_ anew, where `mapped` does not have it.
+  void make_frame(std::shared_ptr<const Frame> mapped = nullptr);
+  /// Takes over what a live run has made; true where its frame is another.
+  bool take_live();
+  /// Shows a recorded frame of a live run, or again what it computes.
+  void hold_at(std::optional<std::size_t> frame);
+  /// What there is to say of a live run that has just failed or ended; empty else.
+  std::string take_end();
+  bool is_falling() const;
+  MapExtent live_extent() const;
+  /// Begins the series of frames anew where `rule` is another, and takes in what it has made; true where
+  /// something has changed.
+  bool follow_frames(const OverloadRule& rule);
+
+  // view_events.cpp: what happened in it.
+  void find_events();
+  std::optional<std::size_t> place_of(Landmark landmark) const;
+  void open_bookmarks();
+  /// The file beside the run; empty where the run is in no file.
+  std::string bookmarks_file() const;
+  /// The frame that a bookmark would be of; none where there is no frame.
+  std::optional<std::size_t> marked_frame() const;
+
+  // view_plots.cpp: its curves anew, of what it records, and of its frames.
+  void plot_rows();
+  void plot_values();
+  void note_thresholds(const OverloadRule& rule);
+  PlotAbscissa abscissa() const { return {axis_, theta_c_.value_or(not_known)}; }
+
+  // view_shown.cpp: what is made of the frame shown.
+  const Clusters& shown_clusters(const MapSettings& settings);
+  const Inspection* inspect_selected(const View& view);
+  /// The bed, as high as the higher one of two runs.
+  MapExtent viewed_bed() const;
+  /// The frame at a tilt (rad), as maps see it; null where there is none.
+  std::shared_ptr<const Frame> reference_at(double tilt);
+
+  // view_selection.cpp
+  /// What conditions and tables of grains go by.
+  GrainSource grain_source(const MapSettings& settings);
+  /// What is selected in the frame shown, beside the grain that is looked at.
+  Overlay selection_marks() const;
+  /// mu between grains at a step, as commands have set it.
+  double friction_at(std::int64_t step) const;
+  /// Reads what trails and the selected contact need; true where something has come in.
+  bool follow_history();
   /// Moves the camera to the grain that is looked at, where that is asked for.
   void follow_grain();
 
-  struct Data;
-  explicit ViewModel(std::unique_ptr<Data> data);
-  std::unique_ptr<Data> data_;
+  // view_beside.cpp: what links two views.
+  /// When all frames are, theta_c, and the frames of the tilt among them.
+  RunInstants instants() const;
+  std::vector<double> tilts_of_tilt() const;
+  std::vector<double> times_of_tilt() const;
+  ViewState beside_state() const;
+  /// Whether both views show the same map, of two runs.
+  bool same_map() const;
+  /// Brings the other run to the frame and the place shown; true where what it shows has changed.
+  bool follow_beside(double seconds);
+  void link_ranges();
+
+  /// Of the run, with the map that is shown, and as much of the bed.
+  PictureSeries pictures_;
+  RunStatics all_statics_;
+  std::shared_ptr<FrameSource> frames_ = std::make_shared<RecordedFrames>();
+  std::shared_ptr<const Frame> stored_;  ///< the frame that is shown, as it was read or computed
+  std::shared_ptr<const Frame> frame_;   ///< the same with the gamma of neighbourhoods of l_min_
+  double l_min_ = default_l_min;         ///< D
+  std::optional<double> theta_c_;        ///< rad
+  MapExtent bed_;                        ///< as far as its frames are known
+  std::vector<ObservableRow> rows_;
+  std::vector<Plot> plots_ = empty_plots();
+  PlotAxis axis_ = PlotAxis::tilt;  ///< of the plots along the run
+  std::optional<Ghost> ghost_;      ///< behind them
+  std::string error_;               ///< what has gone wrong since the last update
+
+  // What is beside it.
+  std::shared_ptr<ReadingTurn> turn_ = std::make_shared<ReadingTurn>();  ///< of all runs that are open
+  std::unique_ptr<ViewModel> other_;                                     ///< another run; null: none
+  struct {
+    MapLayers layers;
+    double theta_c = 0.0, other_theta_c = 0.0;  ///< rad
+    std::optional<ScaleRange> range;
+  } linked_;                             ///< the range of a map that both runs show
+  std::optional<MapExtent> bed_beside_;  ///< m of this run: how high the other one is, for one scale of both
+  ViewState second_state_;               ///< of a second view of this run, when it was asked for last
+
+  // Of a run that is replayed.
+  std::shared_ptr<RunFrames> run_file_;
+  std::optional<Replay> replay_;
+  std::unique_ptr<FrameAhead> ahead_;
+  std::size_t shown_before_ = 0;  ///< the frame shown before the last one: which way it goes
+  std::optional<Analysis> analysis_;
+
+  // Of a run that is computed.
+  Scenario scenario_;
+  std::vector<std::string> scenario_settings_;
+  std::string scenario_text_, command_line_;
+  std::string first_output_, output_;     ///< asked for at first; of this run: empty, it is not recorded
+  std::optional<BranchOrigin> origin_;    ///< where it began, if it is a branch
+  std::vector<double> parent_tilts_;      ///< rad, of the frames of the run that it left
+  std::optional<double> parent_theta_c_;  ///< rad; assumed of the branch until it has failed
+  std::unique_ptr<LiveRun> live_;
+  std::shared_ptr<RecordedFrames> recorded_;
+  std::shared_ptr<const Frame> newest_;  ///< of the run as it is now
+  std::optional<std::size_t> held_;      ///< the recorded frame that is shown instead
+  bool ended_ = false;                   ///< that has been told
+
+  std::vector<Command> commands_;
+  std::vector<ObservableRow> file_rows_;  ///< of a replay with commands: rows_up_to its end
+  std::vector<TimelineEvent> events_;
+  std::vector<Bookmark> bookmarks_;
+  std::string bookmarks_unread_;  ///< why those beside the run could not be read, and must not be replaced
+
+  std::unique_ptr<FrameSeries> series_;
+  std::unique_ptr<HistorySeries> history_;  ///< null where nothing is asked for
+
+  // What was made last of the frame shown, and what else from.
+  struct {
+    std::shared_ptr<const Frame> frame;
+    OverloadRule rule;
+    Clusters clusters;
+  } clusters_;
+  struct {
+    std::shared_ptr<const Frame> frame;
+    OverloadRule rule;
+    double neighbourhood = 0.0;
+    Inspection of;
+  } inspection_;
+  struct {
+    std::shared_ptr<const Frame> stored, mapped;
+    double l_min = 0.0;
+  } reference_;  ///< what a frame is shown minus
+  struct {
+    std::shared_ptr<const Frame> frame;
+    OverloadRule rule;
+    std::optional<FrameThreshold> judged;  ///< l_c and clusters at the threshold of the rule
+    std::map<std::string_view, std::vector<double>> of;
+  } grain_values_;
+  MapCache map_, second_map_;
+  std::shared_ptr<const Frame> first_frame_;      ///< of the run; null where it has not been asked for
+  std::shared_ptr<const Frame> condition_frame_;  ///< in which the condition has selected last
+  double aspect_ = 0.0;                           ///< of the picture asked for last; 0: none was
 };
 
 }  // namespace talus

@@ -7,110 +7,90 @@
 #include "io/durable_file.h"
 #include "runs/event_catalogue.h"
 #include "view/selection_table.h"
-#include "view/view_data.h"
+#include "view/view_model.h"
 
 namespace talus {
 
-GrainSource ViewModel::Data::grain_source(const MapSettings& settings) {
-  if (!first_frame) {
-    if (replay)
-      first_frame = read(0);
-    else if (!recorded->all().empty())
-      first_frame = recorded->all().front();
-  }
+GrainSource ViewModel::grain_source(const MapSettings& settings) {
+  if (!first_frame_ && frame_count() > 0) first_frame_ = frame_at(0);
   const OverloadRule& rule = settings;
-  if (grain_values.frame != frame || !(grain_values.rule == rule)) grain_values = {frame, rule, {}, {}};
-  if (!grain_values.judged) {
-    const double threshold = threshold_of(rule);
+  if (grain_values_.frame != frame_ || !(grain_values_.rule == rule)) grain_values_ = {frame_, rule, {}, {}};
+  if (!grain_values_.judged) {
     const std::vector<double> length =
-        coarse_graining({*frame, statics()}, {.threshold = threshold,
-                                              .end_ratio = threshold,
-                                              .l_min = l_min * statics().mean_diameter,
-                                              .cut = length_cut(statics(), l_min)})
-            .length;
-    grain_values.judged = {.lc = {length.begin(), length.end()}, .cluster = shown_clusters(settings).label};
+        coarse_graining({*frame_, statics()}, coarse_graining_rule(settings, statics())).length;
+    grain_values_.judged = {.lc = {length.begin(), length.end()}, .cluster = shown_clusters(settings).label};
   }
-  return {{*stored, statics()}, 0, frame->gamma, first_frame.get(), {}, {&*grain_values.judged, 1}};
+  return {{*stored_, statics()}, 0, frame_->gamma, first_frame_.get(), {}, {&*grain_values_.judged, 1}};
 }
 
-const std::vector<double>& ViewModel::Data::values_of_grains(const GrainNumber& number,
-                                                             const ViewState& asked) {
-  const GrainSource source = grain_source(map_settings(asked));
-  const auto [place, fresh] = grain_values.of.try_emplace(number.name);
+const std::vector<double>& ViewModel::grain_values(const GrainNumber& number) {
+  const GrainSource source = grain_source(first().settings());
+  const auto [place, fresh] = grain_values_.of.try_emplace(number.name);
   if (fresh) place->second = values_of(number, source);
   return place->second;
 }
 
-SelectionMarks ViewModel::Data::selection_marks(const ViewState& asked) const {
-  const Selection& selection = asked.selecting.selection;
-  SelectionMarks marks;
+Overlay ViewModel::selection_marks() const {
+  const Selection& selection = state.selecting.selection;
+  Overlay marks;
   for (const Index grain : selection.grains)
-    if (grain < frame->grain_count()) marks.grains.push_back(grain);
-  if (selection.contact) marks.contact = contact_of_key(frame->contacts, *selection.contact);
-  marks.trails = shown_trails(asked);
+    if (grain < frame_->grain_count()) marks.grains.push_back(grain);
+  if (selection.contact) marks.contact = contact_of_key(frame_->contacts, *selection.contact);
+  if (!state.selecting.trails || !history_) return marks;
+  marks.trails.resize(history_->question().grains.size());
+  const double period = statics().periodic ? statics().length : 0.0;
+  for (const HistoryInstant& instant : history_->instants()) {
+    if (instant.step > frame_->step) break;
+    for (std::size_t i = 0; i < marks.trails.size(); ++i) {
+      const GrainPlace& place = instant.places[i];
+      if (std::isfinite(place.x)) marks.trails[i].push_back({place.x + place.image * period, place.y});
+    }
+  }
   return marks;
 }
 
-double ViewModel::Data::friction_at(std::int64_t step) const {
-  double friction = statics().friction;
-  // A branch goes on with what commands had set before it.
-  if (const auto& origin = replay ? pictures.run.branch : branch)
-    friction = find_value(origin->start.reals, "friction").value_or(friction);
-  for (const Command& command : commands)
-    if (command.kind == CommandKind::friction && command.step < step) friction = command.x;
-  return friction;
-}
-
-bool ViewModel::Data::follow_history(const ViewState& asked) {
-  const SelectingState& selecting = asked.selecting;
+bool ViewModel::follow_history() {
+  const SelectingState& selecting = state.selecting;
   HistoryQuestion question = {{}, selecting.selection.contact};
   if (selecting.trails) {
     question.grains = selecting.selection.grains;
-    if (question.grains.empty() && asked.selected) question.grains = {*asked.selected};
+    if (question.grains.empty() && state.selected) question.grains = {*state.selected};
     question.grains = thinned(question.grains, most_trails);
   }
   if (question == HistoryQuestion{} || frame_count() == 0) {
-    history.reset();
+    history_.reset();
     return false;
   }
-  if (!history) {
-    if (replay)
-      history = std::make_unique<HistorySeries>([from = frames](std::size_t k) { return from->read(k); });
-    else
-      history = std::make_unique<HistorySeries>([from = recorded](std::size_t k) { return from->read(k); });
-  }
-  history->ask(question, frame_count());
-  return history->take_in();
+  if (!history_)
+    history_ = std::make_unique<HistorySeries>([from = frames_](std::size_t k) { return from->read(k); });
+  history_->ask(question, frame_count());
+  return history_->take_in();
 }
 
-std::vector<std::vector<Vec2>> ViewModel::Data::shown_trails(const ViewState& asked) const {
-  std::vector<std::vector<Vec2>> trails;
-  if (!asked.selecting.trails || !history) return trails;
-  const std::vector<HistoryInstant>& instants = history->instants();
-  trails.resize(history->question().grains.size());
-  const double period = statics().periodic ? statics().length : 0.0;
-  for (std::size_t k = 0; k < instants.size() && instants[k].step <= frame->step; ++k)
-    for (std::size_t i = 0; i < trails.size(); ++i) {
-      const GrainPlace& place = instants[k].places[i];
-      if (std::isfinite(place.x)) trails[i].push_back({place.x + place.image * period, place.y});
-    }
-  return trails;
+double ViewModel::friction_at(std::int64_t step) const {
+  double friction = statics().friction;
+  // A branch goes on with what commands had set before it.
+  if (const auto& origin = replay_ ? pictures_.run.branch : origin_)
+    friction = find_value(origin->start.reals, "friction").value_or(friction);
+  for (const Command& command : commands_)
+    if (command.kind == CommandKind::friction && command.step < step) friction = command.x;
+  return friction;
 }
 
 std::optional<ContactInspection> ViewModel::contact_inspection() const {
   const std::optional<ContactKey>& contact = state.selecting.selection.contact;
   if (!contact) return std::nullopt;
-  return inspect_contact({*data_->frame, data_->statics()}, *contact, data_->friction_at(data_->frame->step));
+  return inspect_contact(bed(), *contact, friction_at(frame_->step));
 }
 
 std::vector<Plot> ViewModel::contact_history() const {
-  if (!data_->history || !data_->history->question().contact) return {};
-  const std::vector<HistoryInstant>& instants = data_->history->instants();
+  if (!history_ || !history_->question().contact) return {};
+  const std::vector<HistoryInstant>& instants = history_->instants();
   std::vector<double> friction;
   for (const HistoryInstant& at : instants)
-    friction.push_back(at.with_wall ? statics().wall_friction : data_->friction_at(at.step));
-  const double weight = mean_grain_mass(data_->all_statics) * statics().gravity;
-  return contact_plots(instants, friction, weight, data_->abscissa());
+    friction.push_back(at.with_wall ? statics().wall_friction : friction_at(at.step));
+  const double weight = mean_grain_mass(all_statics_) * statics().gravity;
+  return contact_plots(instants, friction, weight, abscissa());
 }
 
 void ViewModel::follow_grain() {
@@ -141,7 +121,7 @@ void ViewModel::select(const ContactKey& contact) {
 std::vector<Index> ViewModel::selected_grains() const {
   std::vector<Index> grains = state.selecting.selection.grains;
   if (grains.empty() && state.selected) grains = {*state.selected};
-  std::erase_if(grains, [this](Index i) { return i < 0 || i >= data_->frame->grain_count(); });
+  std::erase_if(grains, [this](Index i) { return i < 0 || i >= frame_->grain_count(); });
   return grains;
 }
 
@@ -157,29 +137,21 @@ void ViewModel::select_by_condition() {
     std::vector<Index> found;
     if (selecting.condition.find_first_not_of(" \t") != std::string::npos) {
       const Expression condition = parse_condition(selecting.condition, grain_names());
-      found = grains_where(condition, data_->grain_source(data_->map_settings(state)));
+      found = grains_where(condition, grain_source(first().settings()));
       if (!condition.names.empty() && !selecting.in_each_frame) selecting.quantity = condition.names.front();
     }
     const SelectionMode mode = selecting.in_each_frame ? SelectionMode::anew : selecting.mode;
     select(combined(selected_grains(), found, mode));
-    data_->condition_frame = data_->frame;
-  } catch (const Error& error) {
-    selecting.error = error.what();
+    condition_frame_ = frame_;
+  } catch (const Error& failure) {
+    selecting.error = failure.what();
     selecting.in_each_frame = false;
   }
 }
 
-std::vector<Index> ViewModel::grains_within(std::span<const Vec2> outline) const {
-  return talus::grains_within({*data_->frame, data_->statics()}, outline);
-}
-
 std::optional<ContactKey> ViewModel::contact_at(double x, double y, double reach) const {
-  const auto found = find_contact({*data_->frame, data_->statics()}, x, y, reach);
-  return found ? std::optional(key_of(data_->frame->contacts, *found)) : std::nullopt;
-}
-
-const std::vector<double>& ViewModel::grain_values(const GrainNumber& number) const {
-  return data_->values_of_grains(number, state);
+  const auto found = find_contact(bed(), x, y, reach);
+  return found ? std::optional(key_of(frame_->contacts, *found)) : std::nullopt;
 }
 
 void ViewModel::write_selected(const std::string& path) {
@@ -194,8 +166,8 @@ void ViewModel::write_selected(const std::string& path) {
     for (const GrainNumber& number : grain_numbers()) columns.push_back({number, grain_values(number)});
     write_text(path, grains_table(frame(), grains, columns));
     state.message = fmt::format("written: {}, {} grains", path, grains.size());
-  } catch (const Error& error) {
-    state.message = error.what();
+  } catch (const Error& failure) {
+    state.message = failure.what();
   }
 }
 

@@ -90,7 +90,7 @@ TEST_F(Branching, ctrl_and_the_mouse_drag_a_grain_and_the_saved_branch_is_replay
   gui_.click("branch here");
   const Index grain = 30;
   const auto [x, y] = share_of(grain);
-  const auto shown = model_.shown_region(1.0);
+  const auto shown = model_.first().part(1.0);
   const double before_x = model_.frame().x[grain];
   const WidgetPlace map = gui_.place("map");
   gui_.take("map", x, y);
@@ -108,8 +108,8 @@ TEST_F(Branching, ctrl_and_the_mouse_drag_a_grain_and_the_saved_branch_is_replay
   hash();
   gui_.let_go();
   EXPECT_FALSE(status().dragged);
-  EXPECT_NEAR(model_.shown_region(1.0)[0], shown[0], 1e-4) << "the picture stays";
-  EXPECT_NEAR(model_.shown_region(1.0)[3], shown[3], 1e-4);
+  EXPECT_NEAR(model_.first().part(1.0).x_min, shown.x_min, 1e-4) << "the picture stays";
+  EXPECT_NEAR(model_.first().part(1.0).y_max, shown.y_max, 1e-4);
   EXPECT_NE(model_.frame().x[grain], before_x);
   const std::vector<Command> commands = model_.live()->commands();
   ASSERT_GE(commands.size(), 4u);

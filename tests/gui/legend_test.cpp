@@ -11,7 +11,7 @@ namespace {
 using test::Replay;
 
 TEST_F(Replay, the_ends_of_the_legend_set_the_range) {
-  const Bar before = model_.annotated_map().legends[0].bars[0];
+  const Bar before = model_.first().annotated_map().legends[0].bars[0];
   gui_.drag("legend bar", 1.0f, 0.5f, 1.5f, 0.5f);
   ASSERT_TRUE(model_.state.map.range_high.has_value());
   EXPECT_NEAR(*model_.state.map.range_high, before.high + 0.5 * (before.high - before.low), 0.01);
@@ -21,7 +21,7 @@ TEST_F(Replay, the_ends_of_the_legend_set_the_range) {
   EXPECT_NE(model_.render_command().find("--range"), std::string::npos);
   gui_.double_click("legend bar");
   EXPECT_FALSE(model_.state.map.range_low || model_.state.map.range_high);
-  EXPECT_EQ(model_.annotated_map().legends[0].bars[0].high, before.high);
+  EXPECT_EQ(model_.first().annotated_map().legends[0].bars[0].high, before.high);
 }
 
 TEST_F(Replay, a_click_on_the_legend_changes_nothing) {
@@ -37,7 +37,7 @@ TEST_F(Replay, all_of_the_legend_is_seen_beside_the_arrow_of_gravity) {
     gui_.frame();
     const WidgetPlace gravity = gui_.place("gravity"), below = gui_.place("border");
     int swatches = 0;
-    for (const Legend& legend : model_.annotated_map().legends)
+    for (const Legend& legend : model_.first().annotated_map().legends)
       for (const Swatch& swatch : legend.swatches) {
         const WidgetPlace at = gui_.place("swatch " + swatch.label);
         EXPECT_LE(at.y1, below.y0) << swatch.label << " at " << width;
@@ -53,7 +53,7 @@ TEST_F(Replay, a_grain_is_told_in_the_unit_of_the_map) {
   const auto told = [&](MapKind kind) {
     model_.state.map.layers = {kind};
     gui_.frame();
-    return grain_text(model_, 7);
+    return grain_text(model_.first(), 7);
   };
   EXPECT_NE(told(MapKind::speed).find("speed = "), std::string::npos);
   EXPECT_TRUE(told(MapKind::speed).ends_with(" √(gD)")) << told(MapKind::speed);

@@ -32,7 +32,7 @@ class Replay : public testing::Test {
   std::pair<float, float> share_of(Index grain) {
     const WidgetPlace map = gui_.place("map");
     const double aspect = static_cast<double>(map.x1 - map.x0) / static_cast<double>(map.y1 - map.y0);
-    const auto [x_min, x_max, y_min, y_max] = model_.shown_region(aspect);
+    const auto [x_min, x_max, y_min, y_max] = model_.first().part(aspect);
     const auto k = static_cast<std::size_t>(grain);
     return {static_cast<float>((model_.frame().x[k] - x_min) / (x_max - x_min)),
             static_cast<float>((y_max - model_.frame().y[k]) / (y_max - y_min))};

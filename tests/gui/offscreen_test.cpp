@@ -128,33 +128,35 @@ TEST_F(Replay, motion_since_an_angle_is_drawn_before_it_too) {
   gui_.key(key_end);
   gui_.key('v');
   EXPECT_EQ(model_.state.since, std::optional(model_.frame().tilt));
-  EXPECT_NE(model_.annotated_map().title.find("per degree"), std::string::npos) << "nothing has moved since";
+  EXPECT_NE(model_.first().annotated_map().title.find("per degree"), std::string::npos)
+      << "nothing has moved since";
   gui_.key(key_home);
   gui_.key(key_right);
   gui_.key(key_right);
-  EXPECT_EQ(model_.annotated_map().title.find("since"), std::string::npos) << model_.annotated_map().title;
+  EXPECT_EQ(model_.first().annotated_map().title.find("since"), std::string::npos)
+      << model_.first().annotated_map().title;
   EXPECT_EQ(difference(per_degree, gui_.frame(), gui_.place("map")), 0.0);
   EXPECT_EQ(model_.render_command().find("--since"), std::string::npos);
   gui_.key('v');
   EXPECT_FALSE(model_.state.since) << "per degree again";
   gui_.key('v');
   gui_.key(key_right);
-  EXPECT_NE(model_.annotated_map().title.find("since 0.50°"), std::string::npos)
-      << model_.annotated_map().title;
+  EXPECT_NE(model_.first().annotated_map().title.find("since 0.50°"), std::string::npos)
+      << model_.first().annotated_map().title;
 }
 
 TEST_F(Replay, motion_is_per_degree_before_the_angle_since_which_it_is_asked_for) {
   model_.state.map.layers = {MapKind::displacement};
   model_.go_to(1);
   gui_.frame();
-  const std::string per_degree = model_.annotated_map().title;
+  const std::string per_degree = model_.first().annotated_map().title;
   model_.state.since = radians(0.25);
   model_.go_to(3);
   gui_.frame();
-  EXPECT_NE(model_.annotated_map().title, per_degree);
+  EXPECT_NE(model_.first().annotated_map().title, per_degree);
   model_.go_to(1);
   gui_.frame();
-  EXPECT_EQ(model_.annotated_map().title, per_degree);
+  EXPECT_EQ(model_.first().annotated_map().title, per_degree);
 }
 
 TEST_F(Replay, a_grain_is_selected_where_it_is_clicked) {
@@ -237,7 +239,7 @@ TEST_F(Replay, the_map_is_the_one_of_talus_render) {
   for (const char key : {'1', '3'}) {  // gamma, all gray, and clusters in colour
     gui_.key(key);
     const Image window = gui_.frame();
-    const Image alone = gui_.draw_image(model_.map(aspect), static_cast<int>(map.x1 - map.x0));
+    const Image alone = gui_.draw_image(model_.first().map(aspect), static_cast<int>(map.x1 - map.x0));
     ASSERT_GT(alone.width * alone.height, 100000);
     EXPECT_LT(differing_from_render(window, map, alone), alone.width * alone.height / 1000);
   }
@@ -255,18 +257,18 @@ TEST_F(Replay, a_name_is_typed_and_a_picture_asked_for) {
 
 TEST_F(Replay, a_picture_is_saved_with_letters_for_a_screen_or_for_print) {
   gui_.key('F');
-  EXPECT_EQ(model_.furnished_map().letters, FrameView().letters);
+  EXPECT_EQ(model_.first().furnished_map().letters, FrameView().letters);
   gui_.click("printed");
   gui_.key('a', true);
   gui_.type("8.6");
   gui_.key(key_enter);
-  EXPECT_NEAR(model_.furnished_map().letters, 8.6 / 2.54 * 72.0 / 8.0, 1e-6);
+  EXPECT_NEAR(model_.first().furnished_map().letters, 8.6 / 2.54 * 72.0 / 8.0, 1e-6);
   EXPECT_NE(model_.render_command().find("--printed 8.6"), std::string::npos) << model_.render_command();
   gui_.click("printed");
   gui_.key('a', true);
   gui_.type("1");
   gui_.key(key_enter);
-  EXPECT_EQ(model_.furnished_map().letters, FrameView().letters) << "nobody prints that";
+  EXPECT_EQ(model_.first().furnished_map().letters, FrameView().letters) << "nobody prints that";
 }
 
 /// Widgets lie inside of the window, or in a part of it that scrolls; those of the first group are always

@@ -42,9 +42,9 @@ TEST_F(Replay, a_key_shows_what_changes_from_here_on) {
   ASSERT_TRUE(gui_.has("map beside"));
   EXPECT_EQ(model_.state.beside.minus, std::optional(here));
   gui_.key(key_end);
-  EXPECT_NE(model_.annotated_map_beside().title.find("1.00° minus 0.25°"), std::string::npos)
-      << model_.annotated_map_beside().title;
-  EXPECT_EQ(model_.annotated_map_beside().caption, model_.annotated_map().caption);
+  EXPECT_NE(model_.second().annotated_map().title.find("1.00° minus 0.25°"), std::string::npos)
+      << model_.second().annotated_map().title;
+  EXPECT_EQ(model_.second().annotated_map().caption, model_.first().annotated_map().caption);
 }
 
 TEST_F(Replay, the_mouse_on_either_view_moves_both) {
@@ -54,7 +54,7 @@ TEST_F(Replay, the_mouse_on_either_view_moves_both) {
   const double before = model_.state.camera.centre_x;
   gui_.drag("map beside", 0.5f, 0.5f, 0.4f, 0.5f);
   EXPECT_GT(model_.state.camera.centre_x, before);
-  EXPECT_EQ(model_.map(2.0).x_min, model_.map_beside(2.0).x_min);
+  EXPECT_EQ(model_.first().map(2.0).x_min, model_.second().map(2.0).x_min);
 }
 
 TEST_F(Replay, a_grain_is_selected_in_either_view) {
@@ -74,7 +74,7 @@ TEST_F(Replay, the_mouse_tells_values_in_the_second_view) {
   const Image before = gui_.frame();
   gui_.move(at.x0 + x * (at.x1 - at.x0), at.y0 + y * (at.y1 - at.y0));
   EXPECT_NE(gui_.frame().pixels, before.pixels);
-  EXPECT_EQ(model_.values_beside().values.size(), static_cast<std::size_t>(model_.statics().free_count));
+  EXPECT_EQ(model_.second().values().values.size(), static_cast<std::size_t>(model_.statics().free_count));
 }
 
 TEST_F(Replay, another_run_is_opened_beside_from_the_panel) {

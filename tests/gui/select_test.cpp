@@ -42,7 +42,7 @@ TEST_F(Replay, a_box_selects_and_moves_nothing) {
   std::vector<Index> left;
   const WidgetPlace map = gui_.place("map");
   const double aspect = static_cast<double>(map.x1 - map.x0) / static_cast<double>(map.y1 - map.y0);
-  const auto [x_min, x_max, y_min, y_max] = model_.shown_region(aspect);
+  const auto [x_min, x_max, y_min, y_max] = model_.first().part(aspect);
   for (Index i = 0; i < model_.statics().free_count; ++i) {
     const double x = model_.frame().x[static_cast<std::size_t>(i)],
                  y = model_.frame().y[static_cast<std::size_t>(i)];

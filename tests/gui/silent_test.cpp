@@ -203,7 +203,7 @@ TEST_F(SilentLive, no_grain_is_pulled_after_the_end_and_what_is_selected_stays) 
   const ViewCamera camera = model.state.camera;
   const WidgetPlace map = gui.place("map");
   const double width = map.x1 - map.x0, height = map.y1 - map.y0;
-  const auto [x_min, x_max, y_min, y_max] = model.shown_region(width / height);
+  const auto [x_min, x_max, y_min, y_max] = model.first().part(width / height);
   const double x = (model.frame().x[30] - x_min) / (x_max - x_min),
                y = (y_max - model.frame().y[30]) / (y_max - y_min);
   gui.take("map", static_cast<float>(x), static_cast<float>(y));

@@ -117,7 +117,7 @@ TEST_F(Replay, all_of_the_window_follows_the_theme) {
   gui_.key('C');
   EXPECT_EQ(model_.state.theme, Theme::dark);
   EXPECT_GT(share_below(gui_.frame(), 80.0), 0.7);
-  const Image saved = gui_.draw_image(model_.furnished_map(), 800);
+  const Image saved = gui_.draw_image(model_.first().furnished_map(), 800);
   EXPECT_GT(saved.pixels[0], 250) << "a picture that is saved is that of talus render";
   gui_.key('C');
   const Image print = gui_.frame();

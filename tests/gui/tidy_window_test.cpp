@@ -102,7 +102,7 @@ TEST_F(TidyWindow, at_every_size_and_scale) {
         model_.state.map.layers = map_layers(map);
         expect_tidy(fmt::format("{}, {} x {} at scale {}", map, width, height, scale));
         EXPECT_TRUE(gui_.has("time line")) << width << " at " << scale;
-        for (const Legend& legend : model_.annotated_map().legends)
+        for (const Legend& legend : model_.first().annotated_map().legends)
           for (const Swatch& swatch : legend.swatches)
             EXPECT_LE(gui_.place("swatch " + swatch.label).y1, below()) << swatch.label;
       }

@@ -20,7 +20,7 @@ TEST_F(Replay, frames_are_counted_from_0_as_by_the_commands) {
   EXPECT_EQ(slider(), "frame 0 (0 to 4)");
   gui_.key(key_end);
   EXPECT_EQ(slider(), "frame 4 (0 to 4)");
-  model_.go_to_angle("frame3");
+  model_.go_to(model_.frame_at_angle("frame3"));
   EXPECT_EQ(slider(), "frame 3 (0 to 4)") << "as talus render --at frame3";
 }
 
@@ -33,7 +33,7 @@ int expect_told_by_maps(OffscreenGui& gui, ViewModel& model) {
     model.state.map.layers = {kind};
     gui.frame();
     for (Index grain = 0; grain < model.statics().free_count; ++grain) {
-      const std::string told = grain_text(model, grain);
+      const std::string told = grain_text(model.first(), grain);
       const bool loaded = !std::isnan(model.frame().gamma[static_cast<std::size_t>(grain)]);
       idle += loaded ? 0 : 1;
       EXPECT_EQ(told.find("nan"), std::string::npos) << told;
@@ -56,12 +56,12 @@ TEST_F(Live, grains_that_carry_nothing_have_no_number_that_is_none) {
 }
 
 TEST_F(Replay, a_grain_is_told_by_what_the_map_shows) {
-  const std::string gamma = grain_text(model_, 7);
+  const std::string gamma = grain_text(model_.first(), 7);
   EXPECT_NE(gamma.find("grain 7, γ = "), std::string::npos) << gamma;
   model_.state.map.layers = {MapKind::forces};
-  EXPECT_EQ(grain_text(model_, 7), "grain 7");
+  EXPECT_EQ(grain_text(model_.first(), 7), "grain 7");
   model_.state.map.layers = {MapKind::displacement, MapKind::gamma};
-  EXPECT_EQ(grain_text(model_, model_.statics().free_count),
+  EXPECT_EQ(grain_text(model_.first(), model_.statics().free_count),
             fmt::format("floor grain {}", model_.statics().free_count));
 }
 
@@ -76,8 +76,9 @@ TEST_F(Live, grains_that_are_dropped_are_seen_before_they_fall) {
   };
   const auto shown_to = [this] {
     const WidgetPlace map = gui_.place("map");
-    return model_.shown_region(static_cast<double>(map.x1 - map.x0) /
-                               static_cast<double>(map.y1 - map.y0))[3];
+    return model_.first()
+        .part(static_cast<double>(map.x1 - map.x0) / static_cast<double>(map.y1 - map.y0))
+        .y_max;
   };
   const double before = highest();
   gui_.key('k');

@@ -151,7 +151,7 @@ TEST(ViewPage, lists_the_keys_of_the_window) {
   int found = 0;
   for (std::size_t at = keys.find(begin); at != std::string::npos; at = keys.find(begin, at + 1)) {
     const std::size_t from = at + begin.size();
-    std::istringstream line(keys.substr(from, keys.find("\", \"", from) - from));
+    std::istringstream line(keys.substr(from, keys.find("\",", from) - from));
     for (std::string key; line >> key; ++found) {
       if (key.size() > 1 && key.back() == ',') key.pop_back();
       EXPECT_NE(table.find(key), std::string::npos) << key;

@@ -103,7 +103,7 @@ TEST_F(BookmarksOfRun, stay_beside_it) {
   model.go_to(3);
   ASSERT_NE(model.bookmark(), nullptr);
   EXPECT_NEAR(model.bookmark()->tilt, model.frame().tilt, 1e-12);
-  model.remove_bookmark();
+  model.set_bookmark(std::nullopt);
   EXPECT_EQ(model.bookmark(), nullptr);
   EXPECT_EQ(notes_of(read_bookmarks(path_)), std::vector<std::string>{"after failure"});
 }

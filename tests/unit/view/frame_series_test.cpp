@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cmath>
@@ -12,7 +13,7 @@
 #include "core/trigonometry.h"
 #include "pictures/overload_rule.h"
 #include "unit/view/example_bed.h"
-#include "view/landmarks.h"
+#include "view/timeline.h"
 
 namespace talus {
 namespace {
@@ -201,16 +202,37 @@ TEST(FrameSeries, ends_while_it_works) {
   EXPECT_LT(after, 1000000);
 }
 
+/// The frame of a landmark of the bed, of which some rows and values are known.
+std::optional<std::size_t> frame_of(Landmark landmark, const std::vector<double>& tilts,
+                                    std::span<const ObservableRow> rows, std::span<const FrameRecord> values,
+                                    double theta_c) {
+  TimelineSource source;
+  source.tilts = tilts;
+  source.times = source.all_times = std::vector<double>(tilts.size(), 0.0);
+  source.rows = rows;
+  source.values = values;
+  source.theta_c = theta_c;
+  source.cut = 4.0;
+  const std::vector<TimelineEvent> events = timeline_events(source);
+  const auto event = std::ranges::find(events, event_name(landmark), &TimelineEvent::name);
+  return event == events.end() ? std::nullopt : std::optional(event->frame);
+}
+
 TEST(Landmarks, are_the_frames_where_values_change) {
   FrameSeries series(example::bed_statics(), read_bed);
   series.set_counts(6, 6);
   series.begin(rule, {});
   wait_for(series, 6);
-  EXPECT_EQ(percolation_frame(series.values()), 3u);
-  EXPECT_EQ(length_jump_frame(series.values(), 4.0, radians(20.0)), 3u);
-  EXPECT_FALSE(length_jump_frame(series.values(), 4.0, radians(12.0)).has_value())
-      << "up to 12 deg nothing jumps";
-  EXPECT_FALSE(percolation_frame(std::span(series.values()).first(3)).has_value());
+  std::vector<double> tilts;
+  for (const FrameRecord& frame : series.values()) tilts.push_back(frame.tilt);
+  const auto frame = [&](Landmark landmark, std::size_t known, double theta_c) {
+    return frame_of(landmark, tilts, {}, std::span(series.values()).first(known), theta_c);
+  };
+  EXPECT_EQ(frame(Landmark::percolation, 6, radians(20.0)), 3u);
+  EXPECT_EQ(frame(Landmark::length_jump, 6, radians(20.0)), 3u);
+  EXPECT_FALSE(frame(Landmark::length_jump, 6, radians(12.0)).has_value()) << "up to 12 deg nothing jumps";
+  EXPECT_FALSE(frame(Landmark::length_jump, 5, radians(20.0)).has_value()) << "not all are known";
+  EXPECT_FALSE(frame(Landmark::percolation, 3, radians(20.0)).has_value());
 }
 
 TEST(Landmarks, dilation_begins_where_the_volume_is_smallest) {
@@ -221,9 +243,10 @@ TEST(Landmarks, dilation_begins_where_the_volume_is_smallest) {
     at(rows[k], Observable::volume_strain) = 1e-5 * (angle - 12.0) * (angle - 12.0);
   }
   const std::vector<double> tilts = {radians(0.0), radians(5.0), radians(10.0), radians(13.0), radians(20.0)};
-  EXPECT_EQ(dilation_frame(rows, tilts, radians(20.0)), 3u);
-  EXPECT_FALSE(dilation_frame(rows, tilts, radians(11.0)).has_value()) << "up to 11 deg it contracts";
-  EXPECT_FALSE(dilation_frame({}, tilts, radians(20.0)).has_value());
+  EXPECT_EQ(frame_of(Landmark::theta_d, tilts, rows, {}, radians(20.0)), 3u);
+  EXPECT_FALSE(frame_of(Landmark::theta_d, tilts, rows, {}, radians(11.0)).has_value())
+      << "up to 11 deg it contracts";
+  EXPECT_FALSE(frame_of(Landmark::theta_d, tilts, {}, {}, radians(20.0)).has_value());
 }
 
 }  // namespace

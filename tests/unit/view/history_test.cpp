@@ -13,8 +13,8 @@
 #include "support/temporary_folder.h"
 #include "unit/view/example_bed.h"
 #include "unit/view/opened_view.h"
-#include "view/contact_inspection.h"
-#include "view/rings.h"
+#include "view/inspection.h"
+#include "view/scene.h"
 
 namespace talus {
 namespace {
@@ -132,7 +132,9 @@ class HistoryInView : public testing::Test {
     example::write_bed_run(folder_.path("run.h5"), 20.0);
     model_.emplace(example::opened(folder_.path("run.h5")));
   }
-  long trail_lines() { return std::ranges::count(model_->map(2.0).lines, trail_colour, &Line::colour); }
+  long trail_lines() {
+    return std::ranges::count(model_->first().map(2.0).lines, trail_colour, &Line::colour);
+  }
   test::TemporaryFolder folder_;
   std::optional<ViewModel> model_;
 };
@@ -169,10 +171,10 @@ TEST_F(HistoryInView, the_camera_follows_a_grain) {
   model_->select(std::optional<Index>(39));
   model_->state.camera.zoom = 2.0;
   model_->state.selecting.follow = true;
-  (void)model_->map(2.5);
+  (void)model_->first().map(2.5);
   model_->go_to(2);
   model_->update(0.0);
-  const auto [x0, x1, y0, y1] = model_->shown_region(2.5);
+  const auto [x0, x1, y0, y1] = model_->first().part(2.5);
   EXPECT_GT(y1, model_->frame().y[39] - 1e-9) << "grain 39 lies a metre higher in the third frame";
   EXPECT_LE(x0, model_->frame().x[39]);
   const double centre = model_->state.camera.centre_y;

@@ -53,13 +53,13 @@ test::Packing corner() {
 }
 
 /// Of single grains.
-InspectionRule rule_of(double threshold, double cut, double neighbourhood) {
-  return {.threshold = threshold, .l_min = 0.0, .cut = cut, .neighbourhood = neighbourhood};
+CoarseGrainingRule rule_of(double threshold, double cut) {
+  return {.threshold = threshold, .end_ratio = threshold, .l_min = 0.0, .cut = cut};
 }
 
 TEST(Inspection, has_the_contacts_of_the_grain_seen_from_it) {
   const test::Packing packing = corner();
-  const Inspection of = inspect(packing, clusters_of(packing, 2.0), rule_of(2.0, 1.0, 1.0), 1);
+  const Inspection of = inspect(packing, clusters_of(packing, 2.0), rule_of(2.0, 1.0), 1.0, 1);
   ASSERT_EQ(of.contacts.size(), 3u);
   const GrainContact& left = of.contacts[0];
   EXPECT_EQ(left.other, 0);
@@ -82,7 +82,7 @@ TEST(Inspection, names_planes_by_where_they_are) {
   test::Packing packing = corner();
   packing.frame.contacts.nx.back() = -1.0;
   const auto name = [&packing] {
-    return inspect(packing, clusters_of(packing, 2.0), rule_of(2.0, 1.0, 1.0), 1).contacts.back().other_name;
+    return inspect(packing, clusters_of(packing, 2.0), rule_of(2.0, 1.0), 1.0, 1).contacts.back().other_name;
   };
   EXPECT_EQ(name(), "left wall");
   packing.frame.contacts.nx.back() = 0.0;
@@ -101,7 +101,7 @@ TEST(Inspection, of_a_pressed_grain_has_its_stress) {
   }
   test::moments_from_contacts(packing);
   packing = whole(packing);
-  const Inspection of = inspect(packing, clusters_of(packing, 0.5), rule_of(0.5, 5.0, 0.0), 0);
+  const Inspection of = inspect(packing, clusters_of(packing, 0.5), rule_of(0.5, 5.0), 0.0, 0);
   EXPECT_NEAR(of.internal_moment.xx, 4.0, 1e-15);
   EXPECT_NEAR(of.internal_moment.yy, 1.0, 1e-15);
   EXPECT_NEAR(of.state.ratio, 0.6, 1e-15);
@@ -120,7 +120,7 @@ TEST(Inspection, of_a_pressed_grain_has_its_stress) {
 
 TEST(Inspection, of_a_grain_that_is_not_overloaded_has_no_length) {
   const test::Packing packing = whole(test::random_packing(1, 50, 10.0, 6.0, true));
-  const Inspection of = inspect(packing, clusters_of(packing, 1.5), rule_of(1.5, 3.0, 3.0), 4);
+  const Inspection of = inspect(packing, clusters_of(packing, 1.5), rule_of(1.5, 3.0), 3.0, 4);
   EXPECT_FALSE(of.overloaded);
   EXPECT_FALSE(of.coarse_graining_length.has_value());
   EXPECT_EQ(of.cluster, -1);
@@ -132,15 +132,15 @@ TEST(Inspection, agrees_with_coarse_graining_of_the_whole_bed) {
     const double threshold = l_min > 0.0 ? 0.2 : 0.4, cut = l_min > 0.0 ? 4.0 : 2.5;
     test::Packing packing = whole(test::random_packing(2, 150, 20.0, 8.0, true));
     packing.frame = with_gamma_of_neighbourhoods(packing.frame, packing.statics, l_min);
-    const CoarseGraining all = coarse_graining(
-        packing, {.threshold = threshold, .end_ratio = threshold, .l_min = l_min, .cut = cut});
+    const CoarseGrainingRule rule = {
+        .threshold = threshold, .end_ratio = threshold, .l_min = l_min, .cut = cut};
+    const CoarseGraining all = coarse_graining(packing, rule);
     const std::vector<double> gamma = coarse_stress_ratio(packing, wide);
     const Clusters clusters = clusters_of(packing, threshold);
     ASSERT_GT(all.cut_off, 5);
     ASSERT_GT(all.overloaded - all.cut_off, 5);
     for (Index i = 0; i < packing.statics.free_count; ++i) {
-      const Inspection of = inspect(
-          packing, clusters, {.threshold = threshold, .l_min = l_min, .cut = cut, .neighbourhood = wide}, i);
+      const Inspection of = inspect(packing, clusters, rule, wide, i);
       EXPECT_EQ(of.coarse_graining_length.has_value(), !std::isnan(all.length[i]));
       if (of.coarse_graining_length) {
         EXPECT_EQ(*of.coarse_graining_length, all.length[i]) << "grain " << i;
@@ -154,7 +154,7 @@ TEST(Inspection, agrees_with_coarse_graining_of_the_whole_bed) {
 
 TEST(Inspection, of_a_floor_grain_has_contacts_only) {
   const test::Packing packing = corner();
-  const Inspection of = inspect(packing, clusters_of(packing, 0.1), rule_of(0.1, 1.0, 1.0), 2);
+  const Inspection of = inspect(packing, clusters_of(packing, 0.1), rule_of(0.1, 1.0), 1.0, 2);
   EXPECT_FALSE(of.free);
   ASSERT_EQ(of.contacts.size(), 1u);
   EXPECT_EQ(of.contacts[0].other, 1);

@@ -43,12 +43,12 @@ TEST_F(ViewOfScenario, follows_the_run) {
   EXPECT_FALSE(model_->has(Landmark::first));
   EXPECT_EQ(model_->render_command(), "");
   model_->state.map.layers = map_layers("displacement+clusters");
-  EXPECT_EQ(model_->map(2.0).discs.empty(), false);
+  EXPECT_EQ(model_->first().map(2.0).discs.empty(), false);
   model_->live()->run_to(radians(0.5));
   ASSERT_TRUE(comes_true(*model_, [this] { return model_->frame().tilt > radians(0.49); }));
   model_->live()->play();
   ASSERT_TRUE(comes_true(*model_, [this] {
-    model_->map(2.0);
+    model_->first().map(2.0);
     return has_ended(*model_);
   }));
   ASSERT_TRUE(comes_true(*model_, [this] { return plot(*model_, "overloaded").series[0].x.size() >= 5; }));
@@ -59,7 +59,7 @@ TEST_F(ViewOfScenario, follows_the_run) {
   EXPECT_EQ(std::ranges::adjacent_find(tilts, std::greater_equal()), tilts.end()) << "each row once";
   EXPECT_FALSE(plot(*model_, "residual").series[0].x.empty());
   EXPECT_FALSE(model_->theta_c_known());
-  EXPECT_NE(model_->furnished_map().title.find("per degree"), std::string::npos);
+  EXPECT_NE(model_->first().furnished_map().title.find("per degree"), std::string::npos);
 }
 
 TEST_F(ViewOfScenario, shows_all_of_a_bed_that_is_higher_than_its_scenario_says) {
@@ -69,13 +69,12 @@ TEST_F(ViewOfScenario, shows_all_of_a_bed_that_is_higher_than_its_scenario_says)
   std::ofstream(folder_.path("tower.toml"))
       << "[bed]\nlength = 10\ndepth = 3\n[deposition]\nmethod = 'file'\nfile = '" << folder_.path("tower.csv")
       << "'\n[tilt]\nend_angle = 1.0\n";
-  const ViewModel tower = opened(folder_.path("tower.toml"));
+  ViewModel tower = opened(folder_.path("tower.toml"));
   ASSERT_EQ(tower.frame().grain_count(), 50);
-  EXPECT_GE(tower.shown_region(3.0)[3], 10.5 * tower.mean_diameter());
+  EXPECT_GE(tower.first().part(3.0).y_max, 10.5 * tower.mean_diameter());
 
-  const ViewModel falling =
-      ViewModel::open(folder_.path("a.toml"), {"deposition.method=collapse"}, "", false, "");
-  EXPECT_GT(std::ranges::max(falling.frame().y), falling.shown_region(3.0)[3])
+  ViewModel falling = ViewModel::open(folder_.path("a.toml"), {"deposition.method=collapse"}, "", false, "");
+  EXPECT_GT(std::ranges::max(falling.frame().y), falling.first().part(3.0).y_max)
       << "of a bed that falls, no more is shown than it will fill";
 }
 
@@ -129,7 +128,7 @@ TEST_F(ViewOfScenario, measures_displacements_from_the_frame_recorded_before) {
   model_->live()->play();
   ASSERT_TRUE(comes_true(*model_, [this] { return has_ended(*model_); }));
   model_->update(0.0);
-  const std::vector<Disc> discs = model_->map(2.0).discs;
+  const std::vector<Disc> discs = model_->first().map(2.0).discs;
   EXPECT_FALSE(std::ranges::all_of(discs, [&discs](const Disc& disc) {
     return disc.hatched > 0.0f || disc.fill == discs[0].fill;
   })) << "the frame shown is the last recorded; it is not its own reference";
@@ -166,7 +165,7 @@ TEST_F(ViewOfScenario, that_cannot_begin_anew_goes_on) {
   EXPECT_THROW(model.restart(4), Error);
   ASSERT_NE(model.live(), nullptr);
   EXPECT_EQ(model.recording().output, output);
-  EXPECT_EQ(model.map(2.0).discs.empty(), false);
+  EXPECT_EQ(model.first().map(2.0).discs.empty(), false);
 }
 
 TEST_F(ViewOfScenario, is_given_up_unsaved_only_when_asked_twice) {

@@ -112,8 +112,8 @@ TEST(Plots, are_over_the_tilt_the_angle_left_or_time) {
 TEST(Plots, of_a_stored_analysis_leave_what_has_a_threshold) {
   std::vector<Plot> plots = {plot_of_quantity(quantity_of(&FrameRecord::gamma_mean)),
                              plot_of_quantity(quantity_of(&FrameThreshold::lc_mean))};
-  plot_stored(std::vector{FrameRecord{.tilt = radians(10.0), .gamma_mean = 0.25}}, std::vector{1.0}, 0.5, {},
-              plots);
+  plot_frames(std::vector{FrameRecord{.tilt = radians(10.0), .gamma_mean = 0.25}}, std::vector{1.0}, 0.5, {},
+              plots, true);
   EXPECT_EQ(plots[0].name, "gamma/mean");
   EXPECT_EQ(plots[0].series[0].y, std::vector{0.25});
   EXPECT_TRUE(plots[1].series[0].x.empty());

@@ -1,13 +1,12 @@
 /// Playing a run file: frames at 0, 5 ... 25 deg, then two of a flow.
 
-#include "view/replay.h"
-
 #include <gtest/gtest.h>
 
 #include "core/errors.h"
 #include "support/temporary_folder.h"
 #include "unit/io/example_run.h"
 #include "unit/view/example_bed.h"
+#include "view/frame_source.h"
 
 namespace talus {
 namespace {
@@ -16,15 +15,17 @@ class ReplayOfBed : public testing::Test {
  protected:
   ReplayOfBed() {
     example::write_bed_run(folder_.path("run.h5"), 20.0);
-    replay_.emplace(std::make_shared<RunFrames>(folder_.path("run.h5")));
+    frames_ = std::make_shared<RunFrames>(folder_.path("run.h5"));
+    replay_.emplace(frames_);
     replay_->set_speed(5.0);  // a frame a second
   }
   test::TemporaryFolder folder_;
+  std::shared_ptr<RunFrames> frames_;
   std::optional<Replay> replay_;
 };
 
 TEST_F(ReplayOfBed, moves_only_while_it_plays) {
-  EXPECT_EQ(replay_->count(), 8u);
+  EXPECT_EQ(frames_->count(), 8u);
   EXPECT_FALSE(replay_->advance(10.0));
   EXPECT_EQ(replay_->index(), 0u);
   replay_->play(true);
@@ -78,29 +79,29 @@ TEST_F(ReplayOfBed, stays_within_the_run) {
 }
 
 TEST_F(ReplayOfBed, keeps_the_frames_asked_for_last) {
-  const auto first = replay_->frame(0);
-  EXPECT_EQ(replay_->frame(3)->gamma[30], 1.0);
-  EXPECT_EQ(replay_->frame(0), first) << "read again";
-  EXPECT_EQ(replay_->frame(2)->gamma[30], 0.0);
+  const auto first = frames_->frame(0);
+  EXPECT_EQ(frames_->frame(3)->gamma[30], 1.0);
+  EXPECT_EQ(frames_->frame(0), first) << "read again";
+  EXPECT_EQ(frames_->frame(2)->gamma[30], 0.0);
   const auto read_elsewhere = std::make_shared<const Frame>(example::bed_frame(5.0, 1));
-  replay_->keep(1, read_elsewhere);
-  EXPECT_EQ(replay_->frame(1), read_elsewhere);
-  EXPECT_EQ(replay_->kept(1), read_elsewhere);
-  EXPECT_EQ(replay_->kept(5), nullptr) << "nobody has asked for it";
-  EXPECT_EQ(replay_->frame(0), first);
-  const auto third = replay_->kept(3);
-  for (int k = 0; k < 60000; ++k) replay_->frame(0);  // more often than there is room for frames of this bed
-  EXPECT_EQ(replay_->kept(3), third) << "a frame that is asked for again takes no more room";
+  frames_->keep(1, read_elsewhere);
+  EXPECT_EQ(frames_->frame(1), read_elsewhere);
+  EXPECT_EQ(frames_->kept(1), read_elsewhere);
+  EXPECT_EQ(frames_->kept(5), nullptr) << "nobody has asked for it";
+  EXPECT_EQ(frames_->frame(0), first);
+  const auto third = frames_->kept(3);
+  for (int k = 0; k < 60000; ++k) frames_->frame(0);  // more often than there is room for frames of this bed
+  EXPECT_EQ(frames_->kept(3), third) << "a frame that is asked for again takes no more room";
 }
 
 TEST_F(ReplayOfBed, keeps_two_frames_of_the_largest_beds) {
   Frame of_three_million;
   of_three_million.x.resize(3'000'000);
   const auto large = std::make_shared<const Frame>(std::move(of_three_million));
-  for (const std::size_t k : {0u, 1u, 2u}) replay_->keep(k, large);
-  EXPECT_EQ(replay_->kept(0), nullptr);
-  EXPECT_EQ(replay_->kept(1), large);
-  EXPECT_EQ(replay_->kept(2), large);
+  for (const std::size_t k : {0u, 1u, 2u}) frames_->keep(k, large);
+  EXPECT_EQ(frames_->kept(0), nullptr);
+  EXPECT_EQ(frames_->kept(1), large);
+  EXPECT_EQ(frames_->kept(2), large);
 }
 
 TEST(ReplayOfNothing, says_that_there_are_no_frames) {

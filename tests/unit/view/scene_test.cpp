@@ -36,7 +36,9 @@ struct Drawn {
   }
   BedFrame bed() const { return {frame, pictures.run.statics}; }
   FrameView shown(const Overlay& overlay, const MapExtent& part) const {
-    return shown_map(map, part, bed(), overlay, clusters);
+    FrameView view = shown_map(map, part, bed());
+    add_overlay(view, bed(), overlay, clusters);
+    return view;
   }
   FrameView shown(const Overlay& overlay) const { return shown(overlay, pictures.extent); }
 };

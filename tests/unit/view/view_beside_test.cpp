@@ -37,46 +37,46 @@ TEST_F(TwoViews, another_map_of_the_same_frame) {
   model_->state.beside = {.shown = true, .layers = {MapKind::pressure}};
   model_->go_to(3);
   model_->update(0.0);
-  const FrameView first = model_->map(2.0), second = model_->map_beside(2.0);
+  const FrameView first = model_->first().map(2.0), second = model_->second().map(2.0);
   EXPECT_EQ(first.discs.size(), second.discs.size());
   EXPECT_EQ(first.x_min, second.x_min);
   EXPECT_EQ(first.y_max, second.y_max);
-  EXPECT_NE(model_->annotated_map().title, model_->annotated_map_beside().title);
-  EXPECT_EQ(model_->annotated_map().caption, model_->annotated_map_beside().caption);
-  EXPECT_NE(model_->furnished_map().title, model_->furnished_map_beside().title);
-  EXPECT_EQ(model_->values_beside().values.size(), 40u);
+  EXPECT_NE(model_->first().annotated_map().title, model_->second().annotated_map().title);
+  EXPECT_EQ(model_->first().annotated_map().caption, model_->second().annotated_map().caption);
+  EXPECT_NE(model_->first().furnished_map().title, model_->second().furnished_map().title);
+  EXPECT_EQ(model_->second().values().values.size(), 40u);
   EXPECT_EQ(model_->run_beside(), nullptr);
 }
 
 TEST_F(TwoViews, a_map_is_not_made_again_where_nothing_has_changed) {
   model_->state.beside = {.shown = true, .minus = 0.0};
   model_->go_to(3);
-  const FrameView* first = &model_->annotated_map();
-  const FrameView* second = &model_->annotated_map_beside();
+  const FrameView* first = &model_->first().annotated_map();
+  const FrameView* second = &model_->second().annotated_map();
   const Disc *discs = first->discs.data(), *discs_beside = second->discs.data();
   for (int k = 0; k < 3; ++k) {
-    EXPECT_EQ(model_->annotated_map().discs.data(), discs);
-    EXPECT_EQ(model_->annotated_map_beside().discs.data(), discs_beside);
+    EXPECT_EQ(model_->first().annotated_map().discs.data(), discs);
+    EXPECT_EQ(model_->second().annotated_map().discs.data(), discs_beside);
   }
 }
 
 TEST_F(TwoViews, a_frame_minus_another_one) {
   model_->state.beside = {.shown = true, .minus = radians(5.0)};
   model_->go_to(3);
-  const GrainValues none = model_->values_beside();  // nothing is drawn yet
+  const GrainValues none = model_->second().values();  // nothing is drawn yet
   EXPECT_TRUE(none.values.empty());
-  EXPECT_NE(model_->annotated_map_beside().title.find("15.00° minus 5.00°"), std::string::npos)
-      << model_->annotated_map_beside().title;
-  const std::vector<double>& changes = model_->values_beside().values;
+  EXPECT_NE(model_->second().annotated_map().title.find("15.00° minus 5.00°"), std::string::npos)
+      << model_->second().annotated_map().title;
+  const std::vector<double>& changes = model_->second().values().values;
   ASSERT_EQ(changes.size(), 40u);
   EXPECT_EQ(changes[0], 0.0) << "overloaded in both";
   EXPECT_NEAR(changes[10], 1.0, 1e-6);
   EXPECT_NEAR(changes[30], 1.0, 1e-6);
   EXPECT_EQ(changes[31], 0.0);
-  EXPECT_EQ(model_->annotated_map_beside().legends.at(1).swatches.at(0).label, "contacts gained: 0");
+  EXPECT_EQ(model_->second().annotated_map().legends.at(1).swatches.at(0).label, "contacts gained: 0");
   model_->state.beside.minus = radians(15.0);
-  model_->annotated_map_beside();
-  EXPECT_EQ(std::ranges::max(model_->values_beside().values), 0.0) << "minus itself";
+  model_->second().annotated_map();
+  EXPECT_EQ(std::ranges::max(model_->second().values().values), 0.0) << "minus itself";
 }
 
 TEST_F(TwoViews, another_run_at_the_same_tilt) {
@@ -87,10 +87,11 @@ TEST_F(TwoViews, another_run_at_the_same_tilt) {
   model_->go_to(4);
   EXPECT_TRUE(model_->update(0.0));
   EXPECT_NEAR(tilt_beside(), 20.0, 1e-6);
-  EXPECT_NE(model_->annotated_map().caption, model_->annotated_map_beside().caption) << "of theta_c";
+  EXPECT_NE(model_->first().annotated_map().caption, model_->second().annotated_map().caption)
+      << "of theta_c";
   model_->close_beside();
   EXPECT_EQ(model_->run_beside(), nullptr);
-  EXPECT_EQ(model_->annotated_map().caption, model_->annotated_map_beside().caption);
+  EXPECT_EQ(model_->first().annotated_map().caption, model_->second().annotated_map().caption);
 }
 
 TEST_F(TwoViews, another_run_as_far_from_failure) {
@@ -117,40 +118,40 @@ TEST_F(TwoViews, of_two_runs_have_one_range_of_colours) {
   model_->open_beside(other_);
   model_->update(0.0);
   const auto end = [](const FrameView& view) { return view.legends.at(0).bars.at(0).ticks.back().label; };
-  EXPECT_EQ(end(model_->annotated_map()), end(model_->annotated_map_beside()));
-  EXPECT_EQ(end(model_->annotated_map()), "0.69") << "2 sin 20 deg, the larger of the two";
+  EXPECT_EQ(end(model_->first().annotated_map()), end(model_->second().annotated_map()));
+  EXPECT_EQ(end(model_->first().annotated_map()), "0.69") << "2 sin 20 deg, the larger of the two";
   model_->state.map.range_low = 0.0;
   model_->state.map.range_high = 0.25;
   model_->update(0.0);
-  EXPECT_EQ(end(model_->annotated_map()), "0.25");
-  EXPECT_EQ(end(model_->annotated_map_beside()), "0.25");
+  EXPECT_EQ(end(model_->first().annotated_map()), "0.25");
+  EXPECT_EQ(end(model_->second().annotated_map()), "0.25");
   model_->state.beside.layers = {MapKind::pressure};
   model_->update(0.0);
-  EXPECT_NE(end(model_->annotated_map_beside()), "0.25") << "that is of another map";
+  EXPECT_NE(end(model_->second().annotated_map()), "0.25") << "that is of another map";
   model_->state.map.range_low = model_->state.map.range_high = std::nullopt;
   model_->update(0.0);
-  EXPECT_NE(end(model_->annotated_map()), "0.69") << "again its own";
+  EXPECT_NE(end(model_->first().annotated_map()), "0.69") << "again its own";
 }
 
 TEST_F(TwoViews, show_the_same_place) {
   model_->open_beside(other_);
   model_->state.camera = {3.0, 2.0, 2.0};
   model_->update(0.0);
-  const FrameView first = model_->map(2.0), second = model_->map_beside(2.0);
+  const FrameView first = model_->first().map(2.0), second = model_->second().map(2.0);
   EXPECT_LT(first.x_max - first.x_min, 7.0);
   EXPECT_EQ(first.x_min, second.x_min);
   EXPECT_EQ(first.x_max, second.x_max);
-  const Vec2 place = model_->place_in_first(4.0, 1.0);
+  const Vec2 place = place_in(model_->statics(), model_->second().run.statics(), 4.0, 1.0);
   EXPECT_EQ(place.x, 4.0);
   EXPECT_EQ(place.y, 1.0);
-  EXPECT_EQ(model_->grain_beside_at(0.5, 0.5), std::optional<Index>(0));
+  EXPECT_EQ(find_grain(model_->second().run.bed(), 0.5, 0.5), std::optional<Index>(0));
 }
 
 TEST_F(TwoViews, a_selection_is_of_the_first_run) {
   model_->state.selected = 5;
   model_->open_beside(other_);
   model_->update(0.0);
-  EXPECT_EQ(model_->run_beside()->inspection(), nullptr);
+  EXPECT_EQ(model_->second().run.inspection(), nullptr);
   EXPECT_NE(model_->inspection(), nullptr);
 }
 
@@ -170,7 +171,7 @@ TEST_F(TwoViews, a_run_that_is_computed_stands_alone) {
   ViewModel live = opened(folder_.path("a.toml"));
   EXPECT_THROW(live.open_beside(path_), Error);
   live.state.beside = {.shown = true, .layers = {MapKind::pressure}, .minus = 0.0};
-  EXPECT_FALSE(live.annotated_map_beside().title.empty()) << "no frame to be minus yet";
+  EXPECT_FALSE(live.second().annotated_map().title.empty()) << "no frame to be minus yet";
 }
 
 TEST_F(TwoViews, both_rest_while_another_run_is_opened) {

@@ -56,13 +56,13 @@ TEST_F(ViewOfRun, opens_at_its_first_frame_with_the_map_of_gamma) {
   EXPECT_EQ(model_->state.map.layers, MapLayers{MapKind::gamma});
   EXPECT_TRUE(model_->theta_c_known());
   EXPECT_NEAR(degrees(model_->theta_c()), 20.0, 1e-6);
-  const FrameView view = model_->map(2.0);
+  const FrameView view = model_->first().map(2.0);
   EXPECT_FALSE(view.furniture);
   EXPECT_GE(view.discs.size(), 50u);
-  const auto region = model_->shown_region(2.0);
-  EXPECT_NEAR((region[1] - region[0]) / (region[3] - region[2]), 2.0, 1e-12);
-  EXPECT_LE(region[2], -1.0);
-  EXPECT_GE(region[3], 4.0);
+  const auto region = model_->first().part(2.0);
+  EXPECT_NEAR((region.x_max - region.x_min) / (region.y_max - region.y_min), 2.0, 1e-12);
+  EXPECT_LE(region.y_min, -1.0);
+  EXPECT_GE(region.y_max, 4.0);
 }
 
 TEST_F(ViewOfRun, has_places_on_each_axis_of_its_plots) {
@@ -138,7 +138,7 @@ TEST_F(ViewOfUnfailedRun, assumes_an_angle) {
   EXPECT_FALSE(model_->theta_c_known());
   EXPECT_NEAR(degrees(model_->theta_c()), 20.0, 1e-12);
   EXPECT_FALSE(model_->has(Landmark::theta_c));
-  EXPECT_NE(model_->furnished_map().caption.find("assumed"), std::string::npos);
+  EXPECT_NE(model_->first().furnished_map().caption.find("assumed"), std::string::npos);
   EXPECT_NE(model_->render_command().find("--theta-c 20"), std::string::npos);
 }
 
@@ -226,7 +226,7 @@ TEST_F(ViewOfRun, takes_grains_with_their_first_neighbours_unless_told_otherwise
   EXPECT_NEAR(model_->inspection()->gamma, 0.2, 1e-12);
   EXPECT_EQ(model_->inspection()->state.ratio, 1.0) << "the grain alone";
   EXPECT_FALSE(model_->inspection()->overloaded);
-  EXPECT_NE(model_->furnished_map().title.find("l = 3 D"), std::string::npos);
+  EXPECT_NE(model_->first().furnished_map().title.find("l = 3 D"), std::string::npos);
   EXPECT_LT(plot(*model_, "gamma").series[0].y.back(), density);
   EXPECT_EQ(model_->render_command().find("--l-min"), std::string::npos);
   model_->state.map.l_min = 0.0;
@@ -237,7 +237,7 @@ TEST_F(ViewOfRun, takes_grains_with_their_first_neighbours_unless_told_otherwise
 TEST_F(ViewOfRun, inspects_the_selected_grain) {
   EXPECT_EQ(model_->inspection(), nullptr);
   model_->go_to(3);
-  model_->state.selected = model_->grain_at(0.4, 1.5);
+  model_->state.selected = find_grain(model_->bed(), 0.4, 1.5);
   ASSERT_TRUE(model_->state.selected.has_value());
   const Inspection* of = model_->inspection();
   ASSERT_NE(of, nullptr);
@@ -258,11 +258,11 @@ TEST_F(ViewOfRun, inspects_the_selected_grain) {
 
 TEST_F(ViewOfRun, draws_the_selection_and_its_cluster_where_it_is_asked_for) {
   model_->go_to(3);
-  const FrameView bare = model_->map(2.0);
+  const FrameView bare = model_->first().map(2.0);
   EXPECT_TRUE(bare.lines.empty());
   model_->state.selected = 10;
   model_->state.show_neighbourhoods = false;
-  const FrameView selected = model_->map(2.0);
+  const FrameView selected = model_->first().map(2.0);
   ASSERT_EQ(selected.discs.size(), bare.discs.size());
   for (std::size_t k = 0; k < bare.discs.size(); ++k)
     EXPECT_TRUE(selected.discs[k].fill == bare.discs[k].fill);
@@ -271,11 +271,11 @@ TEST_F(ViewOfRun, draws_the_selection_and_its_cluster_where_it_is_asked_for) {
     EXPECT_LT(std::hypot(std::remainder(line.x0 - 0.5, 10.0), line.y0 - 1.5), 0.75)
         << "nothing about the cluster";
   model_->state.highlight_cluster = true;
-  EXPECT_GE(model_->map(2.0).lines.size(), selected.lines.size() + 8u)
+  EXPECT_GE(model_->first().map(2.0).lines.size(), selected.lines.size() + 8u)
       << "four grains, each with two neighbours";
-  EXPECT_EQ(model_->map(2.0).discs.size(), bare.discs.size());
+  EXPECT_EQ(model_->first().map(2.0).discs.size(), bare.discs.size());
   model_->state.show_neighbourhoods = true;
-  EXPECT_GT(model_->map(2.0).lines.size(), selected.lines.size() + 8u);
+  EXPECT_GT(model_->first().map(2.0).lines.size(), selected.lines.size() + 8u);
 }
 
 TEST_F(ViewOfRun, has_the_density_of_the_frame_shown) {
@@ -287,7 +287,7 @@ TEST_F(ViewOfRun, has_the_density_of_the_frame_shown) {
 
 TEST_F(ViewOfRun, has_room_for_all_frames) {
   ASSERT_TRUE(wait_for_all());
-  EXPECT_NEAR(model_->shown_region(100.0)[3], 5.0, 1e-6) << "the third frame is higher";
+  EXPECT_NEAR(model_->first().part(100.0).y_max, 5.0, 1e-6) << "the third frame is higher";
 }
 
 /// Two groups of twelve grains: the right one alone, then both.
@@ -305,7 +305,7 @@ TEST_F(ViewOfRun, keeps_the_colours_of_clusters) {
   model.state.map.joined_by_neighbours = true;
   model.go_to(1);
   const auto fill_at = [&model](float x) {
-    const FrameView view = model.map(2.0);
+    const FrameView view = model.first().map(2.0);
     return std::ranges::find(view.discs, x, &Disc::x)->fill;
   };
   const std::vector<Colour> palette = cluster_palette();
@@ -319,7 +319,7 @@ TEST_F(ViewOfRun, keeps_the_colours_of_clusters) {
 }
 
 TEST_F(ViewOfRun, brings_the_camera_back_to_the_bed) {
-  model_->map(1.0);
+  model_->first().map(1.0);
   model_->state.camera = {100.0, 100.0, 2.0};
   model_->update(0.0);
   EXPECT_NEAR(model_->state.camera.centre_x, 7.5, 1e-9);
@@ -328,7 +328,7 @@ TEST_F(ViewOfRun, brings_the_camera_back_to_the_bed) {
 
 TEST_F(ViewOfRun, crops_to_the_camera) {
   model_->state.camera = {5.0, 2.0, 5.0};
-  const FrameView view = model_->map(1.0);
+  const FrameView view = model_->first().map(1.0);
   EXPECT_NEAR(view.x_max - view.x_min, 2.0 * 1.5, 1.01) << "not below 3 D";
   EXPECT_LT(view.discs.size(), 30u);
   EXPECT_NE(model_->render_command().find("--crop 3.5,0.5,6.5,3.5"), std::string::npos)
@@ -336,20 +336,20 @@ TEST_F(ViewOfRun, crops_to_the_camera) {
 }
 
 TEST_F(ViewOfRun, begins_at_an_angle_that_is_asked_for) {
-  model_->go_to_angle("15");
+  model_->go_to(model_->frame_at_angle("15"));
   EXPECT_NEAR(degrees(model_->frame().tilt), 15.0, 1e-6);
-  model_->go_to_angle("repose");
+  model_->go_to(model_->frame_at_angle("repose"));
   EXPECT_NEAR(degrees(model_->frame().tilt), 20.0, 1e-6);
-  EXPECT_THROW(model_->go_to_angle("80"), Error);
+  EXPECT_THROW(model_->go_to(model_->frame_at_angle("80")), Error);
 }
 
 TEST_F(ViewOfRun, measures_displacements_from_the_frame_before_or_since_an_angle) {
   model_->state.map.layers = {MapKind::displacement};
   model_->go_to(3);
-  EXPECT_NE(model_->furnished_map().title.find("per degree"), std::string::npos);
+  EXPECT_NE(model_->first().furnished_map().title.find("per degree"), std::string::npos);
   model_->state.since = radians(6.0);
-  EXPECT_NE(model_->furnished_map().title.find("since 5.00"), std::string::npos)
-      << model_->furnished_map().title;
+  EXPECT_NE(model_->first().furnished_map().title.find("since 5.00"), std::string::npos)
+      << model_->first().furnished_map().title;
   EXPECT_EQ(model_->render_command(),
             "talus render " + path_ + " --map displacement --at 15 --since 6 --range 0.001,10");
 }
@@ -357,9 +357,9 @@ TEST_F(ViewOfRun, measures_displacements_from_the_frame_before_or_since_an_angle
 TEST_F(ViewOfRun, says_in_the_title_why_a_map_cannot_be_drawn) {
   model_->state.map.range_low = 0.9;
   model_->state.map.range_high = 0.1;
-  EXPECT_GE(model_->map(2.0).discs.size(), 50u);
-  EXPECT_FALSE(model_->furnished_map().title.empty());
-  EXPECT_NE(model_->furnished_map().title, "Stress ratio γ of single grains");
+  EXPECT_GE(model_->first().map(2.0).discs.size(), 50u);
+  EXPECT_FALSE(model_->first().furnished_map().title.empty());
+  EXPECT_NE(model_->first().furnished_map().title, "Stress ratio γ of single grains");
 }
 
 TEST_F(ViewOfRun, shows_the_same_frames_on_any_way) {
@@ -405,14 +405,14 @@ TEST_F(ViewOfRun, tells_of_a_frame_that_cannot_be_read) {
   EXPECT_EQ(model.frame().tilt, 0.0) << "the frame shown before";
   model.update(0.0);
   EXPECT_NE(model.state.message.find("segment_"), std::string::npos) << model.state.message;
-  EXPECT_FALSE(model.map(2.0).discs.empty());
+  EXPECT_FALSE(model.first().map(2.0).discs.empty());
 }
 
 TEST_F(ViewOfRun, turned_shows_all_frames_in_one_size) {
   model_->state.map.turned = true;
-  const FrameView flat = model_->map(1.5);
+  const FrameView flat = model_->first().map(1.5);
   model_->go_to(5);
-  const FrameView steep = model_->map(1.5);
+  const FrameView steep = model_->first().map(1.5);
   EXPECT_NEAR(degrees(flat.turn), 0.0, 1e-6);
   EXPECT_NEAR(degrees(steep.turn), 25.0, 1e-5);
   EXPECT_EQ(flat.turn_max, steep.turn_max);

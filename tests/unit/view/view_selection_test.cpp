@@ -7,7 +7,7 @@
 #include "support/temporary_folder.h"
 #include "unit/view/example_bed.h"
 #include "unit/view/opened_view.h"
-#include "view/rings.h"
+#include "view/scene.h"
 
 namespace talus {
 namespace {
@@ -23,7 +23,7 @@ class SelectionInRun : public testing::Test {
     model_->select_by_condition();
   }
   std::vector<Index> selected() { return model_->selected_grains(); }
-  std::size_t lines() { return model_->map(2.0).lines.size(); }
+  std::size_t lines() { return model_->first().map(2.0).lines.size(); }
 
   test::TemporaryFolder folder_;
   std::optional<ViewModel> model_;
@@ -99,11 +99,11 @@ TEST_F(SelectionInRun, it_is_grains_or_a_contact) {
 }
 
 TEST_F(SelectionInRun, it_is_drawn_by_lines_alone) {
-  const std::size_t discs = model_->map(2.0).discs.size(), before = lines();
+  const std::size_t discs = model_->first().map(2.0).discs.size(), before = lines();
   model_->select(std::vector<Index>{11, 12, 13});
   EXPECT_EQ(lines(), before + 3 * 32) << "a ring for each";
-  EXPECT_EQ(model_->map(2.0).discs.size(), discs);
-  for (const Line& line : model_->map(2.0).lines)
+  EXPECT_EQ(model_->first().map(2.0).discs.size(), discs);
+  for (const Line& line : model_->first().map(2.0).lines)
     if (line.colour == selection_colour) {
       EXPECT_LE(line.half_width, 0.051f) << "thin";
     }

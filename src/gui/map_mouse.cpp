@@ -1,0 +1,232 @@
+#include "gui/map_mouse.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fmt/core.h>
+
+#include "core/drag_spring.h"
+#include "core/errors.h"
+#include "gui/actions.h"
+
+namespace talus {
+namespace {
+
+constexpr float least_drag = 4.0f;            ///< px; less is a click
+constexpr double contact_reach = 1.0;         ///< D, with ctrl
+constexpr double small_contact_reach = 0.15;  ///< D, without: elsewhere it is the grain that is meant
+
+/// Whether a map shows single contacts.
+bool shows_contacts(const MapLayers& layers) {
+  return any_layer(layers, [](MapKind kind) { return kind == MapKind::forces || kind == MapKind::critical; });
+}
+
+bool is_far(const ImVec2& mouse, const Vec2& place) {
+  return std::hypot(static_cast<double>(mouse.x) - place.x, static_cast<double>(mouse.y) - place.y) >
+         least_drag;
+}
+
+/// A box by its corners, a lasso as it is; px.
+std::vector<Vec2> closed(const SelectingState& selecting) {
+  if (!selecting.outline_is_box) return selecting.outline;
+  const Vec2 from = selecting.outline.front(), to = selecting.outline.back();
+  return {from, {to.x, from.y}, to, {from.x, to.y}};
+}
+
+void draw_outline(const std::vector<Vec2>& corners, ImU32 colour) {
+  std::vector<ImVec2> px;
+  for (const Vec2& corner : corners)
+    px.push_back({static_cast<float>(corner.x), static_cast<float>(corner.y)});
+  ImGui::GetWindowDrawList()->AddPolyline(px.data(), static_cast<int>(px.size()), colour, ImDrawFlags_Closed,
+                                          1.5f);
+}
+
+void toggle_grain(Gui& gui, double x, double y) {
+  const auto grain = find_grain(gui.model.bed(), x, y);
+  if (grain)
+    gui.model.select(toggled(gui.model.selected_grains(), *grain));
+  else
+    gui.model.state.message = "No grain is there.";
+}
+
+void select_contact(Gui& gui, double x, double y) {
+  const auto contact = gui.model.contact_at(x, y, contact_reach * gui.model.mean_diameter());
+  if (contact)
+    gui.model.select(*contact);
+  else
+    gui.model.state.message = "No contact that carries a force is there.";
+}
+
+/// What the outline was drawn for, once the mouse is let go.
+void finish(Gui& gui, const ShownMap& map) {
+  SelectingState& selecting = gui.model.state.selecting;
+  const Vec2 first = selecting.outline.front();
+  if (selecting.outline.size() == 1) {
+    const Point at = map.bed_place({static_cast<float>(first.x), static_cast<float>(first.y)});
+    selecting.outline_is_box ? toggle_grain(gui, at.x, at.y) : select_contact(gui, at.x, at.y);
+    return;
+  }
+  std::vector<Vec2> corners;
+  for (const Vec2& corner : closed(selecting)) {
+    const Point at = map.bed_place({static_cast<float>(corner.x), static_cast<float>(corner.y)});
+    corners.push_back({at.x, at.y});
+  }
+  const std::vector<Index> found = grains_within(gui.model.bed(), corners);
+  gui.model.select_found(found);
+  gui.model.state.message =
+      fmt::format("Grains within: {}; selected: {}.", found.size(), gui.model.selected_grains().size());
+}
+
+/// Where a spring can be held that is to be held at the mouse: not farther from the grain than commands
+/// allow.
+std::array<double, 2> within_reach(const ViewModel& model, Index grain, double x, double y) {
+  const Frame& frame = model.frame();
+  const double dx = x - frame.x[grain], dy = y - frame.y[grain];
+  const double share = 0.9 * farthest_drag * model.mean_diameter() / std::max(1e-300, std::hypot(dx, dy));
+  return {frame.x[grain] + std::min(1.0, share) * dx, frame.y[grain] + std::min(1.0, share) * dy};
+}
+
+/// What the spring does is told while it does it; what stands in the way ends the drag.
+void hold_at(Gui& gui, Index grain, double x, double y) {
+  ViewModel& model = gui.model;
+  const auto [held_x, held_y] = within_reach(model, grain, x, y);
+  try {
+    model.live()->apply({0, CommandKind::drag, grain, held_x, held_y});
+    const double distance = std::hypot(held_x - model.frame().x[grain], held_y - model.frame().y[grain]);
+    model.state.message = fmt::format(
+        "Grain {} is pulled with {:.0f} m g.{}", grain, drag_stiffness * distance / model.mean_diameter(),
+        model.live()->status().running ? "" : " The run is paused: space goes on.");
+    model.state.drag = GrainDrag{grain, x, y, model.live()->status().step};
+  } catch (const Error& error) {
+    model.state.message = error.what();
+    model.state.drag.reset();
+  }
+}
+
+/// The free grain on which a lasso would begin, once the mouse moves: a click is for a contact.
+std::optional<Index> first_grain(const ViewModel& model, const ShownMap& map) {
+  const SelectingState& selecting = model.state.selecting;
+  if (selecting.outline.size() != 1 || selecting.outline_is_box || ImGui::GetIO().KeyShift) return {};
+  if (!ImGui::IsMouseDragging(0, least_drag)) return {};
+  const Vec2 first = selecting.outline.front();
+  const Point at = map.bed_place({static_cast<float>(first.x), static_cast<float>(first.y)});
+  const std::optional<Index> grain = find_grain(model.bed(), at.x, at.y);
+  return grain && *grain < model.statics().free_count ? grain : std::nullopt;
+}
+
+/// Whether a grain would be pulled, had the run not ended: then no lasso begins there, which would drop what
+/// is selected.
+bool refuse_after_end(Gui& gui, const ShownMap& map) {
+  ViewModel& model = gui.model;
+  SelectingState& selecting = model.state.selecting;
+  const bool waits = ImGui::IsItemActive() && !ImGui::IsItemActivated() && ImGui::GetIO().KeyCtrl &&
+                     !ImGui::GetIO().KeyShift && selecting.outline.empty();
+  if (waits) return true;  // the mouse goes on after it was refused
+  if (model.looks_back() || !model.live()->status().done || !first_grain(model, map)) return false;
+  selecting.outline.clear();
+  model.state.message =
+      "The run has ended: no grain can be pulled. U goes back before a command; with shift ctrl draws a "
+      "lasso.";
+  return true;
+}
+
+/// Those that are selected stay where it is one of them.
+void look_at(ViewModel& model, Index grain) {
+  if (std::ranges::binary_search(model.selected_grains(), grain))
+    model.state.selected = grain;
+  else
+    model.select(std::optional(grain));
+}
+
+void let_go(Gui& gui) {
+  ViewModel& model = gui.model;
+  model.state.drag.reset();
+  if (!model.live() || !model.live()->status().dragged) return;
+  send(gui, {0, CommandKind::release, -1, 0.0, 0.0});
+}
+
+void draw_spring(Gui& gui, const ShownMap& map) {
+  const GrainDrag& drag = *gui.model.state.drag;
+  const Frame& frame = gui.model.frame();
+  const ImVec2 from = map.pixel(frame.x[drag.grain], frame.y[drag.grain]), to = map.pixel(drag.x, drag.y);
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const ImU32 colour = packed(gui.colours.curves[2]);
+  list.AddLine(from, to, colour, 0.15f * gui.em);
+  list.AddCircleFilled(to, 0.25f * gui.em, colour);
+}
+
+}  // namespace
+
+Point ShownMap::bed_place(const ImVec2& px) const {
+  const double right = (static_cast<double>(px.x - corner.x) - camera.origin_x) / camera.scale;
+  const double down = (static_cast<double>(px.y - corner.y) - camera.origin_y) / camera.scale;
+  return {camera.cosine * right + camera.sine * down, camera.sine * right - camera.cosine * down};
+}
+
+ImVec2 ShownMap::pixel(double x, double y) const {
+  const double right = camera.cosine * x + camera.sine * y, down = camera.sine * x - camera.cosine * y;
+  return {corner.x + static_cast<float>(camera.origin_x + camera.scale * right),
+          corner.y + static_cast<float>(camera.origin_y + camera.scale * down)};
+}
+
+bool select_by_outline(Gui& gui, const ShownMap& map) {
+  const ImGuiIO& io = ImGui::GetIO();
+  SelectingState& selecting = gui.model.state.selecting;
+  const Vec2 mouse{static_cast<double>(io.MousePos.x), static_cast<double>(io.MousePos.y)};
+  if (ImGui::IsItemActivated() && (io.KeyShift || io.KeyCtrl)) {
+    selecting.outline = {mouse};
+    selecting.outline_is_box = io.KeyShift && !io.KeyCtrl;
+  }
+  if (selecting.outline.empty()) return false;
+  if (is_far(io.MousePos, selecting.outline.back())) {
+    if (selecting.outline_is_box && selecting.outline.size() == 2) selecting.outline.pop_back();
+    selecting.outline.push_back(mouse);
+  }
+  if (selecting.outline.size() > 1) draw_outline(closed(selecting), packed(gui.colours.accent));
+  if (!io.MouseDown[0]) {
+    finish(gui, map);
+    selecting.outline.clear();
+  }
+  return true;
+}
+
+void select_clicked(Gui& gui, double x, double y) {
+  ViewModel& model = gui.model;
+  const bool contacts = shows_contacts(model.state.map.layers);
+  const auto contact =
+      contacts ? model.contact_at(x, y, small_contact_reach * model.mean_diameter()) : std::nullopt;
+  if (contact) return model.select(*contact);
+  const std::optional<Index> grain = find_grain(model.bed(), x, y);
+  if (!grain) model.state.message = "No grain is there.";
+  model.select(grain);
+}
+
+bool drag_grain(Gui& gui, double x, double y, const ShownMap& map) {
+  ViewModel& model = gui.model;
+  auto& drag = model.state.drag;
+  if (!model.is_live()) {
+    drag.reset();
+    return false;
+  }
+  if (!drag) {
+    if (refuse_after_end(gui, map)) return true;
+    const std::optional<Index> grain = model.looks_back() ? std::nullopt : first_grain(model, map);
+    if (!grain) return false;
+    model.state.selecting.outline.clear();
+    model.state.selecting.follow = false;  // else the picture would run after the mouse, and the mouse ahead
+    look_at(model, *grain);
+    hold_at(gui, *grain, x, y);
+    return true;
+  }
+  if (!ImGui::IsMouseDown(0)) {
+    let_go(gui);
+    return true;
+  }
+  // One place a step: those between two steps would do nothing.
+  if (model.live()->status().step != drag->step && (x != drag->x || y != drag->y))
+    hold_at(gui, drag->grain, x, y);
+  if (drag) draw_spring(gui, map);
+  return true;
+}
+
+}  // namespace talus

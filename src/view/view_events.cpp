@@ -1,0 +1,102 @@
+/// What happened in the run that is shown, and the bookmarks of its frames.
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/errors.h"
+#include "pictures/frame_choice.h"
+#include "runs/event_catalogue.h"
+#include "session/command.h"
+#include "view/view_model.h"
+
+namespace talus {
+
+void ViewModel::find_events() {
+  TimelineSource source;
+  source.tilts = tilts_of_tilt();
+  source.times = times_of_tilt();
+  source.rows = rows_;
+  source.values = series_->values();
+  const std::vector<Command> given = given_commands(commands_);
+  source.commands = given;
+  const std::vector<ObservableRow> live_rows =
+      live_ && !given.empty() ? rows_up_to(rows_, newest_->step, newest_->time, newest_->tilt)
+                              : std::vector<ObservableRow>();
+  source.command_rows = live_ ? live_rows : file_rows_;
+  if (analysis_) source.rearrangements = analysis_->events;
+  source.bookmarks = bookmarks_;
+  source.all_times = frames_->instants().times;
+  source.energy_unit = mean_grain_mass(all_statics_) * all_statics_.gravity * all_statics_.mean_diameter;
+  source.theta_c = theta_c_;
+  source.mean_diameter = statics().mean_diameter;
+  source.cut = length_cut(statics(), series_->rule().l_min);
+  source.may_change = live_ && !live_->status().done;
+  events_ = timeline_events(source);
+}
+
+std::optional<std::size_t> ViewModel::place_of(Landmark landmark) const {
+  const std::vector<double> tilts = tilts_of_tilt();
+  if (tilts.empty()) return std::nullopt;
+  if (landmark == Landmark::first) return 0;
+  if (landmark == Landmark::last) return frame_count() - 1;
+  if (landmark == Landmark::theta_c) {
+    if (!theta_c_ || std::abs(tilts.front()) > *theta_c_) return std::nullopt;
+    return frame_at_repose(tilts, *theta_c_);
+  }
+  const auto event = std::ranges::find(events_, event_name(landmark), &TimelineEvent::name);
+  return event == events_.end() ? std::nullopt : std::optional(event->frame);
+}
+
+std::string ViewModel::bookmarks_file() const {
+  const std::string& run = replay_ ? pictures_.path : output_;
+  return run.empty() ? "" : bookmarks_path(run);
+}
+
+void ViewModel::open_bookmarks() {
+  try {
+    bookmarks_ = read_bookmarks(bookmarks_file());
+  } catch (const Error& failure) {
+    bookmarks_unread_ = error_ = failure.what();
+  }
+}
+
+const Bookmark* ViewModel::bookmark() const {
+  const auto frame = marked_frame();
+  if (!frame) return nullptr;
+  const double time = frames_->instants().times[*frame];
+  const auto found = std::ranges::find(bookmarks_, time, &Bookmark::time);
+  return found == bookmarks_.end() ? nullptr : &*found;
+}
+
+std::optional<std::size_t> ViewModel::marked_frame() const {
+  if (frame_count() == 0) return std::nullopt;
+  return std::min(frame_index(), frame_count() - 1);
+}
+
+void ViewModel::set_bookmark(const std::optional<std::string>& note) {
+  const auto frame = marked_frame();
+  if (!frame) return;
+  const double time = frames_->instants().times[*frame];
+  std::vector<Bookmark> next = bookmarks_;
+  if (note)
+    talus::set_bookmark(next, {time, frame_tilts()[*frame], *note});
+  else if (std::erase_if(next, [time](const Bookmark& other) { return other.time == time; }) == 0)
+    return;
+  const std::string file = bookmarks_file();
+  if (file.empty() || !bookmarks_unread_.empty()) {
+    state.message =
+        file.empty() ? "Save the run first: bookmarks are kept in a file beside it." : bookmarks_unread_;
+    return;
+  }
+  try {
+    write_bookmarks(file, next);
+  } catch (const Error& failure) {
+    state.message = failure.what();
+    return;
+  }
+  bookmarks_ = std::move(next);
+  find_events();
+}
+
+}  // namespace talus

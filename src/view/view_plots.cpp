@@ -1,0 +1,90 @@
+/// The curves of the run that is shown.
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/last_rise.h"
+#include "core/trigonometry.h"
+#include "pictures/frame_choice.h"
+#include "view/view_model.h"
+
+namespace talus {
+
+void ViewModel::plot_rows() { plot_observables(rows_, statics(), abscissa(), plots_); }
+
+void ViewModel::plot_values() {
+  const std::vector<double>& times = frames_->instants().times;
+  plot_frames(series_->values(), times, mean_diameter(), abscissa(), plots_);
+  if (analysis_) plot_frames(analysis_->frames, times, mean_diameter(), abscissa(), plots_, true);
+  plot_ghost(ghost(), axis_, series_->rule().threshold_factor, plots_);
+}
+
+void ViewModel::note_thresholds(const OverloadRule& rule) {
+  note_threshold(rule.threshold_factor, theta_c_ ? std::nullopt : std::optional(rule.theta_c), plots_);
+}
+
+std::vector<const Quantity*> ViewModel::more_quantities() const {
+  std::vector<const Quantity*> more;
+  for (const Quantity& quantity : quantities()) {
+    const bool known = analysis_ || quantity.display.observable || needs_threshold(quantity);
+    const bool shown = std::ranges::find(plots_, quantity.name, &Plot::name) != plots_.end();
+    if (known && !shown && is_number_of_frame(quantity)) more.push_back(&quantity);
+  }
+  return more;
+}
+
+void ViewModel::add_plot(const Quantity& quantity) {
+  plots_.push_back(plot_of_quantity(quantity));
+  name_axis(axis_, plots_);
+  plot_rows();
+  plot_values();
+  note_thresholds(first().settings());
+}
+
+void ViewModel::remove_plot(const std::string& name) {
+  std::erase_if(plots_, [&name](const Plot& plot) { return plot.added && plot.name == name; });
+  state.plot_looks.erase(name);
+  if (state.enlarged_plot == name) state.enlarged_plot.clear();
+}
+
+void ViewModel::set_plot_axis(PlotAxis axis) {
+  if (axis == axis_ || !has_plot_axis(axis)) return;
+  axis_ = axis;
+  name_axis(axis_, plots_);
+  plot_rows();
+  plot_values();
+  for (const Plot& plot : plots_) {
+    if (!plot.along_run) continue;
+    state.plot_looks[plot.name].zoomed.reset();
+    state.plot_looks[plot.name].chosen.reset();
+  }
+}
+
+void ViewModel::set_ghost(std::optional<Ghost> ghost) {
+  ghost_ = std::move(ghost);
+  plot_values();
+}
+
+PlotMarks ViewModel::plot_marks() const {
+  PlotMarks marks;
+  marks.shown = place_on(abscissa(), frame_->tilt, frame_->time);
+  for (const TimelineEvent& event : events_) {
+    const double place = place_on(abscissa(), event.tilt, event.time);
+    if (!std::isfinite(place)) continue;
+    if (event.kind == TimelineEvent::Kind::failure) marks.theta_c = place;
+    if (event.kind == TimelineEvent::Kind::rearrangement) marks.ticks.push_back(place);
+  }
+  return marks;
+}
+
+void ViewModel::go_to_place(double x) {
+  const RunInstants& of = frames_->instants();
+  const auto frame = axis_ == PlotAxis::time ? nearest_frame(of.times, x)
+                     : axis_ == PlotAxis::angle_left
+                         ? nearest_frame(magnitudes(of.tilts, {0, of.tilts.size()}),
+                                         theta_c_.value_or(not_known) - radians(x))
+                         : nearest_frame(of.tilts, radians(x));
+  if (frame) go_to(*frame);
+}
+
+}  // namespace talus
