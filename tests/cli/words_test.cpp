@@ -241,8 +241,8 @@ TEST_F(TypedWords, frames_are_a_folder_of_a_run_and_numbers_of_an_export) {
 TEST_F(TypedWords, maps_are_listed_in_a_table) {
   const Outcome maps = talus({"maps"});
   EXPECT_EQ(maps.exit_code, 0);
-  for (const char* row : {"\ngamma            stress ratio of each grain", "\nclusters ", "\ncritical ",
-                          "\nlargest_cluster  Share", "--colours        gray, viridis"})
+  for (const char* row : {"\ngamma         stress ratio of each grain", "\nclusters ", "\ncritical ",
+                          "\nlargest_cluster  Share", "--colours: gray, viridis"})
     EXPECT_NE(maps.out.find(row), std::string::npos) << row << "\n" << maps.out;
   EXPECT_NE(maps.out.find("--length\n"), std::string::npos) << "the option of the map coarse\n" << maps.out;
   std::istringstream lines(maps.out);
