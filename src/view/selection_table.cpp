@@ -77,19 +77,19 @@ Plot histogram_of(const GrainQuantity& quantity, std::span<const Index> selected
 }
 
 std::string grains_table(const Frame& frame, std::span<const Index> grains,
-                         std::span<const GrainColumn> columns) {
+                         std::span<const GrainQuantity> quantities,
+                         const std::function<const std::vector<double>&(const GrainQuantity&)>& values_of) {
   std::string text = "time (s),tilt (deg)";
-  for (const GrainColumn& column : columns) text.append(1, ',').append(head_of(column.quantity));
+  for (const GrainQuantity& quantity : quantities) text.append(1, ',').append(head_of(quantity));
   text += '\n';
   const std::string instant = fmt::format("{},{}", frame.time, degrees(frame.tilt));
   for (const Index grain : grains) {
     text += instant;
-    for (const GrainColumn& column : columns) {
-      const double value = value_of(column.values, grain);
+    for (const GrainQuantity& quantity : quantities) {
+      const double value = value_of(values_of(quantity), grain);
       text += ',';
       if (std::isnan(value)) continue;
-      text += column.quantity.whole ? fmt::format("{}", static_cast<std::int64_t>(value))
-                                    : fmt::format("{}", value);
+      text += quantity.whole ? fmt::format("{}", static_cast<std::int64_t>(value)) : fmt::format("{}", value);
     }
     text += '\n';
   }

@@ -52,9 +52,12 @@ TEST(TableOfGrains, is_csv_with_units) {
   frame.time = 2.5;
   frame.tilt = radians(10.0);
   const std::vector<double> ids = {0, 1, 2, 3, 4, 5};
-  const std::vector<GrainColumn> columns = {{grain_quantity("id"), ids}, {grain_quantity("lc"), values}};
+  const std::vector<GrainQuantity> quantities = {grain_quantity("id"), grain_quantity("lc")};
+  const auto values_of = [&](const GrainQuantity& quantity) -> const std::vector<double>& {
+    return quantity.name == "id" ? ids : values;
+  };
   const std::string tilt = "2.5,10";
-  EXPECT_EQ(grains_table(frame, std::vector<Index>{0, 1}, columns),
+  EXPECT_EQ(grains_table(frame, std::vector<Index>{0, 1}, quantities, values_of),
             "time (s),tilt (deg),id,lc (D)\n" + tilt + ",0,3\n" + tilt + ",1,\n");
 }
 
