@@ -135,6 +135,17 @@ std::vector<std::string> breakable_pieces(std::string_view text) {
   return pieces;
 }
 
+std::vector<std::string> broken_lines(std::string_view text,
+                                      const std::function<bool(const std::string& line)>& fits) {
+  std::vector<std::string> lines;
+  for (const std::string& piece : breakable_pieces(text))
+    if (!lines.empty() && fits(lines.back() + " " + piece))
+      lines.back() += " " + piece;
+    else
+      lines.push_back(piece);
+  return lines;
+}
+
 GlyphAtlas bake_glyphs(double em) {
   GlyphAtlas atlas;
   atlas.em = em;

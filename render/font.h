@@ -4,6 +4,7 @@
 #include <stb/stb_truetype.h>
 
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -47,6 +48,10 @@ TextLine set_text(const Font& font, std::string_view text, double em);
 
 /// The pieces of a text between which a line may end: its words, but "l = 10 D" as one and "95 % of" as two.
 std::vector<std::string> breakable_pieces(std::string_view text);
+
+/// The lines of a text, each with as many pieces as fit; a single piece may be wider.
+std::vector<std::string> broken_lines(std::string_view text,
+                                      const std::function<bool(const std::string& line)>& fits);
 
 /// All listed glyphs, plain and as subscripts, drawn for one font size.
 struct GlyphAtlas {

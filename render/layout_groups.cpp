@@ -92,19 +92,10 @@ PlacedText place_text(const std::string& text, double x, double y, double em, co
   return {{x, y, set_text(font, text, em).width, line_height * em}, text};
 }
 
-std::vector<std::string> broken_text(const std::string& text, double width, double em, const Font& font) {
-  std::vector<std::string> lines;
-  for (const std::string& piece : breakable_pieces(text))
-    if (!lines.empty() && set_text(font, lines.back() + " " + piece, em).width <= width)
-      lines.back() += " " + piece;
-    else
-      lines.push_back(piece);
-  return lines;
-}
-
 Group text_group(const std::string& text, double room, double em, const Font& font, bool right_aligned) {
   Group group;
-  for (const std::string& line : broken_text(text, room, em, font)) {
+  const auto fits = [&](const std::string& line) { return set_text(font, line, em).width <= room; };
+  for (const std::string& line : broken_lines(text, fits)) {
     group.texts.push_back(place_text(line, 0.0, group.height, em, font));
     group.width = std::max(group.width, group.texts.back().box.width);
     group.height += line_height * em;

@@ -21,9 +21,6 @@ struct Group {
   Box arrow;
 };
 
-/// Breaks a text into lines of at most that width, px; only a single piece (breakable_pieces) may be wider.
-std::vector<std::string> broken_text(const std::string& text, double width, double em, const Font& font);
-
 // `room`, px: what groups are to fit, if their lines can be broken.
 
 /// A text; lines that are broken end at its right if it is `right_aligned`.

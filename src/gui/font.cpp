@@ -32,7 +32,7 @@ void add_embedded_font(ImFontAtlas& atlas, float scale) {
   config.OversampleH = 2;
   // Not const in the interface, but only read.
   void* bytes = const_cast<unsigned char*>(embedded::font.data());
-  for (const float size : {type_scale.body, type_scale.small, type_scale.heading})
+  for (const float size : type_scale)
     atlas.AddFontFromMemoryTTF(bytes, static_cast<int>(embedded::font.size()), std::round(size * scale),
                                &config, glyph_blocks);
   atlas.Build();

@@ -1,7 +1,7 @@
-#include "gui/icons.h"
-
 #include <cmath>
 #include <string>
+
+#include "gui/widgets.h"
 
 namespace talus {
 namespace {

@@ -1,11 +1,8 @@
 #pragma once
-/// The whole window without a display, driven by a program and drawn as a picture, for tests and for pictures
-/// of the window in documents.
+/// The whole window without a display, drawn as a picture, for documents and for tests.
 
 #include <memory>
 #include <optional>
-#include <string>
-#include <string_view>
 #include <vector>
 
 #include "gui/screen.h"
@@ -28,25 +25,7 @@ class OffscreenGui {
   void settle();
 
   const std::vector<WidgetPlace>& places() const { return screen_.places(); }
-  bool has(std::string_view name) const;
-  /// The place of a widget. Throws Error(internal) if none has that name.
-  WidgetPlace place(std::string_view name) const;
-
-  // Actions of a user; each settles. A place inside a widget is given as shares of its width and height.
-  void move(float x, float y);
-  void click(std::string_view name, float share_x = 0.5f, float share_y = 0.5f);
-  void double_click(std::string_view name, float share_x = 0.5f, float share_y = 0.5f);
-  void drag(std::string_view name, float from_x, float from_y, float to_x, float to_y, int button = 0);
-  /// The left button goes down there, with ctrl held, and stays down until let_go.
-  void take(std::string_view name, float share_x, float share_y);
-  void let_go();
-  void scroll(std::string_view name, float steps, float share_x = 0.5f, float share_y = 0.5f);
-  /// A printable ASCII character, or a number of KeyCode.
-  void key(int code, bool control = false);
-  void type(std::string_view text);
-  /// A key, as key_left_shift, is held or let go from here on.
-  void hold(int key, bool down);
-
+  InputQueue& input() { return screen_.input(); }
   void resize(int width, int height);
   /// A view as talus render draws it.
   Image draw_image(const FrameView& view, int width) { return screen_.draw_image(view, width); }
@@ -55,8 +34,6 @@ class OffscreenGui {
 
  private:
   void draw(double seconds);
-  void press(int button, bool down);
-  void press_key(int key, bool down);
 
   ViewModel& model_;
   GuiScreen screen_;

@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 
 #include "gui/panels.h"
-#include "gui/plot_widget.h"
 
 namespace talus {
 namespace {

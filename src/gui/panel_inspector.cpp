@@ -4,7 +4,6 @@
 
 #include "core/trigonometry.h"
 #include "gui/panels.h"
-#include "gui/plot_widget.h"
 
 namespace talus {
 namespace {

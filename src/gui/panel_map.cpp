@@ -7,9 +7,10 @@
 namespace talus {
 namespace {
 
-std::vector<std::string> kind_names(bool with_none) {
+/// The names of all maps, after what stands for none of them.
+std::vector<std::string> kind_names(const char* none = nullptr) {
   std::vector<std::string> names;
-  if (with_none) names.emplace_back("nothing");
+  if (none != nullptr) names.emplace_back(none);
   for (const MapKind kind : map_kinds()) names.emplace_back(map_name(kind));
   return names;
 }
@@ -22,13 +23,13 @@ int place_of(MapKind kind) {
 void choose_layers(Gui& gui) {
   MapLayers& layers = gui.model.state.map.layers;
   int base = place_of(layers.at(0));
-  if (named_choice(gui, "map kind", "map", kind_names(false), base)) {
+  if (named_choice(gui, "map kind", "map", kind_names(), base)) {
     layers[0] = map_kinds()[static_cast<std::size_t>(base)];
     if (layers.size() > 1 && layers[1] == layers[0]) layers.pop_back();
   }
   ImGui::TextWrapped("%s", std::string(map_help(layers[0])).c_str());
   int over = layers.size() > 1 ? place_of(layers[1]) + 1 : 0;
-  if (named_choice(gui, "overlay", "over it", kind_names(true), over)) {
+  if (named_choice(gui, "overlay", "over it", kind_names("nothing"), over)) {
     layers.resize(1);
     const bool other = over > 0 && map_kinds()[static_cast<std::size_t>(over - 1)] != layers[0];
     if (other) layers.push_back(map_kinds()[static_cast<std::size_t>(over - 1)]);
@@ -72,15 +73,60 @@ void choose_range(Gui& gui) {
   ImGui::PopItemWidth();
 }
 
-void choose_reference(Gui& gui) {
-  ViewState& state = gui.model.state;
-  bool since = state.since.has_value();
-  if (named_checkbox(gui, "since", "moved since an angle", since,
-                     "maps of motion and strain since that tilt, instead of per degree"))
-    state.since = since ? std::optional(gui.model.frame().tilt) : std::nullopt;
-  if (!state.since) return;
-  double angle = degrees(*state.since);
-  if (named_slider(gui, "since angle", "since", angle, 0.0, 60.0, "%.2f°")) state.since = radians(angle);
+/// An angle (rad) that may be there: a checkbox, which begins with that of the frame shown, and a slider.
+void choose_angle(Gui& gui, std::optional<double>& angle, const std::string& name, const char* label,
+                  const char* tip) {
+  bool there = angle.has_value();
+  if (named_checkbox(gui, name.c_str(), label, there, tip))
+    angle = there ? std::optional(gui.model.frame().tilt) : std::nullopt;
+  if (!angle) return;
+  double shown = degrees(*angle);
+  if (named_slider(gui, (name + " angle").c_str(), "since", shown, 0.0, 60.0, "%.2f°"))
+    angle = radians(shown);
+}
+
+/// By what runs are linked.
+constexpr std::pair<PlotAxis, const char*> clocks[] = {
+    {PlotAxis::tilt, "θ"}, {PlotAxis::angle_left, "θc − θ"}, {PlotAxis::time, "t"}};
+
+void choose_run_beside(Gui& gui) {
+  ViewModel& model = gui.model;
+  BesideState& beside = model.state.beside;
+  if (model.is_live()) return;
+  if (model.run_beside() == nullptr) {
+    named_text(gui, "beside path", "run", beside.path, "run file to show beside this one");
+    if (!beside.path.empty() && named_button(gui, "open beside", "Open beside")) show_run_beside(gui);
+    return;
+  }
+  if (named_button(gui, "close beside", "This run again", "the second view is of the first run"))
+    return model.close_beside();
+  std::vector<std::string> names;
+  std::vector<PlotAxis> known;
+  int chosen = 0;
+  for (const auto& [clock, name] : clocks) {
+    if (!model.has_clock(clock)) continue;
+    if (beside.clock == clock) chosen = static_cast<int>(names.size());
+    names.emplace_back(name);
+    known.push_back(clock);
+  }
+  if (named_choice(gui, "beside clock", "linked by", names, chosen))
+    beside.clock = known[static_cast<std::size_t>(chosen)];
+}
+
+/// What is shown beside the map.
+void choose_beside(Gui& gui) {
+  BesideState& beside = gui.model.state.beside;
+  named_checkbox(gui, "beside", "a second view", beside.shown,
+                 "another map, another run, or what has changed: P");
+  if (!beside.shown) return;
+  int chosen = beside.layers.empty() ? 0 : place_of(beside.layers[0]) + 1;
+  if (named_choice(gui, "beside map", "its map", kind_names("as the first"), chosen)) {
+    beside.layers.clear();
+    if (chosen > 0) beside.layers = {map_kinds()[static_cast<std::size_t>(chosen - 1)]};
+  }
+  choose_angle(gui, beside.minus, "beside minus", "minus the frame at an angle",
+               "what has changed since: its grains, and contacts gained and lost; D begins here");
+  choose_run_beside(gui);
 }
 
 }  // namespace
@@ -98,7 +144,8 @@ void draw_map_panel(Gui& gui) {
                "grains are overloaded from this multiple of Γc on: [ and ]");
   named_slider(gui, "length", "coarse over ℓ", state.map.length, 1.0, 40.0, "%.1f D",
                "what coarse, density, stress, shear_rate and temperature average over, a diameter: , and .");
-  choose_reference(gui);
+  choose_angle(gui, state.since, "since", "moved since an angle",
+               "maps of motion and strain since that tilt, instead of per degree");
   choose_beside(gui);
   named_checkbox(gui, "turned", "turned to the slope", state.map.turned, "t");
   named_checkbox(

@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include "gui/panels.h"
-#include "gui/plot_widget.h"
 
 namespace talus {
 namespace {

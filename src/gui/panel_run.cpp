@@ -5,8 +5,8 @@
 #include "core/errors.h"
 #include "core/trigonometry.h"
 #include "gui/actions.h"
-#include "gui/icons.h"
 #include "gui/panels.h"
+#include "gui/widgets.h"
 
 namespace talus {
 namespace {

@@ -9,7 +9,6 @@
 #include "core/statistics.h"
 #include "gui/actions.h"
 #include "gui/panels.h"
-#include "gui/plot_widget.h"
 #include "view/selection_table.h"
 
 namespace talus {

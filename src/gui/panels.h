@@ -29,6 +29,14 @@ void draw_file_panel(Gui& gui);
 void draw_inspector(Gui& gui);
 /// The same of the selected contact, with its history; false where none is selected.
 bool draw_contact_inspector(Gui& gui);
+/// The value of a curve nearest to x; NaN where it has none.
+double value_near(const PlotSeries& series, double x);
+
+/// Draws a plot into a box of that size at the cursor. Noted as "plot NAME". The wheel zooms along x,
+/// dragging chooses a range whose statistics are told, a double click enlarges the plot or ends that. Returns
+/// the x that was clicked.
+std::optional<double> draw_plot(Gui& gui, const Plot& plot, const ImVec2& size, const PlotMarks& marks);
+
 /// The curves.
 void draw_plots(Gui& gui);
 /// The time line: the frames of the run and what happened in it.
@@ -40,8 +48,6 @@ void draw_map_pane(Gui& gui, const View& view, const ImVec2& room, bool with_gra
 /// The map and the second view, beside each other or one above the other, whichever shows more. False where
 /// there is no room for two, which the message says; nothing is drawn then.
 bool draw_pair(Gui& gui);
-/// What is shown beside the map, in the panel of maps.
-void choose_beside(Gui& gui);
 /// What the map tells of a grain under the mouse, as rich text: what its bar measures, with the unit, and
 /// gamma on maps of overloaded grains.
 std::string grain_text(const View& view, Index grain);

@@ -1,5 +1,3 @@
-#include "gui/plot_widget.h"
-
 #include <imgui_internal.h>
 
 #include <algorithm>
@@ -7,6 +5,7 @@
 #include <fmt/core.h>
 #include <limits>
 
+#include "gui/panels.h"
 #include "pictures/texts.h"
 
 namespace talus {

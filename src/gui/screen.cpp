@@ -37,9 +37,9 @@ GLuint upload_font(const Gl& gl, ImFontAtlas& atlas) {
 
 /// The scale asked for, or the largest, in steps, with which a small window still has room for its parts.
 float fitting_scale(float asked, int width, int height) {
-  constexpr float least_width = 640.0f, least_height = 450.0f, step = 0.25f;  // px at scale 1
+  constexpr float needed_width = 640.0f, needed_height = 450.0f, step = 0.25f;  // px at scale 1
   const float room =
-      std::min(static_cast<float>(width) / least_width, static_cast<float>(height) / least_height);
+      std::min(static_cast<float>(width) / needed_width, static_cast<float>(height) / needed_height);
   return std::min(asked, std::max(1.0f, step * std::floor(room / step)));
 }
 

@@ -128,15 +128,6 @@ constexpr std::pair<ImGuiCol, Colour Palette::*> roles[] = {
 
 constexpr Colour nothing{0, 0, 0, 0};
 
-double linear(std::uint8_t channel) {
-  const double share = channel / 255.0;
-  return share <= 0.04045 ? share / 12.92 : std::pow((share + 0.055) / 1.055, 2.4);
-}
-
-double luminance(const Colour& colour) {
-  return 0.2126 * linear(colour.red) + 0.7152 * linear(colour.green) + 0.0722 * linear(colour.blue);
-}
-
 }  // namespace
 
 const Palette& palette_of(Theme theme) {
@@ -151,44 +142,19 @@ const Palette& palette_of(Theme theme) {
   return light_palette;
 }
 
-std::array<TextPair, 19> text_pairs(const Palette& of) {
-  return {{{"text", of.ink, of.ground},
-           {"text in columns", of.ink, of.panel},
-           {"buttons", of.ink, of.raised},
-           {"buttons under the mouse", of.ink, of.hovered},
-           {"buttons held", of.ink, of.pressed},
-           {"fields", of.ink, of.field},
-           {"chosen rows", of.ink, of.tint},
-           {"hints", of.soft, of.ground},
-           {"hints in columns", of.soft, of.panel},
-           {"an announcement", of.alarm_text, of.alarm},
-           {"a warning", of.warning, of.panel},
-           {"transition", of.transition, of.ground},
-           {"failure", of.failure, of.ground},
-           {"command", of.command, of.ground},
-           {"rearrangement", of.rearrangement, of.ground},
-           {"bookmark", of.bookmark, of.ground},
-           {"second curve", of.curves[1], of.ground},
-           {"third curve", of.curves[2], of.ground},
-           {"fourth curve", of.curves[3], of.ground}}};
-}
-
-double contrast(const Colour& a, const Colour& b) {
-  const double one = luminance(a), other = luminance(b);
-  return (std::max(one, other) + 0.05) / (std::min(one, other) + 0.05);
-}
-
 ImGuiStyle style_of(Theme theme, float scale) {
   ImGuiStyle style;
-  style.WindowPadding = {spacing.window.x, spacing.window.y};
-  style.FramePadding = {spacing.frame.x, spacing.frame.y};
-  style.ItemSpacing = {spacing.item.x, spacing.item.y};
-  style.ItemInnerSpacing = {spacing.inner.x, spacing.inner.y};
-  style.CellPadding = {spacing.cell.x, spacing.cell.y};
-  style.ScrollbarSize = spacing.scroll_bar;
-  style.GrabMinSize = spacing.grab;
-  style.FrameRounding = style.GrabRounding = style.PopupRounding = spacing.rounding;
-  style.ScrollbarRounding = style.TabRounding = style.ChildRounding = spacing.rounding;
+  // Distances on a display of scale 1, px.
+  constexpr float rounding = 4.0f;
+  style.WindowPadding = {10.0f, 8.0f};    // between a part of the window and what is in it
+  style.FramePadding = {8.0f, 4.0f};      // between a widget and its text
+  style.ItemSpacing = {8.0f, 6.0f};       // between widgets
+  style.ItemInnerSpacing = {6.0f, 4.0f};  // between a widget and its label
+  style.CellPadding = {4.0f, 2.0f};       // of tables
+  style.ScrollbarSize = 10.0f;
+  style.GrabMinSize = 12.0f;
+  style.FrameRounding = style.GrabRounding = style.PopupRounding = rounding;
+  style.ScrollbarRounding = style.TabRounding = style.ChildRounding = rounding;
   style.WindowRounding = 0.0f;
   style.ScaleAllSizes(scale);
   style.WindowBorderSize = style.FrameBorderSize = style.PopupBorderSize = std::max(1.0f, std::round(scale));

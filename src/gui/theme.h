@@ -5,8 +5,6 @@
 #include <imgui.h>
 
 #include <array>
-#include <span>
-#include <string_view>
 
 #include "render/colour.h"
 #include "view/theme.h"
@@ -52,42 +50,9 @@ inline ImU32 packed(const Colour& colour) {
 }
 inline ImVec4 mixed(const Colour& colour) { return ImGui::ColorConvertU32ToFloat4(packed(colour)); }
 
-/// Text, and what it stands on.
-struct TextPair {
-  std::string_view name;
-  Colour text, ground;
-};
-/// All pairs of text and ground that the window has in a theme.
-std::array<TextPair, 19> text_pairs(const Palette& palette);
-
-/// Contrast of two opaque colours, 1 ... 21 (WCAG 2.1, relative luminance).
-double contrast(const Colour& a, const Colour& b);
-
-/// Heights of text on a display of scale 1, px.
-struct TypeScale {
-  float body = 15.0f;
-  float small = 12.5f;    ///< ticks, hints
-  float heading = 17.0f;  ///< what a part of the window is about
-};
-inline constexpr TypeScale type_scale;
-
-/// A distance to the side and one up and down.
-struct Distance {
-  float x = 0.0f, y = 0.0f;
-};
-
-/// Distances on a display of scale 1, px.
-struct Spacing {
-  Distance window{10.0f, 8.0f};  ///< between a part of the window and what is in it
-  Distance frame{8.0f, 4.0f};    ///< between a widget and its text
-  Distance item{8.0f, 6.0f};     ///< between widgets
-  Distance inner{6.0f, 4.0f};    ///< between a widget and its label
-  Distance cell{4.0f, 2.0f};     ///< of tables
-  float rounding = 4.0f;
-  float scroll_bar = 10.0f;
-  float grab = 12.0f;
-};
-inline constexpr Spacing spacing;
+/// Heights of text on a display of scale 1, px, in the order of TextSize: of text, of ticks and hints, and of
+/// what a part of the window is about.
+inline constexpr std::array<float, 3> type_scale = {15.0f, 12.5f, 17.0f};
 
 /// The style of a theme, on a display of that scale.
 ImGuiStyle style_of(Theme theme, float scale);

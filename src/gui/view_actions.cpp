@@ -2,6 +2,7 @@
 #include <cmath>
 #include <fmt/core.h>
 
+#include "core/errors.h"
 #include "core/trigonometry.h"
 #include "gui/actions.h"
 
@@ -89,6 +90,14 @@ void toggle_following(Gui& gui) {
   state.camera.zoom =
       std::max(state.camera.zoom, gui.model.statics().length / (surroundings * gui.model.mean_diameter()));
   say(gui, fmt::format("The picture follows grain {}.", *state.selected));
+}
+
+void show_run_beside(Gui& gui) {
+  try {
+    gui.model.open_beside(gui.model.state.beside.path);
+  } catch (const Error& error) {
+    gui.model.state.message = error.what();
+  }
 }
 
 }  // namespace talus

@@ -172,12 +172,8 @@ float rich_width(const ImFont& font, float size, std::string_view text) {
 std::vector<std::string> wrapped_text(std::string_view text, float width) {
   const ImFont& font = *ImGui::GetFont();
   const float size = ImGui::GetFontSize();
-  std::vector<std::string> lines;
-  for (const std::string& piece : breakable_pieces(text))
-    if (!lines.empty() && rich_width(font, size, lines.back() + " " + piece) <= width)
-      lines.back() += " " + piece;
-    else
-      lines.push_back(piece);
+  std::vector<std::string> lines =
+      broken_lines(text, [&](const std::string& line) { return rich_width(font, size, line) <= width; });
   if (lines.empty()) lines.emplace_back();
   return lines;
 }

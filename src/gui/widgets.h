@@ -48,6 +48,12 @@ std::optional<double> named_slider_when_done(Gui& gui, const char* name, const c
 bool named_choice(Gui& gui, const char* name, const char* label, const std::vector<std::string>& texts,
                   int& chosen);
 
+/// Signs that say more than a word: drawn as shapes, so that they are sharp at any size.
+enum class Icon { play, pause, back, forward, first, last };
+
+/// A button as wide as every other of these, remembered under `name`; true if the user has used it.
+bool icon_button(Gui& gui, const char* name, Icon icon, const char* tip);
+
 /// A line of text in the syntax of pictures: "_c" sets c as a subscript.
 void rich_text(std::string_view text);
 float rich_width(const ImFont& font, float size, std::string_view text);

@@ -9,7 +9,7 @@
 
 namespace talus {
 
-HistoryInstant instant_of(const Frame& frame, const HistoryQuestion& question) {
+HistoryInstant instant_of(const Frame& frame, const Selection& question) {
   HistoryInstant instant;
   instant.step = frame.step;
   instant.time = frame.time;
@@ -35,7 +35,7 @@ HistoryInstant instant_of(const Frame& frame, const HistoryQuestion& question) {
 HistorySeries::HistorySeries(ReadFrame read)
     : read_(std::move(read)), thread_([this](const std::stop_token& stop) { work(stop); }) {}
 
-void HistorySeries::ask(const HistoryQuestion& question, std::size_t frames) {
+void HistorySeries::ask(const Selection& question, std::size_t frames) {
   const std::scoped_lock lock(shared_.mutex);
   if (!(question == question_) || shared_.turn == 0) {
     question_ = question;
@@ -60,7 +60,7 @@ void HistorySeries::work(const std::stop_token& stop) {
   int turn = 0;
   std::size_t next = 0;
   bool failed = false;
-  HistoryQuestion question;
+  Selection question;
   std::unique_lock lock(shared_.mutex);
   for (;;) {
     const bool anything = shared_.changed.wait(

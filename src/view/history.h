@@ -17,13 +17,6 @@
 
 namespace talus {
 
-/// What is read.
-struct HistoryQuestion {
-  std::vector<Index> grains;
-  std::optional<ContactKey> contact;
-  bool operator==(const HistoryQuestion&) const = default;
-};
-
 /// A grain in a frame.
 struct GrainPlace {
   double x = 0.0, y = 0.0;  ///< m; NaN where it has not arrived yet
@@ -42,7 +35,7 @@ struct HistoryInstant {
   bool with_wall = false;  ///< where it carries force
 };
 
-HistoryInstant instant_of(const Frame& frame, const HistoryQuestion& question);
+HistoryInstant instant_of(const Frame& frame, const Selection& question);
 
 /// Reads in a thread of its own. All members are for one other thread.
 class HistorySeries {
@@ -54,11 +47,11 @@ class HistorySeries {
   HistorySeries& operator=(const HistorySeries&) = delete;
 
   /// From the first of `frames` frames on, where the question is another one; else only those to come.
-  void ask(const HistoryQuestion& question, std::size_t frames);
+  void ask(const Selection& question, std::size_t frames);
   /// Takes in what has been read; true where there was something.
   bool take_in();
 
-  const HistoryQuestion& question() const { return question_; }
+  const Selection& question() const { return question_; }
   /// Of the first frames, as far as they have been read. A frame that cannot be read ends them.
   const std::vector<HistoryInstant>& instants() const { return instants_; }
 
@@ -67,7 +60,7 @@ class HistorySeries {
     std::mutex mutex;
     std::condition_variable_any changed;
     int turn = 0;  ///< counts the questions
-    HistoryQuestion question;
+    Selection question;
     std::size_t frames = 0;
     std::vector<HistoryInstant> ready;
   };
@@ -75,7 +68,7 @@ class HistorySeries {
   void work(const std::stop_token& stop);
 
   ReadFrame read_;
-  HistoryQuestion question_;
+  Selection question_;
   std::vector<HistoryInstant> instants_;
   Shared shared_;
   std::jthread thread_;  ///< the last: it is joined before the rest goes

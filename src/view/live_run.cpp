@@ -17,6 +17,7 @@
 #include "session/measure.h"
 #include "session/recorder.h"
 #include "session/run_header.h"
+#include "view/live_history.h"
 
 namespace talus {
 namespace {
@@ -37,38 +38,6 @@ struct Goal {
 bool is_reached(const Goal& goal, const Session& session) {
   return session.world().step >= goal.step || session.world().tilt >= goal.tilt - reached_within ||
          (goal.end_of_deposition && session.phase() != Phase::deposition);
-}
-
-/// What the run has recorded since it began.
-struct LiveHistory {
-  std::vector<ObservableRow> observables;
-  std::vector<std::shared_ptr<const Frame>> frames;
-  std::vector<Command> commands;
-  std::vector<StepRow> steps;
-  std::int64_t stride = 1;  ///< of steps
-};
-
-/// Rows of steps that are kept at most.
-constexpr std::size_t most_live_steps = 4000;
-
-/// Adds rows of steps; where there are too many, every second of all is left out, and so of those to come.
-void add_steps(std::span<const StepRow> rows, LiveHistory& history) {
-  const auto is_left_out = [&history](const StepRow& row) {
-    return static_cast<std::int64_t>(at(row, StepField::step)) % history.stride != 0;
-  };
-  for (const StepRow& row : rows) {
-    if (is_left_out(row)) continue;
-    history.steps.push_back(row);
-    if (history.steps.size() <= most_live_steps) continue;
-    history.stride *= 2;
-    std::erase_if(history.steps, is_left_out);
-  }
-}
-
-/// The items from number `from` on; none where there are fewer.
-template <typename T>
-std::vector<T> since(const std::vector<T>& items, std::size_t from) {
-  return {items.begin() + static_cast<std::ptrdiff_t>(std::min(from, items.size())), items.end()};
 }
 
 /// How much of the session's segment the history has, or what of the history there was.

@@ -77,16 +77,17 @@ Plot histogram_of(const GrainNumber& number, std::span<const Index> selected, st
 }
 
 std::string grains_table(const Frame& frame, std::span<const Index> grains,
-                         std::span<const GrainColumn> columns) {
+                         std::span<const GrainNumber> numbers,
+                         const std::function<const std::vector<double>&(const GrainNumber&)>& values_of) {
   std::string text = "time (s),tilt (deg)";
-  for (const GrainColumn& column : columns) text.append(1, ',').append(head_of(column.number));
+  for (const GrainNumber& number : numbers) text.append(1, ',').append(head_of(number));
   text += '\n';
   const std::string instant = fmt::format("{},{}", frame.time, degrees(frame.tilt));
   for (const Index grain : grains) {
     text += instant;
-    for (const GrainColumn& column : columns) {
+    for (const GrainNumber& number : numbers) {
       text += ',';
-      append_number(text, value_of(column.values, grain), column.number.quantity->number, "");
+      append_number(text, value_of(values_of(number), grain), number.quantity->number, "");
     }
     text += '\n';
   }

@@ -1,6 +1,7 @@
 #pragma once
 /// Selected grains as a table, for the window and for files.
 
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -23,15 +24,10 @@ std::vector<Index> sorted_by(std::vector<Index> grains, std::span<const double> 
 Plot histogram_of(const GrainNumber& number, std::span<const Index> selected, std::span<const Index> all,
                   std::span<const double> values);
 
-/// A quantity with its values of all grains, by their ids.
-struct GrainColumn {
-  const GrainNumber& number;
-  std::span<const double> values;
-};
-
-/// A table of the grains in CSV: time, tilt, and the columns, whose heads have the units. An empty field
-/// where there is no value.
+/// A table of the grains in CSV: time, tilt, and columns of numbers, whose heads have the units.
+/// `values_of` has the values of all grains, by their ids; an empty field where there is no value.
 std::string grains_table(const Frame& frame, std::span<const Index> grains,
-                         std::span<const GrainColumn> columns);
+                         std::span<const GrainNumber> numbers,
+                         const std::function<const std::vector<double>&(const GrainNumber&)>& values_of);
 
 }  // namespace talus

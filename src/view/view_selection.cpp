@@ -51,13 +51,13 @@ Overlay ViewModel::selection_marks() const {
 
 bool ViewModel::follow_history() {
   const SelectingState& selecting = state.selecting;
-  HistoryQuestion question = {{}, selecting.selection.contact};
+  Selection question = {{}, selecting.selection.contact};
   if (selecting.trails) {
     question.grains = selecting.selection.grains;
     if (question.grains.empty() && state.selected) question.grains = {*state.selected};
     question.grains = thinned(question.grains, most_trails);
   }
-  if (question == HistoryQuestion{} || frame_count() == 0) {
+  if (question == Selection{} || frame_count() == 0) {
     history_.reset();
     return false;
   }
@@ -162,9 +162,10 @@ void ViewModel::write_selected(const std::string& path) {
   }
   try {
     output_target(path, {.overwrite = false});
-    std::vector<GrainColumn> columns;
-    for (const GrainNumber& number : grain_numbers()) columns.push_back({number, grain_values(number)});
-    write_text(path, grains_table(frame(), grains, columns));
+    const auto values_of = [this](const GrainNumber& number) -> const std::vector<double>& {
+      return grain_values(number);
+    };
+    write_text(path, grains_table(frame(), grains, grain_numbers(), values_of));
     state.message = fmt::format("written: {}, {} grains", path, grains.size());
   } catch (const Error& failure) {
     state.message = failure.what();

@@ -15,7 +15,7 @@ using test::Live;
 using test::Replay;
 
 /// That a widget can be seen and used: inside of the column.
-void expect_in_sight(const OffscreenGui& gui, const std::string& name, float height) {
+void expect_in_sight(const test::DrivenGui& gui, const std::string& name, float height) {
   ASSERT_TRUE(gui.has(name)) << name;
   const WidgetPlace place = gui.place(name);
   EXPECT_GE(place.y0, 0.0f) << name;
@@ -43,7 +43,7 @@ TEST_F(Replay, a_heading_folds_and_unfolds) {
 }
 
 TEST_F(Replay, a_low_column_has_one_group_and_brings_it_into_sight) {
-  OffscreenGui low(model_, 640, 480);
+  test::DrivenGui low(model_, 640, 480);
   const std::map<char, const char*> widgets = {
       {'M', "map kind"}, {'A', "branch here"}, {'S', "condition"}, {'F', "save picture"}, {'R', "frame"}};
   EXPECT_FALSE(low.has("map kind"));
@@ -67,7 +67,7 @@ TEST_F(Replay, labels_are_on_the_left_and_widgets_below_each_other) {
 }
 
 /// Widgets that have moved since, by name; those that are no longer there have not.
-std::string moved_since(const std::vector<WidgetPlace>& before, const OffscreenGui& gui) {
+std::string moved_since(const std::vector<WidgetPlace>& before, const test::DrivenGui& gui) {
   std::string moved;
   for (const WidgetPlace& was : before) {
     if (!gui.has(was.name)) continue;

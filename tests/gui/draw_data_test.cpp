@@ -206,7 +206,7 @@ TEST(GuiFont, has_what_pictures_say) {
   ImFontAtlas atlas;
   add_embedded_font(atlas, 1.0f);
   const ImFont* font = atlas.Fonts[0];
-  EXPECT_EQ(font->FontSize, type_scale.body);
+  EXPECT_EQ(font->FontSize, type_scale[0]);
   for (const char32_t code : font_code_points())
     EXPECT_NE(font->FindGlyphNoFallback(static_cast<ImWchar>(code)), nullptr) << std::hex << unsigned{code};
 }
@@ -215,7 +215,7 @@ TEST(GuiFont, grows_with_the_display) {
   ImFontAtlas atlas;
   add_embedded_font(atlas, 2.0f);
   ASSERT_EQ(atlas.Fonts.Size, 3);
-  EXPECT_EQ(atlas.Fonts[0]->FontSize, 2.0f * type_scale.body);
+  EXPECT_EQ(atlas.Fonts[0]->FontSize, 2.0f * type_scale[0]);
   EXPECT_LT(atlas.Fonts[static_cast<int>(TextSize::small)]->FontSize, atlas.Fonts[0]->FontSize);
   EXPECT_GT(atlas.Fonts[static_cast<int>(TextSize::heading)]->FontSize, atlas.Fonts[0]->FontSize);
 }

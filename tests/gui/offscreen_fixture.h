@@ -10,7 +10,7 @@
 #include <thread>
 #include <utility>
 
-#include "gui/offscreen.h"
+#include "gui/driven_gui.h"
 #include "support/process.h"
 #include "support/runs.h"
 
@@ -44,11 +44,11 @@ class Replay : public testing::Test {
 
   TemporaryFolder folder_;
   ViewModel model_;
-  OffscreenGui gui_;
+  DrivenGui gui_;
 };
 
 /// Draws until it is so; false after ten seconds.
-inline bool drawn_until(OffscreenGui& gui, const std::function<bool()>& so) {
+inline bool drawn_until(DrivenGui& gui, const std::function<bool()>& so) {
   for (int wait = 0; wait < 1000; ++wait) {
     gui.frame();
     if (so()) return true;
@@ -72,7 +72,7 @@ class Live : public testing::Test {
 
   TemporaryFolder folder_;
   ViewModel model_;
-  OffscreenGui gui_;
+  DrivenGui gui_;
 };
 
 }  // namespace talus::test

@@ -1,8 +1,6 @@
 /// The window without a display: widgets are clicked by name, what they do is seen in the model and in the
 /// picture.
 
-#include "gui/offscreen.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,6 +8,7 @@
 #include <random>
 
 #include "core/trigonometry.h"
+#include "gui/driven_gui.h"
 #include "gui/offscreen_fixture.h"
 
 namespace talus {
@@ -273,7 +272,7 @@ TEST_F(Replay, a_picture_is_saved_with_letters_for_a_screen_or_for_print) {
 
 /// Widgets lie inside of the window, or in a part of it that scrolls; those of the first group are always
 /// there.
-void expect_inside(const OffscreenGui& gui, float width, float height) {
+void expect_inside(const test::DrivenGui& gui, float width, float height) {
   for (const char* name : {"play", "frame", "map", "group run"}) {
     const WidgetPlace place = gui.place(name);
     EXPECT_GE(place.x0, 0.0f) << name;
@@ -287,7 +286,7 @@ void expect_inside(const OffscreenGui& gui, float width, float height) {
 
 TEST_F(Replay, titles_of_plots_have_room) {
   for (const float scale : {1.0f, 1.5f, 2.0f}) {
-    const OffscreenGui gui(model_, 2400, 1600, scale);
+    const test::DrivenGui gui(model_, 2400, 1600, scale);
     const WidgetPlace plot = gui.place("plot overloaded"), button = gui.place("play");
     const float em = (button.y1 - button.y0) / 1.53f;  // as high as a line with its frame
     EXPECT_GT(plot.x1 - plot.x0, 16.5f * em) << scale;
@@ -361,11 +360,11 @@ TEST(Scale, two_doubles_text_and_widgets) {
   ViewModel model = ViewModel::open(folder.path("bed.toml"), {}, "", false, "");
   float height = 0.0f;
   {
-    const OffscreenGui plain(model, 1400, 900);
+    const test::DrivenGui plain(model, 1400, 900);
     const WidgetPlace play = plain.place("play");
     height = play.y1 - play.y0;
   }
-  OffscreenGui large(model, 1400, 900, 2.0f);
+  test::DrivenGui large(model, 1400, 900, 2.0f);
   const WidgetPlace play = large.place("play");
   EXPECT_NEAR(play.y1 - play.y0, 2.0f * height, 2.0f);
   EXPECT_LE(large.place("map").x1, 1400.0f);
@@ -437,7 +436,7 @@ TEST_F(Live, friction_and_pushes_are_commands) {
 }
 
 /// Keys and clicks anywhere, from a fixed seed; what would leave the window or write files is left out.
-void use_at_random(OffscreenGui& gui, ViewModel& model, int events) {
+void use_at_random(test::DrivenGui& gui, ViewModel& model, int events) {
   std::mt19937_64 random(7);
   const auto below = [&random](std::uint64_t count) { return random() % count; };
   const std::string keys = " djpc<>1234567890omv[],.;'tf+-waxzniygbrukRMASFGTLhl?";

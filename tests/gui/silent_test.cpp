@@ -23,10 +23,10 @@ struct Seen {
   }
 };
 
-Seen seen(OffscreenGui& gui) { return {gui.frame(), gui.requests()}; }
+Seen seen(test::DrivenGui& gui) { return {gui.frame(), gui.requests()}; }
 
 /// Draws until nothing changes by itself any more.
-void come_to_rest(OffscreenGui& gui) {
+void come_to_rest(test::DrivenGui& gui) {
   Seen last = seen(gui);
   for (int same = 0, tries = 0; same < 3 && tries < 1000; ++tries) {
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
@@ -58,7 +58,7 @@ std::string name_of_key(int key) {
 /// A run that is looked at in one of the states in which keys are pressed.
 struct OpenWindow {
   ViewModel model;
-  OffscreenGui gui;
+  test::DrivenGui gui;
   explicit OpenWindow(ViewModel&& opened) : model(std::move(opened)), gui(model, 900, 600) {}
   LiveStatus status() { return model.live()->status(); }
   bool runs() { return model.is_live() ? status().running : model.playing(); }
@@ -131,7 +131,7 @@ TEST_F(SilentReplay, a_branch_offers_a_tilt_that_is_still_to_come) {
 
 TEST_F(SilentReplay, the_mouse_says_what_it_cannot_do) {
   const auto window = at_frame(0)();
-  OffscreenGui& gui = window->gui;
+  test::DrivenGui& gui = window->gui;
   std::string& message = window->model.state.message;
   const auto expect_told = [&](const char* part) {
     EXPECT_NE(message.find(part), std::string::npos) << part << ": " << message;
@@ -197,7 +197,7 @@ TEST_F(SilentLive, keys_of_an_earlier_frame) {
 TEST_F(SilentLive, no_grain_is_pulled_after_the_end_and_what_is_selected_stays) {
   const auto window = ended();
   ViewModel& model = window->model;
-  OffscreenGui& gui = window->gui;
+  test::DrivenGui& gui = window->gui;
   gui.settle();
   model.select(std::vector<Index>{3, 7, 12});
   const ViewCamera camera = model.state.camera;

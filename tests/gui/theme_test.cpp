@@ -8,6 +8,8 @@
 #include <fmt/core.h>
 #include <fstream>
 #include <sstream>
+#include <string_view>
+#include <vector>
 
 #include "gui/offscreen_fixture.h"
 #include "pictures/cluster_colours.h"
@@ -20,6 +22,50 @@ namespace talus {
 namespace {
 
 using test::Replay;
+
+/// Text, and what it stands on.
+struct TextPair {
+  std::string_view name;
+  Colour text, ground;
+};
+
+/// All pairs of text and ground that the window has in a theme.
+std::vector<TextPair> text_pairs(const Palette& of) {
+  return {{"text", of.ink, of.ground},
+          {"text in columns", of.ink, of.panel},
+          {"buttons", of.ink, of.raised},
+          {"buttons under the mouse", of.ink, of.hovered},
+          {"buttons held", of.ink, of.pressed},
+          {"fields", of.ink, of.field},
+          {"chosen rows", of.ink, of.tint},
+          {"hints", of.soft, of.ground},
+          {"hints in columns", of.soft, of.panel},
+          {"an announcement", of.alarm_text, of.alarm},
+          {"a warning", of.warning, of.panel},
+          {"transition", of.transition, of.ground},
+          {"failure", of.failure, of.ground},
+          {"command", of.command, of.ground},
+          {"rearrangement", of.rearrangement, of.ground},
+          {"bookmark", of.bookmark, of.ground},
+          {"second curve", of.curves[1], of.ground},
+          {"third curve", of.curves[2], of.ground},
+          {"fourth curve", of.curves[3], of.ground}};
+}
+
+double linear(std::uint8_t channel) {
+  const double share = channel / 255.0;
+  return share <= 0.04045 ? share / 12.92 : std::pow((share + 0.055) / 1.055, 2.4);
+}
+
+double luminance(const Colour& colour) {
+  return 0.2126 * linear(colour.red) + 0.7152 * linear(colour.green) + 0.0722 * linear(colour.blue);
+}
+
+/// Contrast of two opaque colours, 1 ... 21 (WCAG 2.1, relative luminance).
+double contrast(const Colour& a, const Colour& b) {
+  const double one = luminance(a), other = luminance(b);
+  return (std::max(one, other) + 0.05) / (std::min(one, other) + 0.05);
+}
 
 TEST(Contrast, is_that_of_the_standard) {
   EXPECT_NEAR(contrast(black, white), 21.0, 1e-9);
@@ -132,7 +178,7 @@ TEST_F(Replay, all_of_the_window_follows_the_theme) {
 /// Names of widgets that are always there, and of which none lies over another.
 const char* const apart[] = {"play", "frame", "map", "time line", "bookmark"};
 
-void expect_apart(const OffscreenGui& gui, float width, float height, const std::string& at) {
+void expect_apart(const test::DrivenGui& gui, float width, float height, const std::string& at) {
   for (const char* one : apart) {
     if (!gui.has(one)) continue;
     const WidgetPlace a = gui.place(one);

@@ -84,7 +84,7 @@ TEST_F(Replay, a_plot_answers) {
 }
 
 /// How many pixels of the upper left part of a plot have the colour in which its threshold is written.
-int note_pixels(OffscreenGui& gui, const std::string& plot) {
+int note_pixels(test::DrivenGui& gui, const std::string& plot) {
   const Image window = gui.frame();
   const WidgetPlace place = gui.place("plot " + plot);
   const Colour soft = palette_of(Theme::light).soft;

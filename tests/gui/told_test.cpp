@@ -26,7 +26,7 @@ TEST_F(Replay, frames_are_counted_from_0_as_by_the_commands) {
 
 /// Of each free grain on each map: no number that is none, and gamma only where the map shows it. Returns how
 /// many times a grain that carries nothing was told.
-int expect_told_by_maps(OffscreenGui& gui, ViewModel& model) {
+int expect_told_by_maps(test::DrivenGui& gui, ViewModel& model) {
   int idle = 0;
   model.state.map.l_min = 0.0;
   for (const MapKind kind : map_kinds()) {

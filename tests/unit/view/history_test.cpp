@@ -44,7 +44,7 @@ bool wait_for(HistorySeries& series, std::size_t count) {
 
 TEST(History, is_of_what_is_asked_for) {
   HistorySeries series(read_frame);
-  const HistoryQuestion grains = {{3, 7}, std::nullopt};
+  const Selection grains = {{3, 7}, std::nullopt};
   series.ask(grains, 3);
   ASSERT_TRUE(wait_for(series, 3));
   EXPECT_DOUBLE_EQ(series.instants()[2].places[0].x, 3.7);

@@ -52,9 +52,12 @@ TEST(TableOfGrains, is_csv_with_units) {
   frame.time = 2.5;
   frame.tilt = radians(10.0);
   const std::vector<double> ids = {0, 1, 2, 3, 4, 5};
-  const std::vector<GrainColumn> columns = {{grain_number("id"), ids}, {grain_number("lc"), values}};
+  const std::vector<GrainNumber> numbers = {grain_number("id"), grain_number("lc")};
+  const auto values_of = [&](const GrainNumber& number) -> const std::vector<double>& {
+    return number.name == "id" ? ids : values;
+  };
   const std::string tilt = "2.5,10";
-  EXPECT_EQ(grains_table(frame, std::vector<Index>{0, 1}, columns),
+  EXPECT_EQ(grains_table(frame, std::vector<Index>{0, 1}, numbers, values_of),
             "time (s),tilt (deg),id,lc (D)\n" + tilt + ",0,3\n" + tilt + ",1,\n");
 }
 

@@ -1,0 +1,48 @@
+#pragma once
+/// What a live run has recorded, beside what goes to its file.
+
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/command.h"
+#include "core/observables.h"
+#include "core/snapshot.h"
+
+namespace talus {
+
+/// What the run has recorded since it began.
+struct LiveHistory {
+  std::vector<ObservableRow> observables;
+  std::vector<std::shared_ptr<const Frame>> frames;
+  std::vector<Command> commands;
+  std::vector<StepRow> steps;
+  std::int64_t stride = 1;  ///< of steps
+};
+
+/// Rows of steps that are kept at most.
+inline constexpr std::size_t most_live_steps = 4000;
+
+/// Adds rows of steps; where there are too many, every second of all is left out, and so of those to come.
+inline void add_steps(std::span<const StepRow> rows, LiveHistory& history) {
+  const auto is_left_out = [&history](const StepRow& row) {
+    return static_cast<std::int64_t>(at(row, StepField::step)) % history.stride != 0;
+  };
+  for (const StepRow& row : rows) {
+    if (is_left_out(row)) continue;
+    history.steps.push_back(row);
+    if (history.steps.size() <= most_live_steps) continue;
+    history.stride *= 2;
+    std::erase_if(history.steps, is_left_out);
+  }
+}
+
+/// The items from number `from` on; none where there are fewer.
+template <typename T>
+std::vector<T> since(const std::vector<T>& items, std::size_t from) {
+  return {items.begin() + static_cast<std::ptrdiff_t>(std::min(from, items.size())), items.end()};
+}
+
+}  // namespace talus
