@@ -47,11 +47,11 @@ bool configures_driver(std::string_view name) {
 /// never freed.
 std::string configure_drivers() {
   // The few small shaders compile in no time; a cache would only leave files in the user's home.
-  auto* const settings =
+  static auto* const settings =
       new std::vector<std::string>{"MESA_SHADER_CACHE_DISABLE=true", "LIBGL_ALWAYS_SOFTWARE=true"};
   const bool finds_mesa = access(mesa_of_egl, R_OK) == 0;
   if (finds_mesa) settings->push_back(fmt::format("__EGL_VENDOR_LIBRARY_FILENAMES={}", mesa_of_egl));
-  auto* const variables = new std::vector<char*>();
+  static auto* const variables = new std::vector<char*>();
   std::string removed;
   for (char** variable = environ; *variable != nullptr; ++variable) {
     const std::string_view text = *variable, name = text.substr(0, text.find('='));
