@@ -6,8 +6,8 @@
 #include "app/analysis_report.h"
 #include "app/choices.h"
 #include "app/commands.h"
-#include "app/progress.h"
 #include "app/given_runs.h"
+#include "app/progress.h"
 #include "app/terminal.h"
 #include "runs/analysis_parameters.h"
 

@@ -5,9 +5,9 @@
 
 #include "app/choices.h"
 #include "app/commands.h"
-#include "app/progress.h"
 #include "app/event_report.h"
 #include "app/given_runs.h"
+#include "app/progress.h"
 #include "app/terminal.h"
 #include "runs/analysis_parameters.h"
 

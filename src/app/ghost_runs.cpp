@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <fmt/core.h>
 
-#include "app/progress.h"
 #include "app/figure_runs.h"
+#include "app/progress.h"
 #include "core/errors.h"
 #include "ensemble/averages_reader.h"
 #include "io/run_file.h"

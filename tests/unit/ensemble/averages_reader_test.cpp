@@ -152,8 +152,8 @@ TEST(AnalysisOf, a_member_has_all_single_numbers_of_the_analysis_that_it_comes_f
     if (is_number_of_run(quantity)) {
       const auto values = std::get<std::vector<double>>(values_of(quantity, analysis));
       for (std::size_t k = 0; k < values.size(); ++k)
-        member.numbers.numbers.push_back(
-            {element_name(quantity.name, k), scaled_unit(quantity.unit), scaled(quantity.unit, values[k], diameter)});
+        member.numbers.numbers.push_back({element_name(quantity.name, k), scaled_unit(quantity.unit),
+                                          scaled(quantity.unit, values[k], diameter)});
     }
   const Analysis found = analysis_of(member, diameter);
   ASSERT_EQ(found.frames.size(), 3u);

@@ -1,7 +1,5 @@
 /// Histograms and correlations of the angles of an ensemble.
 
-#include "figures/recipes.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,6 +7,7 @@
 #include <stdexcept>
 
 #include "core/trigonometry.h"
+#include "figures/recipes.h"
 #include "support/blank_analysis.h"
 
 namespace talus {

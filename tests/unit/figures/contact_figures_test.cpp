@@ -1,11 +1,10 @@
-#include "figures/recipes.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "core/trigonometry.h"
 #include "figures/failed_group.h"
+#include "figures/recipes.h"
 #include "unit/io/example_run.h"
 
 namespace talus {

@@ -1,8 +1,8 @@
 /// Cycles of a tilt that goes up and down.
 
-#include "figures/recipes.h"
-
 #include <gtest/gtest.h>
+
+#include "figures/recipes.h"
 
 namespace talus {
 namespace {

@@ -1,10 +1,9 @@
-#include "figures/recipes.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "core/trigonometry.h"
+#include "figures/recipes.h"
 #include "unit/io/example_run.h"
 
 namespace talus {

@@ -1,7 +1,5 @@
 /// The tables behind the figure of rearrangements, of hand-made events.
 
-#include "figures/recipes.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,6 +7,7 @@
 #include <stdexcept>
 
 #include "core/trigonometry.h"
+#include "figures/recipes.h"
 #include "runs/event_catalogue.h"
 #include "unit/figures/example_figure_run.h"
 

@@ -1,9 +1,8 @@
-#include "figures/recipes.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "figures/recipes.h"
 #include "unit/analysis/packings.h"
 
 namespace talus {
