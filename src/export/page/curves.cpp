@@ -7,8 +7,8 @@
 
 #include "analysis/quantities.h"
 #include "core/trigonometry.h"
+#include "export/page/json.h"
 #include "runs/event_catalogue.h"
-#include "scenario/json.h"
 #include "session/command.h"
 #include "view/frame_values.h"
 #include "view/timeline.h"

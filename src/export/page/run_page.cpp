@@ -11,9 +11,9 @@
 #include "export/page/contact_tables.h"
 #include "export/page/curves.h"
 #include "export/page/grain_fields.h"
+#include "export/page/json.h"
 #include "export/page/map_texts.h"
 #include "export/page/sources.h"
-#include "scenario/json.h"
 
 namespace talus {
 namespace {

@@ -8,7 +8,7 @@
 #include <new>
 
 #include "core/base64.h"
-#include "scenario/json.h"
+#include "export/page/json.h"
 
 namespace talus {
 namespace {
