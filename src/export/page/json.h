@@ -25,6 +25,15 @@ inline std::string number(double value) { return std::isfinite(value) ? short_te
 inline std::string truth(bool value) { return value ? "true" : "false"; }
 inline std::string number(std::integral auto value) { return std::to_string(value); }
 
+/// { "name": value, ... }, one member a line, `depth` levels deep.
+inline std::string object(const Members& members, int depth = 0) {
+  const std::string margin(2 * static_cast<std::size_t>(depth), ' ');
+  std::string text = "{";
+  for (const auto& [name, value] : members)
+    text += fmt::format("{}{}  {}: {}", text.size() > 1 ? ",\n" : "\n", margin, quoted(name), value);
+  return fmt::format("{}\n{}}}", text, margin);
+}
+
 /// {"name": value, ...} in one line.
 inline std::string line(const Members& members) {
   return fmt::format("{{{}}}", joined(members, ",", [](const auto& member) {
