@@ -171,7 +171,7 @@ TEST_F(Curves, OfAllQuantitiesAreThoseWithATitleAndAValue) {
   EXPECT_EQ(variable(*figure, "quantity_2"), "\"lc/mean\"");
   EXPECT_EQ(variable(*figure, "title_2"), "\"Mean ℓ_c of the overloaded grains in D\"");
   EXPECT_EQ(variable(*figure, "rows"), "1");
-  EXPECT_NEAR(column(figure->tables[0], "lc/mean")[0], 0.03 / groups_[0].runs[0].mean_diameter, 1e-9);
+  EXPECT_NEAR(column(figure->tables[0], "lc/mean")[0], 0.03 / groups_[0].runs[0].statics.mean_diameter, 1e-9);
 }
 
 TEST_F(Curves, DifferencesAreOfTwoGroupsWithBothErrors) {

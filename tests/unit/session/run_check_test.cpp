@@ -16,7 +16,7 @@
 namespace talus {
 namespace {
 
-Scenario small_bed() {
+Scenario checked_bed() {
   Scenario scenario = test::small_tilted_bed(1.0);
   scenario.output.observable_every = 0.1;
   return scenario;
@@ -30,7 +30,7 @@ Session run_of(const Scenario& scenario) {
 
 /// What a run of the small bed records, made once.
 const Session& finished_run() {
-  static const Session session = run_of(small_bed());
+  static const Session session = run_of(checked_bed());
   return session;
 }
 
@@ -130,7 +130,7 @@ TEST(RunCheck, tells_of_overlaps_unless_the_guards_of_the_run_let_it_go_on) {
     return faults_of(check_with(overlap_two_grains, session)).find("two grains overlap") != std::string::npos;
   };
   EXPECT_TRUE(is_told(finished_run()));
-  Scenario scenario = small_bed();
+  Scenario scenario = checked_bed();
   scenario.guards.overlap = 10.0;
   EXPECT_FALSE(is_told(run_of(scenario)));
   scenario.guards = {};
@@ -140,7 +140,7 @@ TEST(RunCheck, tells_of_overlaps_unless_the_guards_of_the_run_let_it_go_on) {
 
 TEST(RunCheck, allows_a_bed_at_rest_what_its_rest_velocity_allows) {
   const auto is_told = [](double rest_velocity, double factor) {
-    Scenario scenario = small_bed();
+    Scenario scenario = checked_bed();
     scenario.deposition.rest_velocity = rest_velocity;
     // All forces of the flat bed: the weight is out of balance by 1 - factor.
     const auto scale_forces = [factor](Segment& s) {
@@ -159,7 +159,7 @@ TEST(RunCheck, allows_a_bed_at_rest_what_its_rest_velocity_allows) {
 }
 
 TEST(RunCheck, judges_the_first_frame_by_the_friction_of_the_deposition) {
-  Scenario scenario = small_bed();
+  Scenario scenario = checked_bed();
   scenario.deposition.friction = scenario.deposition.wall_friction = 0.5;
   scenario.contact.friction = scenario.contact.wall_friction = 0.1;
   EXPECT_EQ(faults_of(check_with([](Segment&) {}, run_of(scenario))), "");
