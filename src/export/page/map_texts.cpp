@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <fmt/core.h>
 
+#include "export/page/json.h"
 #include "pictures/scale.h"
 
 namespace talus {
