@@ -5,11 +5,16 @@
 #include <fmt/core.h>
 #include <numbers>
 
+#include "analysis/coarse_fields.h"
+#include "analysis/coarse_graining.h"
 #include "analysis/contact_network.h"
 #include "analysis/frame_quantities.h"
 #include "analysis/free_grains.h"
+#include "analysis/local_deformation.h"
+#include "analysis/local_solid_fraction.h"
 #include "analysis/quantities.h"
 #include "core/errors.h"
+#include "core/trigonometry.h"
 #include "stress/bed.h"
 
 namespace talus {
@@ -42,13 +47,11 @@ Numbers copied(const std::vector<Number>& array) {
 }
 
 Numbers displacements(const GrainSource& of) {
-  const Frame& now = of.frame;
-  if (of.first == nullptr || of.first->x.size() != now.x.size()) return Numbers(2 * now.x.size(), not_known);
-  const Frame& then = *of.first;
-  const double period = of.statics.length;
+  const std::size_t count = of.frame.x.size();
+  if (of.first == nullptr || of.first->x.size() != count) return Numbers(2 * count, not_known);
   return each_grain(
-      of, [&](Index i) { return now.x[i] - then.x[i] + (now.image[i] - then.image[i]) * period; },
-      [&](Index i) { return now.y[i] - then.y[i]; });
+      of, [&](Index i) { return displacement(of, *of.first, i).x; },
+      [&](Index i) { return displacement(of, *of.first, i).y; });
 }
 
 Numbers moments(const GrainSource& of) {
@@ -105,6 +108,79 @@ Numbers overloaded(const GrainSource& of, std::size_t threshold) {
   return numbers;
 }
 
+/// The mass of a grain over its area, kg/m^2; all are of one material.
+double material_density(const RunStatics& statics) {
+  return statics.mass.empty() ? 1.0 : statics.mass[0] / (pi * statics.radius[0] * statics.radius[0]);
+}
+
+/// Of free grains, with no number for those of the floor.
+Numbers with_floor(Numbers of_free, const GrainSource& of) {
+  of_free.resize(of.frame.x.size(), not_known);
+  return of_free;
+}
+
+template <typename Value>
+Numbers each_free(const GrainSource& of, const Value& value) {
+  return with_floor(each(of.statics.free_count, value), of);
+}
+
+/// What `value` says of each free grain and the earlier frame, per degree; 0 where there is no such frame.
+template <typename Value>
+Numbers since_earlier(const GrainSource& of, const Value& value) {
+  const bool known = of.earlier != nullptr && of.earlier->grain_count() == of.frame.grain_count();
+  return each_free(of, [&](Index i) { return known ? value(*of.earlier, i) / of.degrees : 0.0; });
+}
+
+template <typename Value>
+Numbers of_neighbourhoods(const GrainSource& of, const Value& value) {
+  std::vector<LocalDeformation> all;
+  if (of.earlier != nullptr) all = local_deformations(*of.earlier, of);
+  return since_earlier(of, [&](const Frame&, Index i) { return value(all[static_cast<std::size_t>(i)]); });
+}
+
+template <double (*strain)(const Tensor2&)>
+Numbers strains(const GrainSource& of, std::size_t) {
+  return of_neighbourhoods(of, [](const LocalDeformation& each) { return strain(each.gradient); });
+}
+
+Numbers distances(const GrainSource& of, std::size_t) {
+  return since_earlier(of, [&](const Frame& earlier, Index i) {
+    const Vec2 moved = displacement(of, earlier, i);
+    return std::hypot(moved.x, moved.y);
+  });
+}
+
+Numbers rotations(const GrainSource& of, std::size_t) {
+  return since_earlier(of,
+                       [&](const Frame& earlier, Index i) { return of.frame.angle[i] - earlier.angle[i]; });
+}
+
+double solid_fraction(const CoarseField& field, const RunStatics& statics) {
+  return field.density / material_density(statics);
+}
+
+double pressure(const CoarseField& field, const RunStatics&) {
+  const Tensor2 stress = field.stress();
+  return stress.xx + stress.yy;
+}
+
+double rate_of_shear(const CoarseField& field, const RunStatics&) {
+  return shear_rate(field.velocity_gradient);
+}
+
+template <double (*value)(const CoarseField& field, const RunStatics& statics)>
+Numbers coarse_values(const GrainSource& of, std::size_t) {
+  const CoarseFields fields(of, 0.5 * of.length);
+  return each_free(of, [&](Index i) { return value(fields.at(of.frame.x[i], of.frame.y[i]), of.statics); });
+}
+
+constexpr std::string_view turned = ", counter-clockwise positive";
+
+constexpr FrameQuantity mapped(FrameQuantity quantity, const MapRule& map) {
+  quantity.map = map;
+  return quantity;
+}
+
 constexpr auto all_of_grains = std::to_array<FrameQuantity>({
     {"id", FieldShape::scalar, FieldNumber::integer, "1", "stable id of a grain; free grains come first",
      [](const GrainSource& of, std::size_t) { return each_grain(of, [](Index i) { return i; }); }},
@@ -139,9 +215,13 @@ constexpr auto all_of_grains = std::to_array<FrameQuantity>({
      "internal moment tensor M_ij per metre of thickness (paper, Eq. 4), compression positive; the stress is "
      "M over an area",
      [](const GrainSource& of, std::size_t) { return moments(of); }},
-    {"pressure", FieldShape::scalar, FieldNumber::real, "Pa",
-     "P = s1 + s2 of the stress of the grain, its internal moment over the area of its disk",
-     [](const GrainSource& of, std::size_t) { return pressures(of); }},
+    // Below a depth H of grains their pressure is about 2 rho g H on the average, that of the bed about
+    // 1.5 rho g H, and more where forces concentrate.
+    mapped({"pressure", FieldShape::scalar, FieldNumber::real, "Pa",
+            "P = s1 + s2 of the stress of the grain, its internal moment over the area of its disk",
+            [](const GrainSource& of, std::size_t) { return pressures(of); }},
+           {"pressure", "pressure in each grain, over rho g D", "Pressure in each grain",
+            "P = σ_1 + σ_2 in ρgD", "P", ScaleRule::by_depth, 0.0, 3.0}),
     {"gamma", FieldShape::scalar, FieldNumber::single, "1",
      "stress ratio q/p of the grain alone; no number where it carries nothing",
      [](const GrainSource& of, std::size_t) { return of.frame.gamma; }},
@@ -153,21 +233,90 @@ constexpr auto all_of_grains = std::to_array<FrameQuantity>({
      [](const GrainSource& of, std::size_t) { return coordination(of); }},
     {"sliding", FieldShape::scalar, FieldNumber::integer, "1", "contacts of the grain that slide",
      [](const GrainSource& of, std::size_t) { return sliding(of); }},
-    {"speed", FieldShape::scalar, FieldNumber::single, "m/s", "size of the velocity",
-     [](const GrainSource& of, std::size_t) {
-       return each_grain(of, [&](Index i) { return std::hypot(of.frame.vx[i], of.frame.vy[i]); });
-     }},
+    mapped({"speed", FieldShape::scalar, FieldNumber::single, "m/s", "size of the velocity",
+            [](const GrainSource& of, std::size_t) {
+              return each_grain(of, [&](Index i) { return std::hypot(of.frame.vx[i], of.frame.vy[i]); });
+            }},
+           {"speed", "speed of each grain, over sqrt(g D)", "Speed of grains", "in √(gD)", "speed",
+            ScaleRule::sizes, 1e-5, 1.0}),
+    mapped(
+        {"mobilised_friction", FieldShape::scalar, FieldNumber::real, "1",
+         "mobilised friction, the mean over the contacts of a grain; no number without contacts",
+         [](const GrainSource& of, std::size_t) { return with_floor(mobilised_friction_of_grains(of), of); }},
+        {"mobilised", "mobilised friction of each grain, the mean over its contacts",
+         "Mobilised friction of grains", "|f_t| / μf_n, mean over the contacts of a grain", "|f_t| / μf_n",
+         ScaleRule::fixed, 0.0, 1.0, true, "no contact"}),
+    mapped({"solid_fraction", FieldShape::scalar, FieldNumber::real, "1",
+            "share of its cell that a grain fills; no number at the free surface",
+            [](const GrainSource& of, std::size_t) { return with_floor(local_solid_fractions(of), of); }},
+           {"cells", "local solid fraction: the share of its cell that each grain fills",
+            "Local solid fraction", "area of a grain over that of its cell", "solid fraction",
+            ScaleRule::fixed, 0.65, 0.95, true, "at the surface"}),
     {"overloaded", FieldShape::scalar, FieldNumber::integer, "1",
      "1 for an overloaded grain: a free one whose gamma_neighbourhood is not below the threshold; else 0",
-     overloaded, true, true},
+     overloaded, FrameNeed::threshold, true},
     {"lc", FieldShape::scalar, FieldNumber::single, "m",
      "coarse-graining length l_c of an overloaded grain; no number for other grains",
      [](const GrainSource& of, std::size_t threshold) {
        return at_threshold(of, threshold, &FrameThreshold::lc, not_known);
      },
-     true},
+     FrameNeed::threshold},
     {"cluster", FieldShape::scalar, FieldNumber::integer, "1",
-     "cluster of an overloaded grain, 0 the largest of the frame; -1 for other grains", clusters, true},
+     "cluster of an overloaded grain, 0 the largest of the frame; -1 for other grains", clusters,
+     FrameNeed::threshold},
+    mapped({"distance", FieldShape::scalar, FieldNumber::real, "m", "how far a grain has moved", distances,
+            FrameNeed::earlier_frame},
+           {"displacement", "how far each grain has moved; over another map: arrows", "Displacement", "in D",
+            "displacement", ScaleRule::sizes, 1e-3, 10.0, false, "", 1e-4, 10.0}),
+    mapped({"rotation", FieldShape::scalar, FieldNumber::real, "rad",
+            "how far a grain has turned, counter-clockwise positive", rotations, FrameNeed::earlier_frame},
+           {"rotation", "how far each grain has turned", "Rotation", "in °", "rotation",
+            ScaleRule::about_zero, -30.0, 30.0, false, "", -10.0, 10.0, turned}),
+    mapped({"nonaffine_displacement", FieldShape::scalar, FieldNumber::real, "m",
+            "root mean square of what its neighbours moved beside their common strain",
+            [](const GrainSource& of, std::size_t) {
+              return of_neighbourhoods(
+                  of, [](const LocalDeformation& each) { return std::sqrt(each.nonaffine); });
+            },
+            FrameNeed::earlier_frame},
+           {"nonaffine",
+            "non-affine displacement: how far a grain's neighbours have moved beside their common strain",
+            "Non-affine displacement", "D_m_i_n in D", "D_m_i_n", ScaleRule::sizes, 1e-4, 1.0, false, "",
+            1e-5, 1.0}),
+    mapped(
+        {"shear_strain", FieldShape::scalar, FieldNumber::real, "1",
+         "shear strain s1 - s2 of the neighbourhood", strains<shear_strain>, FrameNeed::earlier_frame},
+        {"shear", "shear strain of the neighbourhood of each grain", "Shear strain",
+         "s_1 − s_2 of neighbourhoods", "shear strain", ScaleRule::sizes, 1e-4, 1.0, false, "", 1e-5, 1.0}),
+    mapped({"area_strain", FieldShape::scalar, FieldNumber::real, "1",
+            "change of area of the neighbourhood over its area; dilation positive", strains<area_strain>,
+            FrameNeed::earlier_frame},
+           {"dilation", "change of area of the neighbourhood of each grain", "Dilation",
+            "ΔA/A of neighbourhoods", "ΔA/A", ScaleRule::about_zero, -0.2, 0.2, false, "", -0.1, 0.1}),
+    mapped({"vorticity", FieldShape::scalar, FieldNumber::real, "1",
+            "twice the angle by which the neighbourhood has turned, counter-clockwise positive",
+            strains<vorticity>, FrameNeed::earlier_frame},
+           {"vorticity", "how far the neighbourhood of each grain has turned, twice", "Vorticity",
+            "2 × turn in rad", "vorticity", ScaleRule::about_zero, -0.5, 0.5, false, "", -0.2, 0.2, turned}),
+    mapped({"coarse_solid_fraction", FieldShape::scalar, FieldNumber::real, "1",
+            "coarse-grained solid fraction", coarse_values<solid_fraction>, FrameNeed::length},
+           {"density", "coarse-grained solid fraction", "Solid fraction", "area of grains over area",
+            "solid fraction", ScaleRule::fixed, 0.7, 0.9, true}),
+    mapped({"coarse_pressure", FieldShape::scalar, FieldNumber::real, "Pa",
+            "P = s1 + s2 of the coarse-grained stress", coarse_values<pressure>, FrameNeed::length},
+           {"stress", "coarse-grained pressure, over rho g D", "Pressure", "P = σ_1 + σ_2 in ρgD", "P",
+            ScaleRule::by_depth, 0.0, 2.0, true}),
+    mapped({"coarse_shear_rate", FieldShape::scalar, FieldNumber::real, "1/s", "coarse-grained shear rate",
+            coarse_values<rate_of_shear>, FrameNeed::length},
+           {"shear_rate", "coarse-grained shear rate, over sqrt(g / D)", "Shear rate", "in √(g/D)",
+            "shear rate", ScaleRule::sizes, 1e-6, 0.1, true}),
+    mapped({"temperature", FieldShape::scalar, FieldNumber::real, "m^2/s^2", "granular temperature",
+            [](const GrainSource& of, std::size_t) {
+              return with_floor(granular_temperatures(of, 0.5 * of.length), of);
+            },
+            FrameNeed::length},
+           {"temperature", "granular temperature, over g D", "Granular temperature", "in gD", "temperature",
+            ScaleRule::sizes, 1e-10, 1e-2, true}),
 });
 
 Numbers strong(const GrainSource& of) {
@@ -221,6 +370,17 @@ constexpr auto all_of_contacts = std::to_array<FrameQuantity>({
 std::span<const FrameQuantity> grain_quantities() { return all_of_grains; }
 std::span<const FrameQuantity> contact_quantities() { return all_of_contacts; }
 
+BedUnit bed_unit(std::string_view unit, const RunStatics& statics) {
+  const double diameter = statics.mean_diameter, gravity = statics.gravity;
+  if (unit == "m") return {"D", diameter};
+  if (unit == "rad") return {"°", radians(1.0)};
+  if (unit == "m/s") return {"√(gD)", std::sqrt(gravity * diameter)};
+  if (unit == "1/s" || unit == "rad/s") return {"√(g/D)", std::sqrt(gravity / diameter)};
+  if (unit == "m^2/s^2") return {"gD", gravity * diameter};
+  if (unit == "Pa") return {"ρgD", material_density(statics) * gravity * diameter};
+  return {unit == "1" ? "" : std::string(unit), 1.0};
+}
+
 std::vector<std::string> component_names(const FrameQuantity& quantity) {
   std::vector<std::string> names = {std::string(quantity.name)};
   if (quantity.shape == FieldShape::vector) names = {"x", "y"};
@@ -250,6 +410,8 @@ const GrainNumber& grain_number(std::string_view name) {
 }
 
 std::vector<double> values_of(const GrainNumber& number, const GrainSource& of) {
+  if (number.quantity->need == FrameNeed::length && std::isnan(of.length))
+    return Numbers(of.frame.x.size(), not_known);
   const std::vector<double> rows = number.quantity->values(of, 0);
   std::vector<double> values;
   for (std::size_t k = number.component; k < rows.size(); k += components(*number.quantity))

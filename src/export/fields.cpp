@@ -35,9 +35,10 @@ std::string ending_of(double factor) {
 std::vector<FieldColumn> columns(std::span<const FrameQuantity> fields, const GrainSource& frame) {
   std::vector<FieldColumn> found;
   for (const FrameQuantity& field : fields) {
-    if (field.name.empty()) continue;  // the centre
-    if (!field.by_threshold) found.push_back({field, "", field.values(frame, 0)});
-    for (std::size_t f = 0; field.by_threshold && f < frame.thresholds.size(); ++f)
+    if (field.name.empty() || !is_of_frame(field)) continue;  // the centre, and what is measured otherwise
+    const bool by_threshold = field.need == FrameNeed::threshold;
+    if (!by_threshold) found.push_back({field, "", field.values(frame, 0)});
+    for (std::size_t f = 0; by_threshold && f < frame.thresholds.size(); ++f)
       found.push_back({field, ending_of(frame.factors[f]), field.values(frame, f)});
   }
   return found;

@@ -19,7 +19,7 @@ constexpr double gained_half_width = 0.10, lost_half_width = 0.10;  // D
 
 bool gives_numbers(MapKind kind) {
   const bool changes = kind != MapKind::size && kind != MapKind::dyed;
-  return changes && !map_reading(kind).symbol.empty();
+  return changes && is_scaled(kind);
 }
 
 /// " 12.00° minus 5.00°" in a title.

@@ -52,14 +52,12 @@ MapLayer overloaded_layer(const MapFrame& of, const MapSettings& settings, bool 
 MapLayer clusters_layer(const MapFrame& of, const MapSettings& settings, bool over_grains);
 
 // value_layers.cpp
-/// A map that is a number of each grain and a rule of scale. Throws Error(internal) for others.
+/// A map of shown_quantity. Throws Error(internal) for others.
 MapLayer value_layer(MapKind kind, const MapFrame& of, const MapSettings& settings,
                      const ScaleChoice& choice);
 /// What it shows of each free grain, in the unit of map_reading, and per degree where motion_span is; NaN
 /// where there is no value, 0 or NaN without a reference that it needs.
 std::vector<double> map_values(MapKind kind, const MapFrame& of, const MapSettings& settings);
-/// Whether its scale goes to either side of 0.
-bool is_signed(MapKind kind);
 
 // grain_layers.cpp
 MapLayer size_layer(const MapFrame& of, const ScaleChoice& choice);

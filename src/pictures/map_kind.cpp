@@ -4,6 +4,7 @@
 #include <array>
 #include <fmt/core.h>
 
+#include "analysis/frame_quantities.h"
 #include "core/errors.h"
 #include "core/nearest_word.h"
 #include "core/text.h"
@@ -24,11 +25,13 @@ enum Trait : unsigned {
 
 struct MapEntry {
   MapKind kind;
-  std::string_view name, help, symbol, unit;
-  unsigned traits;
+  std::string_view name, help = {}, symbol = {}, unit = {};
+  unsigned traits = none;
+  const FrameQuantity* quantity = nullptr;
 };
 
-constexpr auto entries = std::to_array<MapEntry>({
+/// In the order in which they are listed. Those with a name alone show a quantity of grains.
+constexpr auto listed = std::to_array<MapEntry>({
     {MapKind::gamma, "gamma", "stress ratio of each grain and its neighbours, or of the grain alone", "γ", "",
      theta_c | gamma},
     {MapKind::overloaded, "overloaded", "overloaded grains, gamma >= Gamma_c", "", "", theta_c | gamma},
@@ -36,72 +39,99 @@ constexpr auto entries = std::to_array<MapEntry>({
      theta_c | gamma},
     {MapKind::coarse, "coarse", "stress ratio of the neighbourhood of each grain", "γ_l", "",
      theta_c | coarse},
-    {MapKind::pressure, "pressure", "pressure in each grain, over rho g D", "P", "ρgD", none},
-    {MapKind::displacement, "displacement", "how far each grain has moved; over another map: arrows",
-     "displacement", "D", earlier | fitted},
-    {MapKind::rotation, "rotation", "how far each grain has turned", "rotation", "°", earlier | fitted},
-    {MapKind::forces, "forces", "force chains: lines between centres, as wide as the normal force is large",
-     "", "", none},
-    {MapKind::critical, "critical", "contacts with fully mobilised friction", "", "", none},
-    {MapKind::speed, "speed", "speed of each grain, over sqrt(g D)", "speed", "√(gD)", fitted},
-    {MapKind::nonaffine, "nonaffine",
-     "non-affine displacement: how far a grain's neighbours have moved beside their common strain", "D_m_i_n",
-     "D", earlier | fitted},
-    {MapKind::shear, "shear", "shear strain of the neighbourhood of each grain", "shear strain", "",
-     earlier | fitted},
-    {MapKind::dilation, "dilation", "change of area of the neighbourhood of each grain", "ΔA/A", "",
-     earlier | fitted},
-    {MapKind::vorticity, "vorticity", "how far the neighbourhood of each grain has turned, twice",
-     "vorticity", "rad", earlier | fitted},
-    {MapKind::coordination, "coordination", "contacts of each grain that carry force", "contacts", "", none},
-    {MapKind::mobilised, "mobilised", "mobilised friction of each grain, the mean over its contacts",
-     "|f_t| / μf_n", "", none},
-    {MapKind::rigid, "rigid", "grains that can only move as one: the largest rigid cluster, and others", "",
-     "", none},
-    {MapKind::size, "size", "diameter of each grain", "diameter", "D", none},
-    {MapKind::cells, "cells", "local solid fraction: the share of its cell that each grain fills",
-     "solid fraction", "", none},
-    {MapKind::density, "density", "coarse-grained solid fraction", "solid fraction", "", coarse},
-    {MapKind::stress, "stress", "coarse-grained pressure, over rho g D", "P", "ρgD", coarse},
-    {MapKind::shear_rate, "shear_rate", "coarse-grained shear rate, over sqrt(g / D)", "shear rate", "√(g/D)",
-     coarse | fitted},
-    {MapKind::temperature, "temperature", "granular temperature, over g D", "temperature", "gD",
-     coarse | fitted},
+    {MapKind::pressure, "pressure"},
+    {MapKind::displacement, "displacement"},
+    {MapKind::rotation, "rotation"},
+    {MapKind::forces, "forces", "force chains: lines between centres, as wide as the normal force is large"},
+    {MapKind::critical, "critical", "contacts with fully mobilised friction"},
+    {MapKind::speed, "speed"},
+    {MapKind::nonaffine, "nonaffine"},
+    {MapKind::shear, "shear"},
+    {MapKind::dilation, "dilation"},
+    {MapKind::vorticity, "vorticity"},
+    {MapKind::coordination, "coordination", "contacts of each grain that carry force", "contacts"},
+    {MapKind::mobilised, "mobilised"},
+    {MapKind::rigid, "rigid", "grains that can only move as one: the largest rigid cluster, and others"},
+    {MapKind::size, "size", "diameter of each grain", "diameter", "D"},
+    {MapKind::cells, "cells"},
+    {MapKind::density, "density"},
+    {MapKind::stress, "stress"},
+    {MapKind::shear_rate, "shear_rate"},
+    {MapKind::temperature, "temperature"},
     {MapKind::dyed, "dyed", "layers and columns as they were when the tilt began", "height as the tilt began",
-     "D", none},
+     "D"},
 });
 
-constexpr auto kinds = [] {
-  std::array<MapKind, entries.size()> all{};
-  for (std::size_t k = 0; k < entries.size(); ++k) all[k] = entries[k].kind;
-  return all;
-}();
+unsigned traits_of(const FrameQuantity& quantity) {
+  const ScaleRule scale = quantity.map.scale;
+  return (quantity.need == FrameNeed::length ? coarse : none) |
+         (quantity.need == FrameNeed::earlier_frame ? earlier : none) |
+         (scale == ScaleRule::sizes || scale == ScaleRule::about_zero ? fitted : none);
+}
 
-const MapEntry& entry_of(MapKind kind) { return entries[static_cast<std::size_t>(kind)]; }
+/// Those that are listed, then the maps of other quantities of grains.
+const std::vector<MapEntry>& entries() {
+  static const std::vector<MapEntry> all = [] {
+    std::vector<MapEntry> found(listed.begin(), listed.end());
+    for (const FrameQuantity& quantity : grain_quantities()) {
+      const MapRule& rule = quantity.map;
+      if (rule.scale == ScaleRule::none) continue;
+      auto entry = std::ranges::find(found, rule.name, &MapEntry::name);
+      if (entry == found.end()) entry = found.insert(entry, {static_cast<MapKind>(found.size()), rule.name});
+      entry->help = rule.help;
+      entry->symbol = rule.symbol;
+      entry->traits = traits_of(quantity);
+      entry->quantity = &quantity;
+    }
+    return found;
+  }();
+  return all;
+}
+
+const MapEntry& entry_of(MapKind kind) { return entries()[static_cast<std::size_t>(kind)]; }
 
 bool has(MapKind kind, Trait trait) { return (entry_of(kind).traits & trait) != 0; }
 
 MapKind layer_of(std::string_view name, std::string_view whole) {
-  const auto found = std::ranges::find(entries, name, &MapEntry::name);
-  if (found != entries.end()) return found->kind;
+  const auto found = std::ranges::find(entries(), name, &MapEntry::name);
+  if (found != entries().end()) return found->kind;
   throw Error(
       ExitCode::usage,
       fmt::format("map '{}': expected one of {}, or two of them with + between, such as gamma+forces{}",
-                  visible_word(whole), joined(entries, ", ", &MapEntry::name),
-                  did_you_mean(name, names_of(entries))));
+                  visible_word(whole), joined(entries(), ", ", &MapEntry::name),
+                  did_you_mean(name, names_of(entries()))));
 }
 
 }  // namespace
 
-std::span<const MapKind> map_kinds() { return kinds; }
+std::span<const MapKind> map_kinds() {
+  static const std::vector<MapKind> kinds = [] {
+    std::vector<MapKind> all;
+    for (const MapEntry& entry : entries()) all.push_back(entry.kind);
+    return all;
+  }();
+  return kinds;
+}
 
 std::string_view map_name(MapKind kind) { return entry_of(kind).name; }
 
 std::string_view map_help(MapKind kind) { return entry_of(kind).help; }
 
-MapReading map_reading(MapKind kind) { return {entry_of(kind).symbol, entry_of(kind).unit}; }
+MapReading map_reading(MapKind kind, const RunStatics& statics) {
+  const MapEntry& entry = entry_of(kind);
+  if (entry.quantity == nullptr) return {std::string(entry.symbol), std::string(entry.unit)};
+  return {std::string(entry.symbol), bed_unit(entry.quantity->unit, statics).text};
+}
 
-std::string list_of_maps() { return joined(entries, ", ", &MapEntry::name); }
+const FrameQuantity* shown_quantity(MapKind kind) { return entry_of(kind).quantity; }
+
+bool is_scaled(MapKind kind) { return !entry_of(kind).symbol.empty(); }
+bool is_signed(MapKind kind) {
+  const FrameQuantity* quantity = entry_of(kind).quantity;
+  return quantity != nullptr && quantity->map.scale == ScaleRule::about_zero;
+}
+
+std::string list_of_maps() { return joined(entries(), ", ", &MapEntry::name); }
 
 bool needs_theta_c(MapKind kind) { return has(kind, theta_c); }
 bool shows_gamma(MapKind kind) { return has(kind, gamma); }

@@ -1,13 +1,17 @@
 #pragma once
-/// The maps that there are, and their names.
+/// The maps that there are, and their names: what is drawn by rules of its own, and each quantity of grains
+/// whose row says how (MapRule).
 
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "analysis/frame_quantities.h"
+
 namespace talus {
 
+/// Quantities of grains that no code names have numbers beyond these.
 enum class MapKind {
   gamma,         ///< stress ratio of each grain (paper, Fig. 10)
   overloaded,    ///< grains with gamma >= Gamma_c (paper, Fig. 13)
@@ -44,9 +48,14 @@ std::string_view map_help(MapKind kind);
 /// What the bar of a map measures, as rich texts: "v" and "√(gD)". Empty where a map has no bar, and the unit
 /// of a ratio.
 struct MapReading {
-  std::string_view symbol, unit;
+  std::string symbol, unit;
 };
-MapReading map_reading(MapKind kind);
+MapReading map_reading(MapKind kind, const RunStatics& statics);
+/// Whether it has a bar; whether its scale goes to either side of 0.
+bool is_scaled(MapKind kind);
+bool is_signed(MapKind kind);
+/// The quantity of grains that it shows by its MapRule; null for a map with rules of its own.
+const FrameQuantity* shown_quantity(MapKind kind);
 /// The names of all: "gamma, overloaded, ...".
 std::string list_of_maps();
 

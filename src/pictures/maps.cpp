@@ -23,7 +23,7 @@ bool fills_grains(const MapLayers& layers, std::size_t k) {
 }
 
 bool has_bar(const MapLayers& layers, std::size_t k) {
-  return fills_grains(layers, k) && !map_reading(layers[k]).symbol.empty();
+  return fills_grains(layers, k) && is_scaled(layers[k]);
 }
 
 /// What was chosen for the first layer with a bar; nothing for the other.
@@ -64,7 +64,7 @@ void add_grains(FrameView& view, const BedFrame& bed, std::span<const std::vecto
 
 /// What a bar measures, and in which unit, as it is told of one grain.
 void name_reading(MapKind kind, const MapFrame& of, Bar& bar) {
-  const MapReading reading = map_reading(kind);
+  const MapReading reading = map_reading(kind, of.statics);
   bar.symbol = reading.symbol;
   bar.unit = reading.unit;
   if (!needs_reference(kind)) return;

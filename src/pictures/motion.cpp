@@ -45,20 +45,6 @@ MotionSpan motion_span(const MapFrame& of) {
   return {false, 1.0, fmt::format(" since {:.2f}°", degrees(begin)), ""};
 }
 
-std::vector<Vec2> displacements(const MapFrame& of, const MotionSpan& span) {
-  const RunStatics& statics = of.statics;
-  std::vector<Vec2> moved(static_cast<std::size_t>(statics.free_count));
-  if (of.reference == nullptr) return moved;
-  const Frame& before = *of.reference;
-  const double unit = statics.mean_diameter * span.degrees;
-  for (Index i = 0; i < statics.free_count; ++i) {
-    const double periods = statics.periodic ? of.frame.image[i] - before.image[i] : 0;
-    moved[i] = {(of.frame.x[i] - before.x[i] + periods * statics.length) / unit,
-                (of.frame.y[i] - before.y[i]) / unit};
-  }
-  return moved;
-}
-
 void LogHistogram::add(double value) {
   const double at =
       value >= smallest_ ? 1.0 + std::floor(classes_per_decade * std::log10(value / smallest_)) : 0.0;

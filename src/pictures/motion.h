@@ -20,10 +20,6 @@ struct MotionSpan {
 };
 MotionSpan motion_span(const MapFrame& of);
 
-/// The displacement of each free grain in D, or D per degree, across a periodic edge where it went through
-/// one; 0 without a reference.
-std::vector<Vec2> displacements(const MapFrame& of, const MotionSpan& span);
-
 /// Numbers of values >= 0 in narrow classes: quantiles of any number of values in little memory.
 class LogHistogram {
  public:

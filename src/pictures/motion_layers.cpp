@@ -69,13 +69,13 @@ MapLayer displacement_arrows(const MapFrame& of, const MotionRanges& motion, con
   const double times = magnification(largest_displacement(of, motion, span), longest * unit / diameter);
   MapLayer layer;
   layer.title = "Displacement" + span.title;
-  const std::vector<Vec2> moved = displacements(of, span);
   for (const Index i : evenly_spread(of, spacing)) {
-    const double distance = std::hypot(moved[i].x, moved[i].y);
-    const double length = std::min(times * distance * diameter, cut * unit);
+    const Vec2 moved = of.reference != nullptr ? displacement(of, *of.reference, i) : Vec2{};
+    const double distance = std::hypot(moved.x, moved.y);
+    const double length = std::min(times * distance / span.degrees, cut * unit);
     if (!(length > shortest * unit)) continue;
     const double stretch = length / distance;
-    add_arrow(layer.lines, of.frame.x[i], of.frame.y[i], {stretch * moved[i].x, stretch * moved[i].y},
+    add_arrow(layer.lines, of.frame.x[i], of.frame.y[i], {stretch * moved.x, stretch * moved.y},
               half_width * unit, colour);
   }
   const std::string label = fmt::format("arrow = {:.6g} × displacement{}, at most {:.2g} D", times, span.unit,

@@ -80,6 +80,8 @@ struct View {
   MapSettings settings() const;
   /// The angle (rad) since which motions are shown, where the frame shown comes after it.
   std::optional<double> since() const;
+  /// The frame that motions are measured from; null where there is none.
+  std::shared_ptr<const Frame> reference() const;
 
  private:
   const FrameView& whole_map(const MapExtent& shown) const;
@@ -201,7 +203,8 @@ class ViewModel {
   std::vector<Index> selected_grains() const;
   /// find_contact, in the frame shown.
   std::optional<ContactKey> contact_at(double x, double y, double reach) const;
-  /// Of all grains of the frame shown, by their ids. Made once for a frame and an overload rule.
+  /// Of all grains of the frame shown, by their ids, as the first map has them: measured since the same
+  /// frame, over the same length. Made once for a frame and settings.
   const std::vector<double>& grain_values(const GrainNumber& number);
 
   /// Of the selected contact in the frame shown; none where none is selected.
@@ -302,8 +305,8 @@ class ViewModel {
   std::shared_ptr<const Frame> reference_at(double tilt);
 
   // view_selection.cpp
-  /// What conditions and tables of grains go by.
-  GrainSource grain_source(const MapSettings& settings);
+  /// What conditions and tables of grains go by; `measured`: with the earlier frame.
+  GrainSource grain_source(bool measured);
   /// What is selected in the frame shown, beside the grain that is looked at.
   Overlay selection_marks() const;
   /// mu between grains at a step, as commands have set it.
@@ -397,10 +400,13 @@ class ViewModel {
     std::shared_ptr<const Frame> stored, mapped;
     double l_min = 0.0;
   } reference_;  ///< what a frame is shown minus
-  struct {
+  struct GrainValuesCache {
     std::shared_ptr<const Frame> frame;
     OverloadRule rule;
+    std::optional<double> since;
+    double length = 0.0;
     std::optional<FrameThreshold> judged;  ///< l_c and clusters at the threshold of the rule
+    std::shared_ptr<const Frame> earlier;
     std::map<std::string_view, std::vector<double>> of;
   } grain_values_;
   MapCache map_, second_map_;

@@ -5,26 +5,37 @@
 
 #include "core/errors.h"
 #include "io/durable_file.h"
+#include "pictures/motion.h"
 #include "runs/event_catalogue.h"
 #include "view/selection_table.h"
 #include "view/view_model.h"
 
 namespace talus {
 
-GrainSource ViewModel::grain_source(const MapSettings& settings) {
-  if (!first_frame_ && frame_count() > 0) first_frame_ = frame_at(0);
+GrainSource ViewModel::grain_source(bool measured) {
+  const View view = first();
+  const MapSettings settings = view.settings();
   const OverloadRule& rule = settings;
-  if (grain_values_.frame != frame_ || !(grain_values_.rule == rule)) grain_values_ = {frame_, rule, {}, {}};
-  if (!grain_values_.judged) {
+  GrainValuesCache& cache = grain_values_;
+  if (cache.frame != frame_ || !(cache.rule == rule) || cache.since != view.since() ||
+      cache.length != settings.length)
+    cache = {frame_, rule, view.since(), settings.length, {}, {}, {}};
+  if (!first_frame_ && frame_count() > 0) first_frame_ = frame_at(0);
+  if (!cache.judged) {
     const std::vector<double> length =
         coarse_graining({*frame_, statics()}, coarse_graining_rule(settings, statics())).length;
-    grain_values_.judged = {.lc = {length.begin(), length.end()}, .cluster = shown_clusters(settings).label};
+    cache.judged = {.lc = {length.begin(), length.end()}, .cluster = shown_clusters(settings).label};
   }
-  return {{*stored_, statics()}, 0, frame_->gamma, first_frame_.get(), {}, {&*grain_values_.judged, 1}};
+  if (measured) cache.earlier = view.reference();
+  GrainSource source = {{*stored_, statics()}, 0, frame_->gamma, first_frame_.get(), {}, {&*cache.judged, 1}};
+  source.earlier = cache.earlier.get();
+  source.degrees = motion_span({source, source.earlier, !cache.since}).degrees;
+  source.length = settings.length * mean_diameter();
+  return source;
 }
 
 const std::vector<double>& ViewModel::grain_values(const GrainNumber& number) {
-  const GrainSource source = grain_source(first().settings());
+  const GrainSource source = grain_source(number.quantity->need == FrameNeed::earlier_frame);
   const auto [place, fresh] = grain_values_.of.try_emplace(number.name);
   if (fresh) place->second = values_of(number, source);
   return place->second;
@@ -137,7 +148,7 @@ void ViewModel::select_by_condition() {
     std::vector<Index> found;
     if (selecting.condition.find_first_not_of(" \t") != std::string::npos) {
       const Expression condition = parse_condition(selecting.condition, grain_names());
-      found = grains_where(condition, grain_source(first().settings()));
+      found = grains_where(condition, grain_source(true));
       if (!condition.names.empty() && !selecting.in_each_frame) selecting.quantity = condition.names.front();
     }
     const SelectionMode mode = selecting.in_each_frame ? SelectionMode::anew : selecting.mode;

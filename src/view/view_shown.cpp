@@ -91,22 +91,27 @@ std::shared_ptr<const Frame> ViewModel::reference_at(double tilt) {
   return reference_.mapped;
 }
 
-const FrameView& View::whole_map(const MapExtent& shown) const {
+std::shared_ptr<const Frame> View::reference() const {
   PictureSeries& pictures = run.pictures_;
-  pictures.plan.maps = {settings()};
-  pictures.extent = depends_on_extent(state.map.layers) ? common_part(shown, run.bed_) : run.bed_;
   pictures.since.reset();
   if (const auto from = since()) {
     const std::vector<double> tilts = run.tilts_of_tilt();
     const auto first = tilts.empty() ? std::nullopt : frame_near(tilts, *from);
     pictures.since = first ? first : nearest_frame(tilts, *from).value_or(0);
   }
+  const auto from = reference_frame(run.frame_index(), pictures.since);
+  return from ? run.frame_at(*from) : nullptr;
+}
+
+const FrameView& View::whole_map(const MapExtent& shown) const {
+  PictureSeries& pictures = run.pictures_;
+  pictures.plan.maps = {settings()};
+  pictures.extent = depends_on_extent(state.map.layers) ? common_part(shown, run.bed_) : run.bed_;
   const std::size_t k = run.frame_index();
   std::shared_ptr<const Frame> reference;
-  if (state.minus)
-    reference = run.reference_at(*state.minus);
-  else if (const auto from = reference_of(pictures, k))
-    reference = run.frame_at(*from);
+  pictures.since.reset();
+  if (any_layer(state.map.layers, needs_reference)) reference = this->reference();
+  if (state.minus) reference = run.reference_at(*state.minus);
   MapSource source = source_of(pictures, k, run.frame_, reference);
   source.change = state.minus.has_value();
   const bool dark = state.theme == Theme::dark;

@@ -60,9 +60,10 @@ std::string rows_of(std::span<const GridField> fields) {
 std::string rows_of(std::span<const FrameQuantity> fields) {
   std::string rows;
   for (const FrameQuantity& field : fields)
-    if (!field.name.empty())
-      rows += fmt::format("| `{}{}` | {} | {} | {} | {} |\n", field.name, field.by_threshold ? "_FACTOR" : "",
-                          text_of(field.shape), text_of(field.number), field.unit, field.definition);
+    if (!field.name.empty() && is_of_frame(field))
+      rows += fmt::format("| `{}{}` | {} | {} | {} | {} |\n", field.name,
+                          field.need == FrameNeed::threshold ? "_FACTOR" : "", text_of(field.shape),
+                          text_of(field.number), field.unit, field.definition);
   return rows;
 }
 

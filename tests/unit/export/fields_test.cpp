@@ -55,7 +55,7 @@ TEST_F(Fields, of_thresholds_are_there_for_each_of_them) {
   EXPECT_EQ(grain("cluster_1"), (Values{0, -1, -1}));
   EXPECT_EQ(grain("lc_1")[0], 0.5);
   frame_.thresholds = {};
-  for (const FieldColumn& column : grain_columns(frame_)) EXPECT_FALSE(column.field.by_threshold);
+  for (const FieldColumn& column : grain_columns(frame_)) EXPECT_NE(column.field.need, FrameNeed::threshold);
 }
 
 TEST_F(Fields, of_contacts_are_those_of_the_frame) {

@@ -114,7 +114,7 @@ TEST(Csv, names_units_and_leaves_fields_empty_without_a_number) {
   const std::vector<std::string> rows = lines_of(grains.rows);
   ASSERT_EQ(rows.size(), 3U);
   EXPECT_EQ(rows[0].find("7,0,1,0.9375,0.1875,0.05,1,-1,0,0.5,-1,0,2,"), 0U) << rows[0];
-  EXPECT_NE(rows[0].find(",0.6,0.5,1,0,1.118034,1,0,0.5,,0,-1"), std::string::npos) << rows[0];
+  EXPECT_NE(rows[0].find(",0.6,0.5,1,0,1.118034,0.5,,1,0,0.5,,0,-1"), std::string::npos) << rows[0];
   EXPECT_EQ(
       contacts.head,
       "frame,a,b,shift,point_x (m),point_y (m),normal_x,normal_y,normal_force (N/m),tangential_force (N/m),"

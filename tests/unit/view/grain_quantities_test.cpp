@@ -6,12 +6,17 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fmt/core.h>
+#include <fstream>
+#include <iterator>
 
 #include "analysis/frame_analysis.h"
+#include "analysis/quantities.h"
 #include "core/trigonometry.h"
 #include "io/run_schema.h"
 #include "pictures/overload_rule.h"
 #include "runs/analysis_input.h"
+#include "support/places.h"
 #include "support/temporary_folder.h"
 #include "unit/view/example_bed.h"
 #include "unit/view/opened_view.h"
@@ -86,6 +91,17 @@ TEST(GrainQuantitiesOfARun, are_judged_as_the_analysis_does) {
     EXPECT_DOUBLE_EQ(values("lc")[i] * statics.mean_diameter, judged.lc[i]) << i;
   }
   EXPECT_GT(overloaded, 0);
+}
+
+TEST(GrainQuantitiesOfPages, docs_list_those_that_no_export_has) {
+  std::ifstream file(test::source_folder() + "/docs/view.md");
+  const std::string page{std::istreambuf_iterator<char>(file), {}};
+  std::string rows;
+  for (const FrameQuantity& quantity : grain_quantities())
+    if (!is_of_frame(quantity))
+      rows +=
+          fmt::format("| `{}` | {} | {} |\n", quantity.name, scaled_unit(quantity.unit), quantity.definition);
+  EXPECT_NE(page.find("|---|---|---|\n" + rows + "\n"), std::string::npos) << rows;
 }
 
 /// What the window says in SI units has the unit of the attribute of its data set: per metre of thickness.

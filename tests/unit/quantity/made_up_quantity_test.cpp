@@ -1,0 +1,74 @@
+/// A quantity of grains that is added to the table of quantities, and nowhere else, is a map, a column of an
+/// export, a value of the window, and a name in conditions.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "export/writers.h"
+#include "pictures/map_kind.h"
+#include "support/temporary_folder.h"
+#include "unit/view/example_bed.h"
+#include "unit/view/opened_view.h"
+#include "view/grain_quantities.h"
+
+namespace talus {
+namespace {
+
+class MadeUpQuantity : public testing::Test {
+ protected:
+  MadeUpQuantity() {
+    example::write_bed_run(folder_.path("run.h5"), 20.0);
+    model_.emplace(example::opened(folder_.path("run.h5")));
+    model_->state.map.layers = map_layers("made_up");
+  }
+  std::vector<double> diameters() const {
+    std::vector<double> all;
+    for (Index i = 0; i < model_->statics().free_count; ++i)
+      all.push_back(2.0 * model_->statics().radius[static_cast<std::size_t>(i)] / model_->mean_diameter());
+    return all;
+  }
+
+  test::TemporaryFolder folder_;
+  std::optional<ViewModel> model_;
+};
+
+TEST_F(MadeUpQuantity, is_a_map) {
+  model_->first().map(2.0);
+  const FrameView& map = model_->first().annotated_map();
+  EXPECT_EQ(map.title, "Made up");
+  ASSERT_EQ(map.legends.size(), 1u);
+  ASSERT_EQ(map.legends[0].bars.size(), 1u);
+  const Bar& bar = map.legends[0].bars[0];
+  EXPECT_EQ(bar.title, "in D");
+  EXPECT_EQ(bar.symbol, "m");
+  EXPECT_EQ(bar.unit, "D");
+  EXPECT_EQ(bar.high, 2.0);
+  EXPECT_NE(list_of_maps().find("dyed, made_up"), std::string::npos) << list_of_maps();
+  EXPECT_EQ(map_help(map_layers("made_up")[0]), "twice the radius of each grain");
+  EXPECT_NO_THROW(map_layers("made_up+forces"));
+}
+
+TEST_F(MadeUpQuantity, is_the_value_of_a_grain_on_it) {
+  model_->first().map(2.0);
+  EXPECT_EQ(model_->first().values().values, diameters());
+}
+
+TEST_F(MadeUpQuantity, is_a_column_of_exports) {
+  const Frame frame = example::bed_frame(10.0, 2);
+  const RunStatics statics = example::bed_statics();
+  const CsvRows csv = grains_csv({{frame, statics}, 0, frame.gamma});
+  EXPECT_NE(csv.head.find(",made_up (m),"), std::string::npos) << csv.head;
+}
+
+TEST_F(MadeUpQuantity, is_a_name_in_conditions) {
+  model_->state.selecting.condition = "made_up > 0";
+  model_->select_by_condition();
+  EXPECT_EQ(model_->state.selecting.error, "");
+  EXPECT_EQ(model_->selected_grains().size(), static_cast<std::size_t>(model_->statics().free_count));
+  EXPECT_EQ(head_of(grain_number("made_up")), "made_up (D)");
+}
+
+}  // namespace
+}  // namespace talus
