@@ -14,9 +14,10 @@ from talus.ensemble import Ensemble, Mean, Member, mean_of, open_ensemble
 from talus.errors import Error
 from talus.frame import Frame
 from talus.run import Run, open
+from talus.simulation import Image, Simulation, resume
 from talus.stress import stress_ratio
 from talus.table import Table
 from talus.version import __version__
 
-__all__ = ["Contacts", "Ensemble", "Error", "Frame", "Mean", "Member", "Run", "Table", "__version__", "mean_of", "open",
-           "open_ensemble", "stress_ratio"]
+__all__ = ["Contacts", "Ensemble", "Error", "Frame", "Image", "Mean", "Member", "Run", "Simulation", "Table", "__version__",
+           "mean_of", "open", "open_ensemble", "resume", "stress_ratio"]

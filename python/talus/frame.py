@@ -6,10 +6,31 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from talus.contacts import Contacts
+from talus.errors import check_text
 from talus.optional import need
 
 if TYPE_CHECKING:
     from talus.run import Run
+
+
+class FrameGrains:
+    """The grains of a frame by themselves, with the names that those of a Simulation have."""
+
+    def __init__(self, frame: "Frame") -> None:
+        self._frame = frame
+
+    def __len__(self) -> int:
+        return len(self._frame.radius)
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        return self._frame._measured._grain_values(check_text(name, "quantity"))
+
+    def __getattr__(self, name: str) -> Any:
+        if name in ("position", "velocity", "angle", "angular_velocity", "radius", "free"):
+            return getattr(self._frame, name)
+        if name == "mass":
+            return self._frame.run.mass
+        raise AttributeError(name)
 
 
 class Frame:
@@ -35,6 +56,32 @@ class Frame:
 
     def __hash__(self) -> int:
         return hash((self.index, self.run.path))
+
+    # What the extension measures, by the same names as those of a Simulation; SI units.
+
+    @cached_property
+    def _measured(self) -> Any:
+        from talus.simulation import _extension
+
+        return _extension().MeasuredFrame(str(self.run.path), self.index)
+
+    def __getitem__(self, name: str) -> float:
+        """A number of the frame: a quantity of docs/analysis.md, "overloaded/fraction", or an observable."""
+        return self._measured._quantity(check_text(name, "quantity"))
+
+    @property
+    def grains(self) -> "FrameGrains":
+        """The grains: `frame.grains["gamma"]`, a quantity of docs/export.md, `frame.grains.position`, ..."""
+        return FrameGrains(self)
+
+    def draw(self, map: str = "gamma", *, width: int = 900, **options: Any) -> Any:
+        """A map of the frame, as that of Simulation.draw."""
+        from talus.simulation import draw
+
+        return draw(self._measured, map, width, options)
+
+    def _repr_png_(self) -> bytes:
+        return self.draw()._repr_png_()
 
     def _read(self, name: str) -> np.ndarray:
         return self.run.read_frame(f"particles/grains/{name}/value", self.index)

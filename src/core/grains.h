@@ -31,6 +31,9 @@ struct Grains {
   Index count() const { return static_cast<Index>(radius.size()); }
 };
 
+/// Makes room for so many grains in all: until there are more, their arrays stay where they are.
+void reserve(Grains& grains, std::size_t count);
+
 /// Appends a disk at rest and returns its id. A free grain may not follow a floor grain.
 /// `density` is in kg/m^3; a fixed disk has the mass that follows from its size, but the inverse mass 0.
 Index add_disk(Grains& grains, Vec2 centre, double radius, double density, bool fixed);

@@ -8,6 +8,14 @@
 
 namespace talus {
 
+void reserve(Grains& grains, std::size_t count) {
+  for (std::vector<double> Grains::*field :
+       {&Grains::x, &Grains::y, &Grains::vx, &Grains::vy, &Grains::omega, &Grains::radius,
+        &Grains::inverse_mass, &Grains::inverse_inertia, &Grains::mass, &Grains::inertia, &Grains::angle})
+    (grains.*field).reserve(count);
+  grains.image.reserve(count);
+}
+
 Index add_disk(Grains& grains, Vec2 centre, double radius, double density, bool fixed) {
   const double mass = density * pi * radius * radius;
   const double inertia = 0.5 * mass * radius * radius;

@@ -1,6 +1,17 @@
 #include "session/recorder.h"
 
+#include "core/errors.h"
+
 namespace talus {
+
+void Recorder::advance() {
+  try {
+    session_->advance();
+  } catch (const Error&) {
+    commit();
+    throw;
+  }
+}
 
 void Recorder::commit() {
   store_->commit(session_->segment(), session_->checkpoint(store_->seconds_writing()));

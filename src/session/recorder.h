@@ -12,6 +12,9 @@ class Recorder {
  public:
   Recorder(Session& session, RunStore& store) : session_(&session), store_(&store) {}
 
+  /// Takes a step of the session. Where it cannot be taken, the state before it, which is whole, is
+  /// committed, so that it can be looked at, and what the step throws goes through.
+  void advance();
   /// Makes durable what the session has recorded since the last commit, and its state.
   void commit();
   /// The same where it is due: with a new frame, or output.checkpoint_every after the last commit.

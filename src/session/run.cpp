@@ -16,16 +16,6 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-void advance_or_keep(Session& session, Recorder& recorder) {
-  try {
-    session.advance();
-  } catch (const Error&) {
-    // The state before the failed step is whole: keep it, so that it can be looked at.
-    recorder.commit();
-    throw;
-  }
-}
-
 void tell(const Session& session, Clock::time_point start, const RunControl& control) {
   if (control.on_step) control.on_step({session, seconds_since(start)});
   if (control.on_frame)
@@ -76,7 +66,7 @@ RunEnd run_to_end(Session& session, RunStore& store, const RunControl& control) 
   Recorder recorder(session, store);
   while (session.phase() != Phase::done) {
     const Clock::time_point step_start = Clock::now();
-    advance_or_keep(session, recorder);
+    recorder.advance();
     tell(session, start, control);
     const bool stop = must_stop();
     if (takes_checkpoint(control) || stop)

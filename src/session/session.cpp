@@ -88,6 +88,7 @@ Session::Session(const Scenario& scenario)
       program_(scenario),
       world_(initial_bed(scenario)),
       arrivals_(arrivals_of(scenario)) {
+  reserve_grains();
   let_arrive(arrivals_, pour_rule(scenario_), time_step(scenario_), world_);
 }
 
@@ -97,7 +98,14 @@ Session::Session(const Scenario& scenario, Checkpoint checkpoint, const std::str
       program_(scenario),
       world_(std::move(checkpoint.world)),
       schedule_(stored_schedule(checkpoint, follows_failure(scenario), origin, group)),
-      arrivals_(arrivals_of(scenario)) {}
+      arrivals_(arrivals_of(scenario)) {
+  reserve_grains();
+}
+
+void Session::reserve_grains() {
+  const auto waiting = std::max<std::ptrdiff_t>(0, std::ssize(arrivals_) - world_.grains.free_count);
+  reserve(world_.grains, static_cast<std::size_t>(world_.grains.count() + waiting));
+}
 
 ContactLawParameters Session::law() const {
   ContactLawParameters law = contact_law(scenario_);
@@ -319,7 +327,7 @@ void Session::watch() {
   }
 }
 
-void Session::record_row() {
+ObservableRow Session::row() const {
   RowContext context;
   context.baseline = schedule_.baseline;
   context.law = law();
@@ -328,7 +336,11 @@ void Session::record_row() {
   context.largest_overlap = report_.largest_overlap;
   context.residual = schedule_.residual_since_row;
   context.at_rest = is_at_rest();
-  segment_.observables.push_back(measure(world_, context));
+  return measure(world_, context);
+}
+
+void Session::record_row() {
+  segment_.observables.push_back(row());
   schedule_.residual_since_row = 0.0;
   const double volume =
       (1.0 + at(segment_.observables.back(), Observable::volume_strain)) * schedule_.baseline.volume;

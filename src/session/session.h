@@ -51,6 +51,7 @@ class Session {
   void use_threads(int threads) { threads_ = threads; }
 
   const Scenario& scenario() const { return scenario_; }
+  /// Its grains stay where they are in memory, also while more of them arrive.
   const World& world() const { return world_; }
   const Schedule& schedule() const { return schedule_; }
   Phase phase() const { return schedule_.phase; }
@@ -71,6 +72,8 @@ class Session {
   /// it is held.
   std::optional<double> angle_at_rest() const { return schedule_.angle_at_rest; }
 
+  /// The observables of the state as it is.
+  ObservableRow row() const;
   /// What was recorded since the last call of clear_segment.
   const Segment& segment() const { return segment_; }
   void clear_segment() { segment_ = {}; }
@@ -103,6 +106,7 @@ class Session {
   void advance_flow();
   /// Takes a step and follows the surface layer in it; returns its velocity, m/s.
   double take_step_and_follow();
+  void reserve_grains();
   /// Records a row of observables and a frame where they are due, or where `row` or `frame` is true.
   void record(bool row, bool frame);
   void record_row();

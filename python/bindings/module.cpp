@@ -1,0 +1,387 @@
+/// The extension module talus._core: Simulation for Python, thin. python/talus/simulation.py is what users
+/// see.
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <atomic>
+#include <chrono>
+#include <thread>
+
+#include "core/errors.h"
+#include "library/talus.h"
+#include "scenario/scenario.h"
+
+namespace py = pybind11;
+
+namespace talus {
+namespace {
+
+/// Steps that are under way in threads that do not hold the interpreter: they must end before it does.
+std::atomic<int> steps_under_way = 0;
+std::atomic<bool> interpreter_ends = false;
+
+/// A simulation and who uses it. While a thread steps it, no other may use it, and what is called by the step
+/// itself may only look at it.
+class Driven {
+ public:
+  explicit Driven(Simulation simulation) : simulation_(std::move(simulation)) {}
+
+  Simulation& seen() {
+    if (busy_.load(std::memory_order_acquire) && owner_ != std::this_thread::get_id()) refuse();
+    return simulation_;
+  }
+  const Simulation& seen() const { return const_cast<Driven*>(this)->seen(); }
+
+  /// Does something with the simulation that nothing else may interfere with, without holding the
+  /// interpreter. `tick` is called some twenty times a second, while it steps; an exception in it, or of a
+  /// signal, goes through.
+  template <typename Work>
+  auto use(const py::object& tick, Work&& work) {
+    if (busy_.exchange(true, std::memory_order_acq_rel)) refuse();
+    owner_ = std::this_thread::get_id();
+    const struct Release {
+      Driven& driven;
+      ~Release() {
+        driven.simulation_.interrupt_if({});
+        driven.busy_.store(false, std::memory_order_release);
+      }
+    } release{*this};
+    simulation_.interrupt_if([&tick] {
+      if (interpreter_ends) return true;
+      const py::gil_scoped_acquire hold;
+      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+      if (!tick.is_none()) tick();
+      return false;
+    });
+    const py::gil_scoped_release let_go;
+    const struct Count {
+      Count() { ++steps_under_way; }
+      ~Count() { --steps_under_way; }
+    } count;
+    return work(simulation_);
+  }
+  template <typename Work>
+  auto use(Work&& work) {
+    return use(py::none(), std::forward<Work>(work));
+  }
+
+ private:
+  [[noreturn]] void refuse() const {
+    throw Error(ExitCode::usage,
+                owner_ == std::this_thread::get_id()
+                    ? "the simulation is being stepped, and cannot be stepped or changed in between"
+                    : "another thread is using the simulation: wait for it, or give each thread its own, "
+                      "as copy() makes them");
+  }
+
+  Simulation simulation_;
+  std::atomic<bool> busy_ = false;
+  std::atomic<std::thread::id> owner_;
+};
+
+using Holder = std::shared_ptr<Driven>;
+
+void forbid_writing(py::array& array) {
+  py::detail::array_proxy(array.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
+}
+
+/// A read-only view of the memory of a simulation, which `self` keeps alive.
+template <typename Number>
+py::array view(const std::vector<Number>& values, const py::object& self) {
+  py::array_t<Number> array(std::vector<py::ssize_t>{std::ssize(values)}, {sizeof(Number)}, values.data(),
+                            self);
+  forbid_writing(array);
+  return array;
+}
+
+/// The same of two arrays as the columns of one: from the first to the second is a stride.
+py::array view(const std::vector<double>& first, const std::vector<double>& second, const py::object& self) {
+  const py::ssize_t apart =
+      reinterpret_cast<const char*>(second.data()) - reinterpret_cast<const char*>(first.data());
+  py::array_t<double> array({std::ssize(first), py::ssize_t{2}},
+                            {static_cast<py::ssize_t>(sizeof(double)), apart}, first.data(), self);
+  forbid_writing(array);
+  return array;
+}
+
+template <typename Number>
+py::array columns(const std::vector<Number>& first, const std::vector<Number>& second) {
+  py::array_t<Number> array({std::ssize(first), py::ssize_t{2}});
+  auto to = array.template mutable_unchecked<2>();
+  for (py::ssize_t k = 0; k < std::ssize(first); ++k) {
+    to(k, 0) = first[static_cast<std::size_t>(k)];
+    to(k, 1) = second[static_cast<std::size_t>(k)];
+  }
+  return array;
+}
+
+/// Rows of one number, of two, or of a tensor.
+py::array rows(const std::vector<double>& values, std::size_t count) {
+  const std::size_t width = count == 0 ? 1 : values.size() / count;
+  std::vector<py::ssize_t> shape = {static_cast<py::ssize_t>(count)};
+  if (width == 2) shape.push_back(2);
+  if (width == 4) shape.insert(shape.end(), {2, 2});
+  py::array_t<double> array(shape);
+  std::copy(values.begin(), values.end(), array.mutable_data());
+  return array;
+}
+
+/// (height, width, 4): sRGB and alpha.
+py::array pixels(const Image& image) {
+  py::array_t<std::uint8_t> array({image.height, image.width, 4});
+  std::uint8_t* to = array.mutable_data();
+  const auto channels = static_cast<std::size_t>(image.channels);
+  for (std::size_t k = 0; k < image.pixels.size(); k += channels, to += 4) {
+    for (std::size_t c = 0; c < 3; ++c) to[c] = image.pixels[k + (channels == 1 ? 0 : c)];
+    to[3] = channels == 4 ? image.pixels[k + 3] : 255;
+  }
+  return array;
+}
+
+py::bytes png_of(const py::array_t<std::uint8_t, py::array::c_style | py::array::forcecast>& array) {
+  if (array.ndim() != 3 || array.shape(2) != 4)
+    throw Error(ExitCode::usage, "a picture: expected an array (h, w, 4)");
+  Image image{static_cast<int>(array.shape(1)), static_cast<int>(array.shape(0)), 4, {}};
+  image.pixels.assign(array.data(), array.data() + array.size());
+  const std::vector<std::uint8_t> bytes = encode_png(image);
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+const char* name_of(Phase phase) {
+  switch (phase) {
+    case Phase::deposition:
+      return "deposition";
+    case Phase::tilt:
+      return "tilt";
+    case Phase::flow:
+      return "flow";
+    case Phase::done:
+      break;
+  }
+  return "done";
+}
+
+/// Errors of Talus as talus.Error, with the exit code that the command line has for them.
+void translate(std::exception_ptr thrown) {
+  try {
+    if (thrown) std::rethrow_exception(thrown);
+  } catch (const Error& error) {
+    const py::object type = py::module_::import("talus.errors").attr("Error");
+    const py::object raised = type(error.what());
+    raised.attr("exit_code") = static_cast<int>(error.code());
+    PyErr_SetObject(type.ptr(), raised.ptr());
+  }
+}
+
+/// Waits for steps that other threads are in, since they end in the interpreter.
+void end_steps() {
+  interpreter_ends = true;
+  const py::gil_scoped_release let_go;
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+  while (steps_under_way > 0 && std::chrono::steady_clock::now() < end)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+}
+
+void bind_stepping(py::class_<Driven, Holder>& type) {
+  const auto steps = [&type](const char* name, auto method) {
+    using Goal = decltype(method);
+    if constexpr (std::is_same_v<Goal, bool (Simulation::*)()>)
+      type.def(name, [method](Driven& driven, const py::object& tick) {
+        return driven.use(tick, [&](Simulation& simulation) { return (simulation.*method)(); });
+      });
+    else if constexpr (std::is_same_v<Goal, bool (Simulation::*)(double)>)
+      type.def(name, [method](Driven& driven, double goal, const py::object& tick) {
+        return driven.use(tick, [&](Simulation& simulation) { return (simulation.*method)(goal); });
+      });
+    else
+      type.def(name, [method](Driven& driven, std::int64_t goal, const py::object& tick) {
+        return driven.use(tick, [&](Simulation& simulation) { return (simulation.*method)(goal); });
+      });
+  };
+  steps("_deposit", &Simulation::deposit);
+  steps("_finish", &Simulation::finish);
+  steps("_tilt_to", &Simulation::tilt_to);
+  steps("_tilt_by", &Simulation::tilt_by);
+  steps("_run", &Simulation::run);
+  steps("_step", &Simulation::step);
+}
+
+void bind_commands(py::class_<Driven, Holder>& type) {
+  type.def("_push", [](Driven& driven, Index grain, double x, double y) {
+    driven.use([&](Simulation& simulation) { simulation.push(grain, {x, y}); });
+  });
+  type.def("_drop", [](Driven& driven, Index grains, double x, double height) {
+    driven.use([&](Simulation& simulation) { simulation.drop(grains, x, height); });
+  });
+  type.def("_drag", [](Driven& driven, Index grain, double x, double y) {
+    driven.use([&](Simulation& simulation) { simulation.drag(grain, {x, y}); });
+  });
+  type.def("_release",
+           [](Driven& driven) { driven.use([](Simulation& simulation) { simulation.release(); }); });
+  type.def("_set_friction", [](Driven& driven, double friction) {
+    driven.use([&](Simulation& simulation) { simulation.set_friction(friction); });
+  });
+  type.def("_set_tilt_rate", [](Driven& driven, double rate) {
+    driven.use([&](Simulation& simulation) { simulation.set_tilt_rate(rate); });
+  });
+  type.def("_use_threads", [](Driven& driven, int threads) {
+    driven.use([&](Simulation& simulation) { simulation.use_threads(threads); });
+  });
+}
+
+void bind_state(py::class_<Driven, Holder>& type) {
+  type.def_property_readonly("tilt", [](const Driven& driven) { return driven.seen().tilt(); });
+  type.def_property_readonly("_tilt_rate", [](const Driven& driven) { return driven.seen().tilt_rate(); });
+  type.def_property_readonly("_friction", [](const Driven& driven) { return driven.seen().friction(); });
+  type.def_property_readonly("time", [](const Driven& driven) { return driven.seen().world().time; });
+  type.def_property_readonly("step_count", [](const Driven& driven) { return driven.seen().world().step; });
+  type.def_property_readonly("phase", [](const Driven& driven) { return name_of(driven.seen().phase()); });
+  type.def_property_readonly("done", [](const Driven& driven) { return driven.seen().done(); });
+  type.def_property_readonly("residual", [](const Driven& driven) { return driven.seen().residual(); });
+  type.def_property_readonly("converged", [](const Driven& driven) { return driven.seen().converged(); });
+  type.def_property_readonly("state_hash", [](const Driven& driven) { return driven.seen().state_hash(); });
+  type.def_property_readonly("theta_c", [](const Driven& driven) { return driven.seen().theta_c(); });
+  type.def_property_readonly("recorded", [](const Driven& driven) { return driven.seen().recorded(); });
+  type.def_property_readonly("length", [](const Driven& driven) { return driven.seen().statics().length; });
+  type.def_property_readonly("periodic",
+                             [](const Driven& driven) { return driven.seen().statics().periodic; });
+  type.def_property_readonly("gravity", [](const Driven& driven) { return driven.seen().statics().gravity; });
+  type.def_property_readonly("D", [](const Driven& driven) { return driven.seen().statics().mean_diameter; });
+  type.def_property_readonly("scenario",
+                             [](const Driven& driven) { return resolved_toml(driven.seen().scenario()); });
+}
+
+void bind_arrays(py::class_<Driven, Holder>& type) {
+  const auto grains = [&type](const char* name, auto member) {
+    type.def_property_readonly(name, [member](const py::object& self) {
+      return view(self.cast<Driven&>().seen().world().grains.*member, self);
+    });
+  };
+  const auto pairs = [&type](const char* name, std::vector<double> Grains::*first,
+                             std::vector<double> Grains::*second) {
+    type.def_property_readonly(name, [first, second](const py::object& self) {
+      const Grains& of = self.cast<Driven&>().seen().world().grains;
+      return view(of.*first, of.*second, self);
+    });
+  };
+  pairs("_position", &Grains::x, &Grains::y);
+  pairs("_velocity", &Grains::vx, &Grains::vy);
+  grains("_angle", &Grains::angle);
+  grains("_angular_velocity", &Grains::omega);
+  grains("_radius", &Grains::radius);
+  grains("_mass", &Grains::mass);
+  grains("_image", &Grains::image);
+  type.def_property_readonly("_free_count",
+                             [](const Driven& driven) { return driven.seen().world().grains.free_count; });
+  const auto contacts = [&type](const char* name, auto first, auto second) {
+    type.def_property_readonly(name, [first, second](const Driven& driven) {
+      const Contacts& of = driven.seen().world().contacts;
+      return columns(of.*first, of.*second);
+    });
+  };
+  contacts("_pair", &Contacts::a, &Contacts::b);
+  contacts("_normal", &Contacts::nx, &Contacts::ny);
+  contacts("_force", &Contacts::fn, &Contacts::ft);
+  type.def_property_readonly(
+      "_gap", [](const Driven& driven) { return py::array(py::cast(driven.seen().world().contacts.gap)); });
+  type.def_property_readonly("_shift", [](const Driven& driven) {
+    const std::vector<std::int8_t>& shift = driven.seen().world().contacts.shift;
+    return py::array_t<std::int8_t>(std::ssize(shift), shift.data());
+  });
+}
+
+void bind_measures(py::class_<Driven, Holder>& type) {
+  type.def("_quantity", [](Driven& driven, const std::string& name) {
+    return driven.use([&](Simulation& simulation) { return simulation.quantity(name); });
+  });
+  type.def("_grain_values", [](Driven& driven, const std::string& name) {
+    const auto values = driven.use([&](Simulation& simulation) { return simulation.grain_values(name); });
+    return rows(values, static_cast<std::size_t>(driven.seen().world().grains.count()));
+  });
+  type.def("_contact_values", [](Driven& driven, const std::string& name) {
+    std::size_t count = 0;
+    const auto values = driven.use([&](Simulation& simulation) {
+      count = static_cast<std::size_t>(simulation.frame().contacts.count());
+      return simulation.contact_values(name);
+    });
+    return rows(values, count);
+  });
+  type.def("_set_analysis", [](Driven& driven, const std::vector<std::string>& settings) {
+    driven.use([&](Simulation& simulation) { simulation.set_analysis(settings); });
+  });
+  type.def("_draw", [](Driven& driven, const std::string& map, const MapOptions& options) {
+    return pixels(driven.use([&](Simulation& simulation) { return simulation.draw(map, options); }));
+  });
+}
+
+/// How a map is drawn.
+void bind_options(py::module_& module) {
+  py::class_<MapOptions>(module, "MapOptions")
+      .def(py::init())
+      .def_readwrite("width", &MapOptions::width)
+      .def_readwrite("theta_c", &MapOptions::theta_c)
+      .def_readwrite("colours", &MapOptions::colours)
+      .def_readwrite("l_min", &MapOptions::l_min)
+      .def_readwrite("length", &MapOptions::length)
+      .def_readwrite("threshold", &MapOptions::threshold)
+      .def_readwrite("range", &MapOptions::range)
+      .def_readwrite("turned", &MapOptions::turned)
+      .def_readwrite("bare", &MapOptions::bare);
+}
+
+/// Frames of files, which have the same measures.
+void bind_frames(py::module_& module) {
+  py::class_<MeasuredFrame>(module, "MeasuredFrame")
+      .def(py::init([](const std::string& path, std::size_t k) { return measured_frame(path, k); }))
+      .def("_quantity", [](MeasuredFrame& frame, const std::string& name) { return frame.quantity(name); })
+      .def("_grain_values",
+           [](MeasuredFrame& frame, const std::string& name) {
+             return rows(frame.grain_values(name),
+                         static_cast<std::size_t>(frame.input().frame.grain_count()));
+           })
+      .def("_contact_values",
+           [](const MeasuredFrame& frame, const std::string& name) {
+             return rows(frame.contact_values(name),
+                         static_cast<std::size_t>(frame.input().frame.contacts.count()));
+           })
+      .def("_draw", [](const MeasuredFrame& frame, const std::string& map, const MapOptions& options) {
+        return pixels(frame.draw(map, options));
+      });
+}
+
+}  // namespace
+}  // namespace talus
+
+PYBIND11_MODULE(_core, module) {
+  using namespace talus;
+  py::register_exception_translator(translate);
+  py::class_<Driven, Holder> type(module, "Simulation");
+  type.def(py::init([](const std::string& path, const std::vector<std::string>& settings) {
+    std::string text;
+    const Scenario scenario =
+        path.empty() ? parse_scenario("", "settings", settings) : read_scenario(path, settings, &text);
+    return std::make_shared<Driven>(Simulation(scenario, text));
+  }));
+  type.def("_copy", [](Driven& driven) {
+    return std::make_shared<Driven>(
+        driven.use([](Simulation& simulation) { return Simulation(simulation); }));
+  });
+  type.def_static("_resume",
+                  [](const std::string& path) { return std::make_shared<Driven>(Simulation::resume(path)); });
+  bind_stepping(type);
+  bind_commands(type);
+  bind_state(type);
+  bind_arrays(type);
+  bind_measures(type);
+  type.def("_record", [](Driven& driven, const std::string& path, bool overwrite) {
+    driven.use([&](Simulation& simulation) { simulation.record(path, overwrite); });
+  });
+  type.def("commit", [](Driven& driven) { driven.use([](Simulation& simulation) { simulation.commit(); }); });
+  bind_options(module);
+  bind_frames(module);
+  module.def("_png", &png_of);
+  module.def("_end_steps", &end_steps);
+  module.attr("version") = version_text();
+}

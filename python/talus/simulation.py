@@ -1,0 +1,455 @@
+"""A run that a script drives: stepped, steered, measured, drawn, recorded and copied."""
+
+import atexit
+import os
+import sys
+from collections.abc import Callable, Mapping
+from datetime import date, datetime, time
+from typing import Any
+
+import numpy as np
+
+from talus.errors import MissingPackage, WrongType, WrongValue, check_text, short
+
+try:
+    from talus import _core
+except ImportError as missing:
+    _core = None
+    _missing = missing
+else:
+    atexit.register(_core._end_steps)
+
+
+def _extension() -> Any:
+    if _core is None:
+        raise MissingPackage("talus.Simulation needs the extension talus._core, which is not built or not of this Python "
+                             f"({_missing}): install the Debian package talus, or build the wheel with ./bootstrap wheel; "
+                             "run files are read without it")
+    return _core
+
+
+def _toml(value: Any, key: str) -> str:
+    """A value of Python as TOML writes it. Throws WrongType where TOML has none."""
+    if isinstance(value, bool | np.bool_):
+        return "true" if value else "false"
+    if isinstance(value, int | np.integer):
+        return str(int(value))
+    if isinstance(value, float | np.floating):
+        return repr(float(value))
+    if isinstance(value, str):
+        escaped = "".join(c if c.isprintable() and c not in '"\\' else f"\\U{ord(c):08x}" for c in value)
+        return f'"{escaped}"'
+    if isinstance(value, datetime | date | time):
+        return value.isoformat()
+    if isinstance(value, list | tuple | np.ndarray):
+        return "[" + ", ".join(_toml(one, key) for one in value) + "]"
+    raise WrongType(f"{key} = {short(value)}: expected a number, a text, True or False, or a list of these")
+
+
+def _settings(values: Mapping[str, Any], before: str = "") -> list[str]:
+    """Keys and values, also those of tables in tables, as `--set` has them."""
+    found = []
+    for key, value in values.items():
+        name = before + check_text(key, "key")
+        if isinstance(value, Mapping):
+            found += _settings(value, name + ".")
+        else:
+            found.append(f"{name}={_toml(value, name)}")
+    return found
+
+
+class Image(np.ndarray):
+    """A picture: (h, w, 4) of uint8, sRGB and alpha, rows from top to bottom. A notebook shows it."""
+
+    def _repr_png_(self) -> bytes:
+        return _extension()._png(np.asarray(self))
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes it as a PNG."""
+        with open(path, "wb") as file:
+            file.write(self._repr_png_())
+
+
+def draw(core: Any, map: str, width: int, options: Mapping[str, Any]) -> Image:
+    """A map of what the extension measures."""
+    chosen = _extension().MapOptions()
+    for name, value in {"width": width, **options}.items():
+        try:
+            setattr(chosen, name, value)
+        except AttributeError:
+            raise WrongType(f"draw has no option {short(name)}") from None
+        except TypeError:
+            raise WrongType(f"draw: {name} = {short(value)}: a value of another type is expected") from None
+    return core._draw(check_text(map, "map"), chosen).view(Image)
+
+
+class Grains:
+    """The grains of a simulation: views of its own memory, read-only, without a copy. Rows are ids: free grains first, and
+    after them those of the floor. A view follows the steps of its simulation; while a bed is poured, a later view has more
+    rows, and rows of the floor move on in an earlier one. `grains["gamma"]` is a quantity of the table in docs/export.md, as
+    it is now, in SI units."""
+
+    def __init__(self, simulation: "Simulation") -> None:
+        self._core = simulation._core
+
+    def __len__(self) -> int:
+        return len(self._core._radius)
+
+    def __repr__(self) -> str:
+        return f"<{len(self)} grains, {self.free_count} of them free>"
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        return self._core._grain_values(check_text(name, "quantity"))
+
+    @property
+    def free_count(self) -> int:
+        """Grains that are not of the floor: the first ones."""
+        return self._core._free_count
+
+    @property
+    def free(self) -> np.ndarray:
+        """(N,) whether a grain is free, not glued to the floor."""
+        return np.arange(len(self)) < self.free_count
+
+    @property
+    def position(self) -> np.ndarray:
+        """(N, 2) centres (x, y), m; x in [0, L) of a periodic bed."""
+        return self._core._position
+
+    @property
+    def velocity(self) -> np.ndarray:
+        """(N, 2) velocities (v_x, v_y), m/s."""
+        return self._core._velocity
+
+    @property
+    def angle(self) -> np.ndarray:
+        """(N,) angle turned since the beginning, rad, counter-clockwise positive."""
+        return self._core._angle
+
+    @property
+    def angular_velocity(self) -> np.ndarray:
+        """(N,) rotation velocities, rad/s, counter-clockwise positive."""
+        return self._core._angular_velocity
+
+    @property
+    def radius(self) -> np.ndarray:
+        """(N,) radii, m."""
+        return self._core._radius
+
+    @property
+    def mass(self) -> np.ndarray:
+        """(N,) masses, kg/m."""
+        return self._core._mass
+
+    @property
+    def image(self) -> np.ndarray:
+        """(N,) how often a grain left through the right periodic edge minus the left."""
+        return self._core._image
+
+
+class LiveContacts:
+    """The contacts after the last step, near ones without force among them: copies, which later steps do not change.
+    `contacts["mobilisation"]` is a quantity of the table in docs/export.md, of those that carry force."""
+
+    def __init__(self, simulation: "Simulation") -> None:
+        self._core = simulation._core
+
+    def __len__(self) -> int:
+        return len(self._core._gap)
+
+    def __repr__(self) -> str:
+        return f"<{len(self)} contacts>"
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        return self._core._contact_values(check_text(name, "quantity"))
+
+    @property
+    def pair(self) -> np.ndarray:
+        """(C, 2) ids of the bodies a < b; from the number of grains on, b is a plane."""
+        return self._core._pair
+
+    @property
+    def normal(self) -> np.ndarray:
+        """(C, 2) unit normals, from a to b."""
+        return self._core._normal
+
+    @property
+    def force(self) -> np.ndarray:
+        """(C, 2) forces on b, (f_n, f_t), N/m: along the normal, compression positive, and along (-n_y, n_x)."""
+        return self._core._force
+
+    @property
+    def gap(self) -> np.ndarray:
+        """(C,) gaps, m; negative where bodies overlap."""
+        return self._core._gap
+
+    @property
+    def shift(self) -> np.ndarray:
+        """(C,) periodic image: b touches a from x_b + shift * L."""
+        return self._core._shift
+
+
+class Simulation:
+    """A bed that is stepped by a script, with the bits of `talus run` of the same scenario and commands.
+
+        sim = talus.Simulation("paper-pbc.toml", seed=7, **{"bed.length": 60})
+        sim.deposit()
+        while sim["overloaded/fraction"] < 0.5:
+            sim.tilt_by(0.25)
+        sim.tilt_rate = 0
+        sim.run(3.0)
+
+    `scenario` is a file, or a mapping of keys; further keys, as `--set` takes them, change it. SI units; tilts in deg. One
+    thread uses a simulation at a time; several simulations in several threads run side by side. Errors are talus.Error, with
+    the exit code of the command line as `exit_code`."""
+
+    def __init__(self, scenario: str | os.PathLike[str] | Mapping[str, Any] | None = None, /, *, threads: int = 1,
+                 progress: bool | None = None, **settings: Any) -> None:
+        core = _extension()
+        keys: list[str] = []
+        path = ""
+        if isinstance(scenario, Mapping):
+            keys = _settings(scenario)
+        elif scenario is not None:
+            path = os.fspath(scenario)
+            if not isinstance(path, str) or not path:
+                raise WrongType(f"scenario {short(scenario)}: expected the path of a file, or a mapping of keys")
+        self._begin(core.Simulation(path, keys + _settings(settings)), progress)
+        if threads != 1:
+            self._core._use_threads(threads)
+
+    def _begin(self, core: Any, progress: bool | None) -> None:
+        self._core = core
+        self._progress = progress
+        self.grains = Grains(self)  #: views of the grains
+        self.contacts = LiveContacts(self)  #: the contacts
+
+    def __repr__(self) -> str:
+        return f"<simulation of {len(self.grains)} grains, {self.phase}: tilt {self.tilt:.4g} deg, step {self.step_count}>"
+
+    def __reduce__(self) -> Any:
+        raise WrongType("a simulation cannot be pickled: record it, and resume it in the other process")
+
+    # Steps.
+
+    def _tick(self) -> Any:
+        """Called by what steps: progress on a terminal."""
+        if not (sys.stderr.isatty() if self._progress is None else self._progress):
+            return None
+
+        def show() -> None:
+            print(f"\r{self.phase}: step {self.step_count}, tilt {self.tilt:.3f} deg\x1b[K", end="", file=sys.stderr, flush=True)
+
+        return show
+
+    def _steps(self, method: Any, *goal: Any) -> None:
+        tick = self._tick()
+        try:
+            if not method(*goal, tick):
+                raise KeyboardInterrupt
+        except TypeError as error:
+            raise WrongType(f"expected a number: {error}".splitlines()[0]) from None
+        finally:
+            if tick is not None:
+                print("\r\x1b[K", end="", file=sys.stderr, flush=True)
+
+    def step(self, count: int = 1) -> None:
+        """Takes so many time steps, or fewer if the run is over before."""
+        self._steps(self._core._step, count)
+
+    def deposit(self) -> None:
+        """Steps until the bed rests, and its tilt begins."""
+        self._steps(self._core._deposit)
+
+    def tilt_to(self, angle: float) -> None:
+        """Steps until the tilt is at least that (deg), or the run is over."""
+        self._steps(self._core._tilt_to, angle)
+
+    def tilt_by(self, angle: float) -> None:
+        """Steps until the tilt has grown by that (deg), or the run is over."""
+        self._steps(self._core._tilt_by, angle)
+
+    def run(self, seconds: float | None = None, *, until: Callable[[], bool] | None = None, every: float | None = None) -> None:
+        """Steps for so many seconds of simulated time, to the end of the run without them, and not beyond the moment at which
+        `until()` is true; it is asked before the first step and every so many seconds, after each step without `every`."""
+        if until is None:
+            if seconds is None:
+                self._steps(self._core._finish)
+            else:
+                self._steps(self._core._run, seconds)
+            return
+        end = np.inf if seconds is None else self.time + seconds
+        while not until() and not self.done and self.time < end * (1 - 1e-12):
+            if every is None:
+                self._steps(self._core._step, 1)
+            else:
+                self._steps(self._core._run, min(every, end - self.time))
+
+    # Commands.
+
+    def push(self, grain: int | Any, velocity: Any) -> None:
+        """Adds (v_x, v_y), m/s, to the velocity of a free grain, or of each of several: (2,), or one row for each."""
+        grains = np.atleast_1d(np.asarray(grain))
+        if grains.dtype.kind not in "iu" or grains.ndim != 1:
+            raise WrongType(f"push({short(grain)}): expected the id of a grain, or a list of ids")
+        try:
+            values = np.broadcast_to(np.asarray(velocity, dtype=float), (len(grains), 2))
+        except (TypeError, ValueError):
+            raise WrongValue(f"push: velocity {short(velocity)}: expected (v_x, v_y), or one of these for each grain") from None
+        for i, (x, y) in zip(grains.tolist(), values.tolist(), strict=True):
+            if not -2**31 <= i < 2**31:
+                raise WrongValue(f"push: there is no grain {i}")
+            self._core._push(i, x, y)
+
+    def drop(self, grains: int, x: float, height: float) -> None:
+        """Lifts so many grains from the free surface and lets them fall at x (m), from a height (m) above it."""
+        self._command(self._core._drop, grains, x, height)
+
+    def drag(self, grain: int, to: Any) -> None:
+        """Pulls a grain to a place (x, y), m, by a damped spring, from the next step on."""
+        self._command(self._core._drag, grain, *to)
+
+    def release(self) -> None:
+        """Ends the drag."""
+        self._core._release()
+
+    def _command(self, method: Any, *values: Any) -> None:
+        try:
+            method(*values)
+        except TypeError:
+            raise WrongType(f"{method.__name__.strip('_')}{short(values)}: expected numbers") from None
+
+    @property
+    def friction(self) -> float:
+        """Coefficient of friction between grains; setting it is a command."""
+        return self._core._friction
+
+    @friction.setter
+    def friction(self, value: float) -> None:
+        self._command(self._core._set_friction, value)
+
+    @property
+    def tilt_rate(self) -> float:
+        """deg/s; setting it is a command, and 0 holds the tilt."""
+        return self._core._tilt_rate
+
+    @tilt_rate.setter
+    def tilt_rate(self, value: float) -> None:
+        self._command(self._core._set_tilt_rate, value)
+
+    # Where it stands.
+
+    @property
+    def tilt(self) -> float:
+        """deg."""
+        return self._core.tilt
+
+    @property
+    def time(self) -> float:
+        """s, simulated."""
+        return self._core.time
+
+    @property
+    def step_count(self) -> int:
+        """Time steps taken since the beginning."""
+        return self._core.step_count
+
+    @property
+    def phase(self) -> str:
+        """"deposition", "tilt", "flow" or "done"."""
+        return self._core.phase
+
+    @property
+    def done(self) -> bool:
+        """Whether the run is over."""
+        return self._core.done
+
+    @property
+    def residual(self) -> float:
+        """eta of the last step (docs/solver.md)."""
+        return self._core.residual
+
+    @property
+    def converged(self) -> bool:
+        """Whether the last step reached its tolerance."""
+        return self._core.converged
+
+    @property
+    def state_hash(self) -> str:
+        """Of all that the future depends on, to the last bit."""
+        return self._core.state_hash
+
+    @property
+    def theta_c(self) -> float | None:
+        """Angle of repose, deg; None while the slope has not failed."""
+        return self._core.theta_c
+
+    @property
+    def D(self) -> float:
+        """Mean diameter of the free grains, m."""
+        return self._core.D
+
+    @property
+    def length(self) -> float:
+        """L, the period or the distance between the walls, m."""
+        return self._core.length
+
+    @property
+    def scenario(self) -> str:
+        """The scenario with every key, as TOML."""
+        return self._core.scenario
+
+    # Measures.
+
+    def __getitem__(self, name: str) -> float:
+        """A number of the state as it is: a quantity of a frame (docs/analysis.md), "overloaded/fraction", at the second
+        threshold "overloaded/fraction[1]", or an observable (docs/file_format.md), "kinetic_energy"; SI units."""
+        return self._core._quantity(check_text(name, "quantity"))
+
+    def analyse_with(self, **parameters: Any) -> None:
+        """Sets parameters of the analysis, as `talus analyze --set` takes them: l_min=0, gamma_c=0.3."""
+        self._core._set_analysis(_settings(parameters))
+
+    def draw(self, map: str = "gamma", *, width: int = 900, **options: Any) -> Image:
+        """A map of the state, as `talus render --map` draws it, `width` px wide: theta_c, l_min, length, threshold, range,
+        colours, turned, bare are those of its options."""
+        return draw(self._core, map, width, options)
+
+    def _repr_png_(self) -> bytes:
+        return self.draw()._repr_png_()
+
+    # Recording and copies.
+
+    def record(self, path: str | os.PathLike[str], *, overwrite: bool = False) -> None:
+        """Records what happens from now on as a run, which `talus replay` repeats: an ordinary one before the first step, and
+        later one that branches off from the state as it is."""
+        self._core._record(os.fspath(path), overwrite)
+
+    @property
+    def recorded(self) -> bool:
+        """Whether it is being recorded."""
+        return self._core.recorded
+
+    def commit(self) -> None:
+        """Makes all that was recorded durable, as is done at each frame and at the end."""
+        self._core.commit()
+
+    def copy(self) -> "Simulation":
+        """The same state, which goes on by itself and is not recorded."""
+        other = object.__new__(Simulation)
+        other._begin(self._core._copy(), self._progress)
+        return other
+
+    __copy__ = copy
+
+    def __deepcopy__(self, memo: Any) -> "Simulation":
+        return self.copy()
+
+
+def resume(path: str | os.PathLike[str], *, threads: int = 1, progress: bool | None = None) -> Simulation:
+    """A recorded run that was stopped, where its last commit left it, as a Simulation that goes on in the same file."""
+    simulation = object.__new__(Simulation)
+    simulation._begin(_extension().Simulation._resume(os.fspath(path)), progress)
+    if threads != 1:
+        simulation._core._use_threads(threads)
+    return simulation

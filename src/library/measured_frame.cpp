@@ -1,0 +1,140 @@
+#include "library/measured_frame.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fmt/core.h>
+#include <utility>
+
+#include "analysis/frame_analysis.h"
+#include "analysis/quantities.h"
+#include "core/errors.h"
+#include "core/nearest_word.h"
+#include "core/trigonometry.h"
+#include "core/visible_text.h"
+#include "io/run_file.h"
+#include "pictures/maps.h"
+#include "render/renderer.h"
+#include "runs/analysis_parameters.h"
+
+namespace talus {
+namespace {
+
+constexpr double default_length = 10.0;  // D, over which fields are coarse-grained, as maps have it
+
+[[noreturn]] void refuse(std::string_view name, const char* what, const std::vector<std::string>& known) {
+  throw Error(ExitCode::usage,
+              fmt::format("no {} is called '{}'{}", what, visible_word(name), did_you_mean(name, known)));
+}
+
+/// "lc/mean[1]": its name and 1; 0 where no number follows.
+std::pair<std::string_view, std::size_t> split(std::string_view name) {
+  const auto bracket = name.find('[');
+  if (bracket == std::string_view::npos || !name.ends_with(']')) return {name, 0};
+  std::size_t number = 0;
+  const auto [end, error] = std::from_chars(name.data() + bracket + 1, name.data() + name.size() - 1, number);
+  if (error != std::errc() || end != name.data() + name.size() - 1) return {name, 0};
+  return {name.substr(0, bracket), number};
+}
+
+std::vector<std::string> names_of_numbers() {
+  std::vector<std::string> names;
+  for (const Quantity& quantity : quantities())
+    if (is_number_of_frame(quantity)) names.push_back(quantity.name);
+  for (const SeriesField& field : observable_fields) names.emplace_back(field.name);
+  return names;
+}
+
+std::vector<double> values_of(std::span<const FrameQuantity> table, std::string_view name, const char* what,
+                              const GrainSource& source) {
+  const auto found = std::ranges::find(table, name, &FrameQuantity::name);
+  if (found != table.end() && !name.empty()) return found->values(source, 0);
+  std::vector<std::string> names;
+  for (const FrameQuantity& quantity : table) names.emplace_back(quantity.name);
+  refuse(name, what, names);
+}
+
+}  // namespace
+
+double MeasuredFrame::theta_c() const { return input_.theta_c.value_or(radians(assumed_theta_c)); }
+
+const Frame& MeasuredFrame::judged() {
+  if (!judged_) judged_ = with_analysed_gamma(input_.frame, input_.statics, input_.parameters);
+  return *judged_;
+}
+
+const FrameRecord& MeasuredFrame::record() {
+  if (record_) return *record_;
+  const Analysis analysis = begin_analysis(input_.statics, input_.parameters, theta_c());
+  record_ = analyse_frame({judged(), input_.statics}, input_.parameters, analysis);
+  if (input_.row) {
+    record_->volume_strain = at(*input_.row, Observable::volume_strain);
+    record_->centre_of_mass_strain = at(*input_.row, Observable::centre_of_mass_strain);
+    record_->solid_fraction = at(*input_.row, Observable::solid_fraction);
+  }
+  for (const RunThreshold& threshold : analysis.thresholds) factors_.push_back(threshold.factor);
+  return *record_;
+}
+
+double MeasuredFrame::quantity(std::string_view name) {
+  const auto [plain, threshold] = split(name);
+  for (const Quantity& quantity : quantities())
+    if (quantity.name == plain && is_number_of_frame(quantity)) {
+      const std::size_t count = needs_threshold(quantity) ? record().thresholds.size() : 1;
+      if (threshold < count) return number_of(quantity, record(), threshold);
+      throw Error(ExitCode::usage, fmt::format("'{}': there are {} of it", visible_word(name), count));
+    }
+  const auto* const field = std::ranges::find(observable_fields, name, &SeriesField::name);
+  if (field == observable_fields.end()) refuse(name, "number of a frame", names_of_numbers());
+  return input_.row ? (*input_.row)[static_cast<std::size_t>(field - observable_fields.begin())] : not_known;
+}
+
+std::vector<double> MeasuredFrame::grain_values(std::string_view name) {
+  const FrameRecord& known = record();
+  GrainSource source = {bed(),           0, judged().gamma, input_.begin ? &*input_.begin : nullptr, factors_,
+                        known.thresholds};
+  source.earlier = source.first;
+  source.length = std::min(default_length * input_.statics.mean_diameter, input_.statics.length);
+  return values_of(grain_quantities(), name, "quantity of grains", source);
+}
+
+std::vector<double> MeasuredFrame::contact_values(std::string_view name) const {
+  return values_of(contact_quantities(), name, "quantity of contacts", {bed()});
+}
+
+Image MeasuredFrame::draw(const std::string& map, MapOptions options) const {
+  options.maps = {map};
+  const MapPlan plan = plan_maps(options);
+  MapSettings settings = plan.maps.at(0);
+  if (std::isnan(settings.theta_c)) {
+    settings.theta_c = theta_c();
+    settings.theta_c_assumed = !input_.theta_c;
+  }
+  const Frame mapped = mapped_frame(input_.frame, input_.statics, settings.l_min);
+  MapFrame frame = {{mapped, input_.statics}};
+  if (input_.begin && input_.begin->grain_count() == mapped.grain_count()) frame.reference = &*input_.begin;
+  frame.per_degree = false;
+  MapExtent extent = bed_extent(input_.statics);
+  extend(extent, frame);
+  Renderer renderer(make_context(plan.context));
+  return renderer.draw(make_map(frame, settings, extent), plan.width);
+}
+
+MeasuredFrame measured_frame(const std::string& path, std::size_t k,
+                             const std::vector<std::string>& settings) {
+  const RunFile run = RunFile::open(path);
+  const std::size_t count = run.all_frame_tilts().size();
+  if (k >= count)
+    throw Error(ExitCode::usage, fmt::format("{}: there is no frame {}; it has {}", path, k, count));
+  FrameInput input;
+  input.frame = run.frame(k);
+  input.statics = run.header().statics;
+  input.parameters = parse_analysis_settings(settings);
+  input.theta_c = find_value(run.checkpoint().results, "theta_c");
+  input.begin = run.frame(0);
+  for (const ObservableRow& row : run.observables())
+    if (at(row, Observable::time) <= run.all_frame_times()[k]) input.row = row;
+  return MeasuredFrame(std::move(input));
+}
+
+}  // namespace talus

@@ -1,0 +1,247 @@
+#include "library/simulation.h"
+
+#include <chrono>
+#include <cmath>
+#include <fmt/core.h>
+#include <utility>
+
+#include "core/errors.h"
+#include "core/hash.h"
+#include "core/trigonometry.h"
+#include "library/simulation_state.h"
+#include "runs/analysis_parameters.h"
+#include "runs/run_view.h"
+#include "session/estimate.h"
+#include "session/measure.h"
+
+namespace talus {
+namespace {
+
+constexpr double reached_within = 1e-9;  // rad: a tilt is a sum of steps, up to rounding
+constexpr std::chrono::milliseconds interrupt_interval(50);
+
+void require_finite(double value, const char* what) {
+  if (!std::isfinite(value))
+    throw Error(ExitCode::usage, fmt::format("{} {}: expected a finite number", what, value));
+}
+
+}  // namespace
+
+void Simulation::State::advance() {
+  measured.reset();
+  is_new = false;
+  const Phase before = session.phase();
+  if (recorder) {
+    recorder->advance();
+    recorder->commit_if_due();
+  } else {
+    session.advance();
+    session.clear_segment();
+  }
+  if (before == Phase::deposition && session.phase() == Phase::tilt)
+    begin = make_frame(session.world(), session.law());
+  if (session.phase() == Phase::done && store) {
+    recorder->commit();
+    store->pack();
+    recorder.reset();
+    store.reset();
+  }
+}
+
+MeasuredFrame& Simulation::State::measure() {
+  if (!measured) {
+    Frame frame = make_frame(session.world(), session.law());
+    RunStatics arrived = arrived_statics(statics, frame.grain_count());
+    measured.emplace(FrameInput{std::move(frame), std::move(arrived), parameters, session.angle_of_repose(),
+                                begin, session.row()});
+  }
+  return *measured;
+}
+
+Simulation::Simulation(std::unique_ptr<State> state) : state_(std::move(state)) {}
+
+Simulation::Simulation(const Scenario& scenario, std::string text) {
+  require_memory(scenario);
+  state_ = std::make_unique<State>(Session(scenario));
+  state_->origin.scenario_text = text.empty() ? resolved_toml(scenario) : std::move(text);
+}
+
+Simulation Simulation::resume(const std::string& path) {
+  RunHeader header;
+  Checkpoint checkpoint;
+  RunStore store = RunStore::resume(path, header, checkpoint);
+  const Scenario scenario = stored_scenario(header, path + ":/parameters");
+  auto state = std::make_unique<State>(Session(scenario, std::move(checkpoint), path));
+  state->is_new = false;
+  state->origin.scenario_text = header.scenario_given;
+  state->store.emplace(std::move(store));
+  state->recorder.emplace(state->session, *state->store);
+  return Simulation(std::move(state));
+}
+
+Simulation::Simulation(const Simulation& other)
+    : state_(std::make_unique<State>(Session(other.scenario(), other.state_->session.checkpoint(0.0)))) {
+  state_->origin = other.state_->origin;
+  state_->parameters = other.state_->parameters;
+  state_->interrupts = other.state_->interrupts;
+  state_->begin = other.state_->begin;
+  state_->is_new = other.state_->is_new;
+}
+
+Simulation::Simulation(Simulation&&) noexcept = default;
+
+Simulation& Simulation::operator=(Simulation other) noexcept {
+  std::swap(state_, other.state_);
+  return *this;
+}
+
+Simulation::~Simulation() {
+  if (!state_ || !state_->recorder) return;
+  try {
+    state_->recorder->commit();
+  } catch (const std::exception&) {  // what was committed before is whole; commit() says what is wrong
+  }
+}
+
+bool Simulation::advance_until(const std::function<bool(const Session&)>& reached) {
+  State& state = *state_;
+  if (done())
+    throw Error(ExitCode::usage,
+                fmt::format("the run is over, at a tilt of {:.3f} deg: it has no further step", tilt()));
+  auto asked = std::chrono::steady_clock::now();
+  while (!done() && !reached(state.session)) {
+    state.advance();
+    const auto now = std::chrono::steady_clock::now();
+    if (!state.interrupts || now - asked < interrupt_interval) continue;
+    asked = now;
+    if (state.interrupts()) return false;
+  }
+  return true;
+}
+
+bool Simulation::step(std::int64_t count) {
+  if (count < 0)
+    throw Error(ExitCode::usage, fmt::format("step({}): expected a count of steps, 0 or more", count));
+  const std::int64_t last = world().step + count;
+  return advance_until([last](const Session& session) { return session.world().step >= last; });
+}
+
+bool Simulation::deposit() {
+  return advance_until([](const Session& session) { return session.phase() != Phase::deposition; });
+}
+
+bool Simulation::tilt_to(double degrees) {
+  require_finite(degrees, "a tilt of");
+  const double goal = radians(degrees) - reached_within;
+  return advance_until([goal](const Session& session) {
+    if (session.world().tilt >= goal) return true;
+    if (session.phase() == Phase::tilt && session.schedule().course && session.tilt_rate() <= 0.0)
+      throw Error(ExitCode::usage, "the tilt is held or lowered (tilt_rate), and never gets there");
+    return false;
+  });
+}
+
+bool Simulation::tilt_by(double degrees) {
+  require_finite(degrees, "a tilt by");
+  return tilt_to(tilt() + degrees);
+}
+
+bool Simulation::run(double seconds) {
+  require_finite(seconds, "a time of");
+  const double end = world().time + seconds, half = 0.5 * time_step(scenario());
+  return advance_until([=](const Session& session) { return session.world().time >= end - half; });
+}
+
+bool Simulation::run_until(const std::function<bool()>& holds) {
+  return advance_until([&holds](const Session&) { return holds(); });
+}
+
+bool Simulation::finish() {
+  return advance_until([](const Session&) { return false; });
+}
+
+void Simulation::interrupt_if(std::function<bool()> interrupts) {
+  state_->interrupts = std::move(interrupts);
+}
+
+void Simulation::use_threads(int threads) {
+  if (threads < 1 || threads > 256)
+    throw Error(ExitCode::usage, fmt::format("{} threads: expected 1 to 256", threads));
+  state_->session.use_threads(threads);
+}
+
+void Simulation::apply(const Command& command) {
+  state_->session.apply(command);
+  state_->measured.reset();
+  state_->is_new = false;
+  if (!state_->recorder) state_->session.clear_segment();
+}
+
+void Simulation::push(Index grain, Vec2 velocity) {
+  apply({0, CommandKind::push, grain, velocity.x, velocity.y});
+}
+void Simulation::drop(Index grains, double x, double height) {
+  apply({0, CommandKind::drop, grains, x, height});
+}
+void Simulation::drag(Index grain, Vec2 to) { apply({0, CommandKind::drag, grain, to.x, to.y}); }
+void Simulation::release() { apply({0, CommandKind::release}); }
+void Simulation::set_friction(double friction) { apply({0, CommandKind::friction, -1, friction}); }
+void Simulation::set_tilt_rate(double rate) { apply({0, CommandKind::tilt_rate, -1, rate}); }
+
+const Scenario& Simulation::scenario() const { return state_->session.scenario(); }
+const World& Simulation::world() const { return state_->session.world(); }
+Phase Simulation::phase() const { return state_->session.phase(); }
+bool Simulation::done() const { return phase() == Phase::done; }
+double Simulation::tilt() const { return degrees(world().tilt); }
+double Simulation::tilt_rate() const { return degrees(state_->session.tilt_rate()); }
+double Simulation::friction() const { return state_->session.law().friction; }
+double Simulation::residual() const { return state_->session.last_report().solver.residual.eta; }
+bool Simulation::converged() const { return state_->session.last_report().solver.converged; }
+std::string Simulation::state_hash() const { return hash_text(talus::state_hash(world())); }
+std::optional<double> Simulation::theta_c() const {
+  const std::optional<double> angle = state_->session.angle_of_repose();
+  return angle ? std::optional(degrees(*angle)) : std::nullopt;
+}
+const RunStatics& Simulation::statics() const { return state_->statics; }
+
+void Simulation::set_analysis(const std::vector<std::string>& settings) {
+  state_->parameters = parse_analysis_settings(settings);
+  state_->measured.reset();
+}
+
+double Simulation::quantity(std::string_view name) { return state_->measure().quantity(name); }
+const Frame& Simulation::frame() { return state_->measure().input().frame; }
+std::vector<double> Simulation::grain_values(std::string_view name) {
+  return state_->measure().grain_values(name);
+}
+std::vector<double> Simulation::contact_values(std::string_view name) {
+  return state_->measure().contact_values(name);
+}
+Image Simulation::draw(const std::string& map, MapOptions options) {
+  return state_->measure().draw(map, std::move(options));
+}
+
+void Simulation::record(const std::string& path, bool overwrite) {
+  State& state = *state_;
+  if (state.recorder) throw Error(ExitCode::usage, "the simulation is being recorded already");
+  if (done()) throw Error(ExitCode::usage, "the run is over: there is nothing more to record");
+  RunOrigin origin = state.origin;
+  const World& now = world();
+  if (!state.is_new)
+    origin.branch =
+        BranchOrigin{"a program", 0, hash_text(talus::state_hash(now)), state.session.checkpoint(0.0)};
+  state.session.clear_segment();
+  state.store.emplace(
+      RunStore::create(path, run_header(state.session, with_bed(origin, state.session)), overwrite));
+  state.recorder.emplace(state.session, *state.store);
+  if (!state.is_new) state.session.record_start();
+  state.recorder->commit();
+}
+
+bool Simulation::recorded() const { return state_->recorder.has_value(); }
+
+void Simulation::commit() {
+  if (state_->recorder) state_->recorder->commit();
+}
+
+}  // namespace talus

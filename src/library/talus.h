@@ -1,0 +1,7 @@
+#pragma once
+/// All of Talus as a library. docs/library.md shows how it is used.
+
+#include "core/errors.h"
+#include "core/version.h"
+#include "library/simulation.h"
+#include "render/png.h"
