@@ -28,6 +28,14 @@ def _extension() -> Any:
     return _core
 
 
+def _path(path: Any) -> str:
+    """A path as a text. Throws WrongType where it is none."""
+    text = os.fsdecode(path) if isinstance(path, str | bytes | os.PathLike) else ""
+    if not text:
+        raise WrongType(f"{short(path)}: expected the path of a file")
+    return text
+
+
 def _toml(value: Any, key: str) -> str:
     """A value of Python as TOML writes it. Throws WrongType where TOML has none."""
     if isinstance(value, bool | np.bool_):
@@ -46,16 +54,21 @@ def _toml(value: Any, key: str) -> str:
     raise WrongType(f"{key} = {short(value)}: expected a number, a text, True or False, or a list of these")
 
 
-def _settings(values: Mapping[str, Any], before: str = "") -> list[str]:
-    """Keys and values, also those of tables in tables, as `--set` has them."""
-    found = []
-    for key, value in values.items():
+def _values(keys: Mapping[str, Any], before: str = "") -> dict[str, str]:
+    """Keys with their values in TOML, also those of tables in tables."""
+    found: dict[str, str] = {}
+    for key, value in keys.items():
         name = before + check_text(key, "key")
-        if isinstance(value, Mapping):
-            found += _settings(value, name + ".")
-        else:
-            found.append(f"{name}={_toml(value, name)}")
+        found |= _values(value, name + ".") if isinstance(value, Mapping) else {name: _toml(value, name)}
     return found
+
+
+def _settings(*mappings: Mapping[str, Any]) -> list[str]:
+    """All of them as `--set` has them; of keys that are there several times, the last."""
+    values: dict[str, str] = {}
+    for keys in mappings:
+        values |= _values(keys)
+    return [f"{key}={value}" for key, value in values.items()]
 
 
 class Image(np.ndarray):
@@ -206,15 +219,10 @@ class Simulation:
     def __init__(self, scenario: str | os.PathLike[str] | Mapping[str, Any] | None = None, /, *, threads: int = 1,
                  progress: bool | None = None, **settings: Any) -> None:
         core = _extension()
-        keys: list[str] = []
-        path = ""
-        if isinstance(scenario, Mapping):
-            keys = _settings(scenario)
-        elif scenario is not None:
-            path = os.fspath(scenario)
-            if not isinstance(path, str) or not path:
-                raise WrongType(f"scenario {short(scenario)}: expected the path of a file, or a mapping of keys")
-        self._begin(core.Simulation(path, keys + _settings(settings)), progress)
+        if scenario is None or isinstance(scenario, Mapping):
+            self._begin(core.Simulation("", _settings(scenario or {}, settings)), progress)
+        else:
+            self._begin(core.Simulation(_path(scenario), _settings(settings)), progress)
         if threads != 1:
             self._core._use_threads(threads)
 
@@ -423,7 +431,7 @@ class Simulation:
     def record(self, path: str | os.PathLike[str], *, overwrite: bool = False) -> None:
         """Records what happens from now on as a run, which `talus replay` repeats: an ordinary one before the first step, and
         later one that branches off from the state as it is."""
-        self._core._record(os.fspath(path), overwrite)
+        self._core._record(_path(path), overwrite)
 
     @property
     def recorded(self) -> bool:
@@ -449,7 +457,7 @@ class Simulation:
 def resume(path: str | os.PathLike[str], *, threads: int = 1, progress: bool | None = None) -> Simulation:
     """A recorded run that was stopped, where its last commit left it, as a Simulation that goes on in the same file."""
     simulation = object.__new__(Simulation)
-    simulation._begin(_extension().Simulation._resume(os.fspath(path)), progress)
+    simulation._begin(_extension().Simulation._resume(_path(path)), progress)
     if threads != 1:
         simulation._core._use_threads(threads)
     return simulation

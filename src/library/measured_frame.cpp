@@ -13,6 +13,7 @@
 #include "core/trigonometry.h"
 #include "core/visible_text.h"
 #include "io/run_file.h"
+#include "pictures/map_plan.h"
 #include "pictures/maps.h"
 #include "render/renderer.h"
 #include "runs/analysis_parameters.h"
@@ -130,7 +131,8 @@ MeasuredFrame measured_frame(const std::string& path, std::size_t k,
   input.frame = run.frame(k);
   input.statics = run.header().statics;
   input.parameters = parse_analysis_settings(settings);
-  input.theta_c = find_value(run.checkpoint().results, "theta_c");
+  const double theta_c = find_value(run.checkpoint().results, "theta_c").value_or(not_known);
+  if (std::isfinite(theta_c)) input.theta_c = theta_c;
   input.begin = run.frame(0);
   for (const ObservableRow& row : run.observables())
     if (at(row, Observable::time) <= run.all_frame_times()[k]) input.row = row;

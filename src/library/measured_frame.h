@@ -4,13 +4,15 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "analysis/parameters.h"
 #include "analysis/record.h"
+#include "core/bed_frame.h"
 #include "core/observables.h"
 #include "core/snapshot.h"
-#include "pictures/map_plan.h"
+#include "pictures/map_options.h"
 #include "render/image.h"
 
 namespace talus {

@@ -12,10 +12,12 @@
 #include <vector>
 
 #include "core/command.h"
+#include "core/snapshot.h"
 #include "core/world.h"
-#include "library/measured_frame.h"
+#include "pictures/map_options.h"
+#include "render/image.h"
 #include "scenario/scenario.h"
-#include "session/schedule.h"
+#include "session/phase.h"
 
 namespace talus {
 

@@ -3,5 +3,6 @@
 
 #include "core/errors.h"
 #include "core/version.h"
+#include "library/measured_frame.h"
 #include "library/simulation.h"
 #include "render/png.h"

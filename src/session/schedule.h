@@ -11,11 +11,9 @@
 #include "io/run_store.h"
 #include "session/guards.h"
 #include "session/measure.h"
+#include "session/phase.h"
 
 namespace talus {
-
-/// Flow: what follows failure where the scenario asks for it (tilt.after_failure), until the bed is at rest.
-enum class Phase : std::int64_t { deposition = 0, tilt = 1, done = 2, flow = 3 };
 
 /// How well the steps were solved so far.
 struct SolverRecord {

@@ -12,7 +12,11 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "python"), str(ROOT / "docs/images/cookbook")]
+BUILD = Path(os.environ.get("TALUS_BUILD", ROOT / "build/release"))
+# With the extension, if the build has made it.
+PACKAGE = BUILD / "python" if any((BUILD / "python/talus").glob("_core*.so")) else ROOT / "python"
+sys.path[:0] = [str(PACKAGE), str(ROOT / "docs/images/cookbook")]
+os.environ["PYTHONPATH"] = f"{PACKAGE}:{os.environ.get('PYTHONPATH', '')}"
 pytest.importorskip("h5py", reason="h5py is not installed: python3-h5py")
 pytest.importorskip("xxhash", reason="xxhash is not installed: python3-xxhash")
 

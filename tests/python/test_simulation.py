@@ -1,0 +1,240 @@
+"""A run that a script drives: bits, views, errors, threads, and docs/python.md as it is printed."""
+
+import copy
+import json
+import os
+import pickle
+import re
+import signal
+import subprocess
+import sys
+import threading
+import time
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+import pytest
+import talus
+from conftest import PROGRAM, ROOT
+
+pytest.importorskip("talus._core", reason="the extension is not built: pybind11-dev, python3-dev")
+
+BED = {"seed": 3, "bed": {"length": 12, "depth": 7}, "deposition": {"rate": 2, "rest_velocity": 0.1},
+       "tilt": {"rate": 40, "step": 0.1}, "output": {"frame_every": 2, "observable_every": 0.5}}
+
+
+def bed(**settings):
+    return talus.Simulation(BED, **settings)
+
+
+def state_of(path):
+    """The state hash of a run, as `talus info` tells it."""
+    return json.loads(subprocess.run([PROGRAM, "info", path, "--json"], check=True, capture_output=True).stdout)["state_hash"]
+
+
+@pytest.fixture(scope="module")
+def reference(tmp_path_factory):
+    """The state hash and theta_c of `talus run`, and its file."""
+    folder = tmp_path_factory.mktemp("reference")
+    scenario = folder / "bed.toml"
+    scenario.write_text(bed().scenario)
+    subprocess.run([PROGRAM, "run", scenario, "-o", folder / "run.h5", "-q"], check=True)
+    return talus.open(folder / "run.h5")
+
+
+@pytest.mark.chosen
+def test_chunks_have_the_bits_of_a_run(reference, tmp_path):
+    rng = np.random.default_rng(1)
+    for trial in range(6):
+        sim = bed(threads=1 + trial % 2)
+        if trial % 2:
+            sim.record(tmp_path / f"{trial}.h5")
+        while not sim.done:
+            [lambda: sim.step(int(rng.integers(1, 60))), lambda: sim.run(rng.uniform(0, 0.1)), lambda: sim.tilt_by(rng.uniform(0, 3)),
+             lambda: sim.grains["lc"], lambda: sim.draw("gamma", width=200) if trial == 0 else None][rng.integers(5)]()
+        assert sim.state_hash == state_of(reference.path)
+        assert sim.theta_c == pytest.approx(np.degrees(reference.results["theta_c"]), abs=1e-9)
+        if trial % 2:
+            other = talus.open(tmp_path / f"{trial}.h5")
+            assert other.complete
+            np.testing.assert_array_equal(other.frames[-1].position, reference.frames[-1].position)
+
+
+def test_a_script_is_replayed_without_python(tmp_path):
+    sim = bed()
+    sim.record(tmp_path / "run.h5")
+    sim.tilt_to(3)
+    sim.push([1, 2], (0.1, 0.0))
+    sim.friction = 0.3
+    sim.run()
+    done = subprocess.run([PROGRAM, "replay", tmp_path / "run.h5"], capture_output=True, text=True)
+    assert done.returncode == 0 and sim.state_hash in done.stdout
+
+
+def test_a_stopped_run_goes_on_on_either_side(tmp_path):
+    whole = bed()
+    whole.run()
+    sim = bed()
+    sim.record(tmp_path / "a.h5")
+    sim.tilt_to(4)
+    sim.commit()
+    del sim
+    resumed = talus.resume(tmp_path / "a.h5")
+    resumed.run()
+    assert resumed.state_hash == whole.state_hash
+    sim = bed()
+    sim.record(tmp_path / "b.h5")
+    sim.tilt_to(4)
+    sim.commit()
+    del sim
+    done = subprocess.run([PROGRAM, "run", "--resume", tmp_path / "b.h5"], capture_output=True, text=True)
+    assert done.returncode == 0 and whole.state_hash in done.stdout
+
+
+@pytest.mark.chosen
+def test_views_stay_valid():
+    sim = bed()
+    first = sim.grains.position
+    assert not first.flags.writeable and first.base is not None
+    with pytest.raises(ValueError):
+        first[0, 0] = 1
+    address = first.__array_interface__["data"][0]
+    sim.deposit()
+    now = sim.grains.position
+    assert now.__array_interface__["data"][0] == address and len(now) > len(first)
+    np.testing.assert_array_equal(first, now[: len(first)])
+    other = sim.copy()
+    before = now.copy()
+    other.tilt_to(2)
+    np.testing.assert_array_equal(now, before)
+    sim.step(5)
+    assert (now != before).any(), "a view follows the steps"
+    velocity, contacts = other.grains.velocity, other.contacts.force
+    del sim, other
+    assert np.isfinite(now).all() and np.isfinite(velocity).all() and np.isfinite(contacts).all()
+
+
+def test_frames_of_files_have_the_same_names(tmp_path):
+    sim = bed()
+    sim.analyse_with(gamma_c=0.3)
+    sim.record(tmp_path / "run.h5")
+    sim.tilt_to(4)
+    pressure, tilt = sim.grains["pressure"], sim.tilt
+    sim.run()
+    run = talus.open(tmp_path / "run.h5")
+    frame = run.frame_at(tilt)
+    assert np.degrees(frame.tilt) == pytest.approx(tilt)
+    np.testing.assert_allclose(frame.grains["pressure"], pressure, rtol=1e-4, atol=1)
+    assert 0 <= frame["overloaded/fraction"] <= 1
+    assert frame.draw("gamma", width=300).shape[1:] == (300, 4)
+    assert len(frame.grains) == len(frame.grains.position) == len(pressure)
+
+
+@pytest.mark.chosen
+def test_what_is_wrong_is_said(tmp_path):
+    sim = bed()
+    sim.record(tmp_path / "run.h5")
+    for wrong, code in [(lambda: sim["overload"], 64), (lambda: sim.tilt_to(float("nan")), 64), (lambda: sim.step(-1), 64),
+                        (lambda: sim.push(10**6, (0, 0)), 64), (lambda: sim.draw("gama"), 64), (lambda: sim.grains["nope"], 64),
+                        (lambda: sim.record(tmp_path / "run.h5"), 64), (lambda: sim.draw("gamma", width=-3), 64),
+                        (lambda: talus.Simulation({"bed.length": -1}), 65), (lambda: talus.Simulation("no.toml"), 66),
+                        (lambda: talus.resume(tmp_path / "no.h5"), 66), (lambda: talus.Simulation({"bed": {"lenght": 3}}), 65),
+                        (lambda: bed(threads=0), 64), (lambda: bed().record(tmp_path / "no/no/run.h5"), 73)]:
+        with pytest.raises(talus.Error) as raised:
+            wrong()
+        assert raised.value.exit_code == code, raised.value
+    for wrong in [lambda: sim.step("a"), lambda: sim.tilt_to(None), lambda: sim.push("a", (0, 0)), lambda: sim.push(1, (0, 0, 0)),
+                  lambda: sim.push(2**40, (0, 0)), lambda: sim.drag(1, ("a", 0)), lambda: sim.draw(3), lambda: sim.draw(nope=1),
+                  lambda: sim.draw(length="a"), lambda: sim[3], lambda: sim.grains[3], lambda: talus.Simulation(3.0),
+                  lambda: talus.Simulation({3: 4}), lambda: talus.Simulation({"bed.length": object()}), lambda: pickle.dumps(sim),
+                  lambda: setattr(sim, "friction", "a"), lambda: talus.Simulation("")]:
+        with pytest.raises((talus.Error, TypeError)):
+            wrong()
+    sim.run()
+    with pytest.raises(talus.Error, match="the run is over"):
+        sim.step()
+
+
+def test_threads_run_side_by_side_and_not_in_one_simulation():
+    beds = [bed() for _ in range(2)]
+    with ThreadPoolExecutor(2) as pool:
+        list(pool.map(lambda sim: sim.run(), beds))
+    assert beds[0].state_hash == beds[1].state_hash
+    shared, refused = bed(), []
+
+    def use():
+        for _ in range(200):
+            try:
+                shared.step(1)
+                shared.tilt, shared.grains.position.sum()
+            except talus.Error as error:
+                refused.append(str(error))
+
+    threads = [threading.Thread(target=use) for _ in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert all("another thread" in text or "over" in text for text in refused)
+
+
+def test_callbacks_may_throw_and_step():
+    sim = bed()
+    with pytest.raises(ZeroDivisionError):
+        sim.run(until=lambda: 1 / 0)
+    sim.run(until=lambda: sim.step(2) or sim.step_count > 20)
+    assert sim.step_count > 20
+    other = copy.deepcopy(sim)
+    sim.run(0.05, until=lambda: False, every=0.01)
+    other.run(0.05)
+    assert sim.state_hash == other.state_hash
+
+
+SCRIPT = f"import talus\nsim = talus.Simulation({BED!r}, **{{'bed.length': 60, 'bed.depth': 30, 'tilt.rate': 1, 'tilt.step': 0.005}})\n"
+
+
+def test_ctrl_c_leaves_a_whole_state():
+    script = SCRIPT + ("print('go', flush=True)\ntry:\n    sim.run()\nexcept KeyboardInterrupt:\n"
+                       "    print('stopped', sim.step_count)\n    sim.step(2)\n    print('whole', sim.state_hash)\n")
+    process = subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, text=True, env=os.environ)
+    assert process.stdout.readline() == "go\n"
+    time.sleep(0.5)
+    process.send_signal(signal.SIGINT)
+    out, _ = process.communicate(timeout=60)
+    assert process.returncode == 0 and "stopped" in out and "whole" in out
+
+
+def test_the_interpreter_ends_while_a_bed_is_stepped():
+    script = SCRIPT + ("import threading\nthreading.Thread(target=sim.run, daemon=True).start()\nimport time\ntime.sleep(0.3)\n"
+                       "print('end', flush=True)\n")
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=60)
+    assert done.returncode == 0 and done.stdout == "end\n", done.stderr
+
+
+def test_memory_stays_flat():
+    import resource
+
+    sim = bed(tilt={"rate": 0.5, "step": 0.002})
+    sim.deposit()
+    sim.tilt_rate = 0
+    views = []
+
+    def peak_after(steps):
+        for _ in range(steps // 50):
+            sim.step(50)
+            views.append(sim.grains.position)
+            sim.contacts.force, sim["kinetic_energy"]
+            del views[:-3]
+        return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+
+    first = peak_after(3000)
+    assert peak_after(6000) - first < 8 * 1024  # kB
+
+
+def test_the_page_runs_as_it_is_printed(tmp_path):
+    text = (ROOT / "docs/python.md").read_text()
+    code = "\n".join(re.findall(r"^```python\n(.*?)^```$", text, re.MULTILINE | re.DOTALL))
+    (tmp_path / "assets").symlink_to(ROOT / "assets")
+    done = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, env=os.environ)
+    assert done.returncode == 0, done.stderr
+    assert (tmp_path / "held.png").stat().st_size > 1000 and (tmp_path / "last.png").stat().st_size > 1000

@@ -1,0 +1,200 @@
+/// A run that a program drives has the bits of one that is carried through, and can be looked at at any time.
+
+#include "library/simulation.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "core/errors.h"
+#include "core/hash.h"
+#include "core/random.h"
+#include "io/run_file.h"
+#include "session/run.h"
+#include "session/run_header.h"
+#include "support/exit_code.h"
+#include "support/small_bed.h"
+#include "support/temporary_folder.h"
+
+namespace talus {
+namespace {
+
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+constexpr std::int64_t to_the_end = 1'000'000;
+
+/// Poured, so that grains arrive while it is looked at.
+Scenario poured_bed() {
+  Scenario scenario = test::small_tilted_bed(3.0);
+  scenario.deposition.method = DepositionMethod::pour;
+  return scenario;
+}
+
+/// The state at the end of a run that nothing interrupts.
+std::string end_of(const Scenario& scenario) {
+  Session session(scenario);
+  replay(session, nullptr, {}, to_the_end, {});
+  return hash_text(state_hash(session.world()));
+}
+
+/// The state that the commands and the start of a file lead to.
+std::string replayed(const RunFile& run) {
+  Session session = session_at_start(run.header(), "run");
+  replay(session, nullptr, run.commands(), to_the_end, {});
+  return hash_text(state_hash(session.world()));
+}
+
+class SimulationOfChance : public testing::TestWithParam<int> {};
+
+TEST_P(SimulationOfChance, has_the_same_bits) {
+  const Scenario scenario = poured_bed();
+  const test::TemporaryFolder folder;
+  Random random(static_cast<std::uint64_t>(GetParam()));
+  Simulation sim(scenario);
+  sim.use_threads(1 + GetParam() % 2);
+  const bool recorded = GetParam() % 3 == 0;
+  if (recorded) sim.record(folder.path("run.h5"));
+  while (!sim.done()) {
+    const double choice = random.uniform(0.0, 6.0);
+    if (choice < 1.0)
+      sim.step(1 + static_cast<std::int64_t>(random.uniform(0.0, 40.0)));
+    else if (choice < 2.0)
+      sim.run(random.uniform(0.0, 0.02));
+    else if (choice < 3.0)
+      sim.tilt_by(random.uniform(0.0, 0.3));
+    else if (choice < 4.0)
+      sim.grain_values("gamma_neighbourhood");
+    else if (choice < 5.0)
+      sim.quantity("lc/mean");
+    else if (!recorded)
+      sim = Simulation(sim);
+    else
+      sim.commit();
+  }
+  EXPECT_EQ(sim.state_hash(), end_of(scenario));
+  if (recorded) EXPECT_TRUE(RunFile::open(folder.path("run.h5")).complete());
+}
+
+INSTANTIATE_TEST_SUITE_P(Chunks, SimulationOfChance, testing::Range(0, 30));
+
+TEST(Simulation, that_is_recorded_goes_on_where_it_was_left) {
+  const test::TemporaryFolder folder;
+  {
+    Simulation sim(poured_bed());
+    sim.record(folder.path("run.h5"));
+    sim.tilt_to(1.0);
+  }
+  Simulation sim = Simulation::resume(folder.path("run.h5"));
+  EXPECT_NEAR(sim.tilt(), 1.0, 0.5);
+  sim.finish();
+  EXPECT_EQ(sim.state_hash(), end_of(poured_bed()));
+  EXPECT_TRUE(RunFile::open(folder.path("run.h5")).complete());
+}
+
+TEST(Simulation, is_repeated_from_its_file_with_its_commands) {
+  const test::TemporaryFolder folder;
+  Simulation sim(poured_bed());
+  sim.record(folder.path("run.h5"));
+  sim.deposit();
+  sim.push(3, {0.1, 0.2});
+  sim.step(5);
+  sim.set_friction(0.3);
+  sim.drag(4, {0.02, 0.03});
+  sim.step(3);
+  sim.release();
+  sim.drop(2, 0.01, 0.01);
+  sim.finish();
+  EXPECT_NE(sim.state_hash(), end_of(poured_bed()));
+  EXPECT_EQ(replayed(RunFile::open(folder.path("run.h5"))), sim.state_hash());
+}
+
+TEST(Simulation, that_is_recorded_later_is_a_branch_which_can_be_repeated) {
+  for (const bool pushed_at_start : {false, true}) {
+    const test::TemporaryFolder folder;
+    Simulation sim(pushed_at_start ? test::small_tilted_bed(2.0) : poured_bed());
+    if (!pushed_at_start) sim.tilt_to(1.0);
+    sim.push(2, {0.05, 0.0});
+    sim.record(folder.path("run.h5"));
+    sim.set_friction(0.4);
+    sim.finish();
+    const RunFile run = RunFile::open(folder.path("run.h5"));
+    EXPECT_TRUE(run.header().branch.has_value());
+    EXPECT_EQ(replayed(run), sim.state_hash()) << pushed_at_start;
+  }
+}
+
+TEST(Simulation, has_its_grains_where_they_were_while_more_arrive) {
+  Simulation sim(poured_bed());
+  const double* x = sim.world().grains.x.data();
+  const Index first = sim.world().grains.count();
+  sim.deposit();
+  EXPECT_GT(sim.world().grains.count(), first);
+  sim.finish();
+  EXPECT_EQ(sim.world().grains.x.data(), x);
+  Simulation copy = Simulation(poured_bed());
+  copy.step(3);
+  copy = Simulation(copy);
+  x = copy.world().grains.x.data();
+  copy.finish();
+  EXPECT_EQ(copy.world().grains.x.data(), x);
+}
+
+TEST(Simulation, stops_at_its_goals) {
+  Simulation sim(test::small_tilted_bed(5.0));
+  sim.step(2);
+  EXPECT_EQ(sim.world().step, 2);
+  sim.deposit();
+  EXPECT_EQ(sim.phase(), Phase::tilt);
+  EXPECT_EQ(sim.tilt(), 0.0);
+  sim.tilt_to(2.0);
+  EXPECT_NEAR(sim.tilt(), 2.0, 0.021);
+  sim.tilt_by(0.5);
+  EXPECT_NEAR(sim.tilt(), 2.5, 0.021);
+  const double time = sim.world().time;
+  sim.set_tilt_rate(0.0);
+  sim.run(0.05);
+  EXPECT_NEAR(sim.world().time - time, 0.05, 1e-3);
+  EXPECT_NEAR(sim.tilt(), 2.5, 0.021);
+  EXPECT_EQ(sim.tilt_rate(), 0.0);
+}
+
+TEST(Simulation, is_interrupted_between_two_steps) {
+  Simulation sim(poured_bed());
+  sim.interrupt_if([] { return true; });
+  EXPECT_FALSE(sim.run_until([&sim] { return sim.done(); }) && !sim.done());
+  sim.interrupt_if([]() -> bool { throw std::runtime_error("enough"); });
+  EXPECT_NO_THROW(sim.step(0));
+  sim.interrupt_if({});
+  sim.finish();
+  EXPECT_EQ(sim.state_hash(), end_of(poured_bed()));
+}
+
+TEST(Simulation, refuses_what_cannot_be) {
+  const test::TemporaryFolder folder;
+  Simulation sim(test::small_tilted_bed(1.0));
+  const auto refused = [](const auto& call) { return exit_code_of(call); };
+  EXPECT_EQ(refused([&] { sim.step(-1); }), ExitCode::usage);
+  EXPECT_EQ(refused([&] { sim.tilt_to(not_a_number); }), ExitCode::usage);
+  EXPECT_EQ(refused([&] { sim.run(not_a_number); }), ExitCode::usage);
+  EXPECT_EQ(refused([&] { sim.use_threads(0); }), ExitCode::usage);
+  EXPECT_EQ(refused([&] { sim.push(1000, {0.0, 0.0}); }), ExitCode::usage);
+  EXPECT_EQ(refused([&] { sim.quantity("overload/fraction"); }), ExitCode::usage);
+  EXPECT_EQ(refused([&] { sim.quantity("lc/mean[7]"); }), ExitCode::usage);
+  EXPECT_EQ(refused([&] { sim.quantity("lc/mean[x]"); }), ExitCode::usage);
+  EXPECT_EQ(refused([&] { sim.grain_values(""); }), ExitCode::usage);
+  EXPECT_EQ(refused([&] { sim.contact_values("gamma"); }), ExitCode::usage);
+  EXPECT_EQ(refused([&] { sim.draw("gama"); }), ExitCode::usage);
+  sim.deposit();
+  sim.set_tilt_rate(0.0);
+  EXPECT_EQ(refused([&] { sim.tilt_by(1.0); }), ExitCode::usage) << "it never gets there";
+  sim.set_tilt_rate(20.0);
+  sim.record(folder.path("run.h5"));
+  EXPECT_EQ(refused([&] { sim.record(folder.path("other.h5")); }), ExitCode::usage);
+  sim.finish();
+  EXPECT_EQ(refused([&] { sim.step(); }), ExitCode::usage);
+  EXPECT_EQ(refused([&] { sim.set_friction(0.2); }), ExitCode::usage);
+  EXPECT_EQ(refused([&] { Simulation::resume(folder.path("none.h5")); }), ExitCode::missing_input);
+}
+
+}  // namespace
+}  // namespace talus
