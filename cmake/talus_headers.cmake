@@ -8,5 +8,6 @@ set(TALUS_HEADERS <algorithm> <array> <charconv> <chrono> <cmath> <cstddef> <cst
 file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/generated/precompiled.cpp CONTENT "// The headers alone.\n")
 add_library(talus_headers OBJECT ${CMAKE_BINARY_DIR}/generated/precompiled.cpp)
 target_link_libraries(talus_headers PRIVATE talus_core)
+set_target_properties(talus_headers PROPERTIES POSITION_INDEPENDENT_CODE ON) # as the rooms have it
 target_compile_options(talus_headers PRIVATE ${TALUS_ROOM_OPTIONS})
 target_precompile_headers(talus_headers PRIVATE ${TALUS_HEADERS})

@@ -4,6 +4,8 @@ function(talus_room name)
   cmake_parse_arguments(ROOM "" "" "LINK" ${ARGN})
   add_library(talus_${name} STATIC ${ROOM_UNPARSED_ARGUMENTS})
   target_link_libraries(talus_${name} PUBLIC talus_options ${ROOM_LINK})
+  # For the shared library and the extension of Python.
+  set_target_properties(talus_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
   target_compile_options(talus_${name} PRIVATE ${TALUS_ROOM_OPTIONS})
   if(TALUS_EMBEDDED)
     talus_embed_into(talus_${name} ${TALUS_EMBEDDED})

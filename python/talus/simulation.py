@@ -14,7 +14,7 @@ from talus.errors import MissingPackage, WrongType, WrongValue, check_text, shor
 try:
     from talus import _core
 except ImportError as missing:
-    _core = None
+    _core = None  # type: ignore[assignment]
     _missing = missing
 else:
     atexit.register(_core._end_steps)

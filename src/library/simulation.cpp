@@ -225,6 +225,11 @@ void Simulation::record(const std::string& path, bool overwrite) {
   State& state = *state_;
   if (state.recorder) throw Error(ExitCode::usage, "the simulation is being recorded already");
   if (done()) throw Error(ExitCode::usage, "the run is over: there is nothing more to record");
+  if (!state.is_new && phase() == Phase::deposition)
+    throw Error(
+        ExitCode::usage,
+        "a bed that is being deposited cannot be recorded from here on: record it before its first step, or "
+        "once it rests (deposit)");
   RunOrigin origin = state.origin;
   const World& now = world();
   if (!state.is_new)

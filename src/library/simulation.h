@@ -97,9 +97,9 @@ class Simulation {
 
   // Recording.
 
-  /// From now on what happens is recorded as a run: an ordinary one before the first step, and later one that
-  /// branches off from the state as it is. Throws Error(cannot_create), and Error(usage) if it is recorded
-  /// already.
+  /// From now on what happens is recorded as a run: an ordinary one before the first step, and after the
+  /// deposition one that branches off from the state as it is. Throws Error(cannot_create), and Error(usage)
+  /// if it is recorded already.
   void record(const std::string& path, bool overwrite = false);
   bool recorded() const;
   /// Makes all that was recorded durable. It is done at each frame, at the end, and when the simulation goes.

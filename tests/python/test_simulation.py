@@ -1,6 +1,7 @@
 """A run that a script drives: bits, views, errors, threads, and docs/python.md as it is printed."""
 
 import copy
+import importlib.util
 import json
 import os
 import pickle
@@ -238,3 +239,11 @@ def test_the_page_runs_as_it_is_printed(tmp_path):
     done = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, env=os.environ)
     assert done.returncode == 0, done.stderr
     assert (tmp_path / "held.png").stat().st_size > 1000 and (tmp_path / "last.png").stat().st_size > 1000
+
+
+def test_types_are_those_of_the_stubs():
+    if importlib.util.find_spec("mypy") is None:
+        pytest.skip("mypy is not installed: python3-mypy")
+    done = subprocess.run([sys.executable, "-m", "mypy", "--ignore-missing-imports", "--follow-imports=silent", "--cache-dir", os.devnull,
+                           "talus/simulation.py", "talus/frame.py"], cwd=ROOT / "python", capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout

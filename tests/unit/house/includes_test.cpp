@@ -28,6 +28,8 @@ const std::map<std::string, std::vector<std::string>> rooms = {
     {"scenario", {"core/"}},
     {"runs", {"analysis/", "core/", "io/", "scenario/", "stress/"}},
     {"session", {"contact/", "core/", "dynamics/", "io/", "runs/", "scenario/", "stress/"}},
+    {"library",
+     {"analysis/", "core/", "io/", "pictures/", "render/", "runs/", "scenario/", "session/"}},
     {"problems", {"analysis/", "core/", "dynamics/", "io/", "runs/", "scenario/", "session/", "solver/"}},
     {"pictures", {"analysis/", "core/", "io/", "render/", "stress/"}},
     {"ensemble", {"analysis/", "core/", "io/", "runs/", "scenario/", "session/", "stress/"}},

@@ -52,9 +52,10 @@ TEST(MeasuredFrame, of_a_live_run_has_the_quantities_of_its_grains) {
   for (const bool tilted : {false, true}) {
     if (tilted) sim.tilt_to(5.0);
     const auto count = static_cast<std::size_t>(sim.world().grains.count());
-    for (const FrameQuantity& quantity : grain_quantities())
-      if (!quantity.name.empty())
-        EXPECT_EQ(sim.grain_values(quantity.name).size(), components(quantity) * count) << quantity.name;
+    for (const FrameQuantity& quantity : grain_quantities()) {
+      if (quantity.name.empty()) continue;
+      EXPECT_EQ(sim.grain_values(quantity.name).size(), components(quantity) * count) << quantity.name;
+    }
     for (const FrameQuantity& quantity : contact_quantities())
       EXPECT_EQ(sim.contact_values(quantity.name).size(),
                 components(quantity) * static_cast<std::size_t>(sim.frame().contacts.count()))
