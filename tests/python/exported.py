@@ -22,11 +22,57 @@ def gamma_of_neighbourhoods(run, frame, diameter=3.0):
     return gamma
 
 
+def mobilised_friction(run, frame):
+    """Of each free grain: the mean over its contacts of |f_t| / (mu f_n), with the mu of side walls for theirs."""
+    found, count = frame.contacts, len(run.id)
+    f_n, f_t = np.abs(found.force).T
+    wall = (found.pair[:, 1] >= count) & (np.abs(found.normal[:, 0]) > 0.5)
+    share = np.minimum(f_t / (np.where(wall, run.scenario["contact"]["wall_friction"], run["parameters/friction"]) * f_n), 1)
+    sums, contacts = np.zeros(count), np.zeros(count)
+    for body in found.pair.T:
+        np.add.at(sums, body[body < count], share[body < count])
+        np.add.at(contacts, body[body < count], 1)
+    return np.where(frame.free & (contacts > 0), sums / np.maximum(contacts, 1), np.nan)
+
+
+def solid_fractions(run, frame):
+    """Of each free grain: its area over that of its cell in the radical diagram of all disks, which is cut out of a box by
+    one half-plane after the other; NaN if a corner of the cell is farther from the disk than a power of 0.75 D^2."""
+    d = run["parameters/mean_diameter"]
+    fractions = np.full(len(run.id), np.nan)
+    for i in np.flatnonzero(frame.free):
+        r = run.radius[i]
+        away = frame.position - frame.position[i]
+        if run.periodic:
+            away[:, 0] -= run.length * np.round(away[:, 0] / run.length)
+        distance = np.hypot(*away.T)
+        near = np.flatnonzero((distance > 0) & (distance < 6 * d))
+        cuts = [(away[j] / distance[j], (distance[j] ** 2 + r**2 - run.radius[j] ** 2) / (2 * distance[j])) for j in near]
+        if not run.periodic:
+            x = frame.position[i, 0]
+            cuts += [(np.array([-1.0, 0.0]), x), (np.array([1.0, 0.0]), run.length - x)]
+        if frame.free.all():  # the floor is a plane
+            cuts.append((np.array([0.0, -1.0]), frame.position[i, 1]))
+        cell = 3 * d * np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
+        for normal, height in cuts:
+            beyond = cell @ normal - height
+            kept = []
+            for a, b, from_, to in zip(beyond, np.roll(beyond, -1), cell, np.roll(cell, -1, axis=0)):
+                kept += [from_] if a <= 0 else []
+                kept += [from_ + (to - from_) * (a / (a - b))] if a * b < 0 else []
+            cell = np.array(kept)
+        if (np.hypot(*cell.T) ** 2 - r**2).max() <= 0.75 * d**2 * (1 + 1e-9):
+            x, y = cell.T
+            fractions[i] = np.pi * r**2 / (0.5 * (x * np.roll(y, -1) - y * np.roll(x, -1)).sum())
+    return fractions
+
+
 def grains(run, k):
     """Fields of all grains by their names, (N,) or (N, components)."""
     frame, first = run.frames[k], run.frames[0]
     moment = frame.internal_moment
     ends = frame.contacts.pair[frame.contacts.pair < len(run.id)]
+    sliding = frame.contacts.pair[frame.contacts.status == 2]
     fields = {
         "id": run.id,
         "type": np.where(frame.free, 1, 2),
@@ -42,6 +88,10 @@ def grains(run, k):
         "gamma": frame.gamma,
         "gamma_neighbourhood": gamma_of_neighbourhoods(run, frame),
         "coordination": np.bincount(ends, minlength=len(run.id)),
+        "sliding": np.bincount(sliding[sliding < len(run.id)], minlength=len(run.id)),
+        "speed": np.hypot(*frame.velocity.T),
+        "mobilised_friction": mobilised_friction(run, frame),
+        "solid_fraction": solid_fractions(run, frame),
     }
     if "version" in run.storage.names("analysis"):
         for f, factor in enumerate(THRESHOLDS):
