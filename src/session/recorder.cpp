@@ -2,8 +2,10 @@
 
 namespace talus {
 
-void Recorder::commit() {
-  store_->commit(session_->segment(), session_->checkpoint(store_->seconds_writing()));
+void Recorder::commit(const std::vector<TrialRow>& trials) {
+  Segment segment = session_->segment();
+  segment.trials = trials;
+  store_->commit(segment, session_->checkpoint(store_->seconds_writing()));
   session_->clear_segment();
   last_ = Clock::now();
 }

@@ -2,6 +2,7 @@
 /// What a session records, into its store: when a commit is due, and the last of them.
 
 #include <chrono>
+#include <vector>
 
 #include "session/session.h"
 
@@ -12,8 +13,8 @@ class Recorder {
  public:
   Recorder(Session& session, RunStore& store) : session_(&session), store_(&store) {}
 
-  /// Makes durable what the session has recorded since the last commit, and its state.
-  void commit();
+  /// Makes durable what the session has recorded since the last commit, and its state; with trials of it.
+  void commit(const std::vector<TrialRow>& trials = {});
   /// The same where it is due: with a new frame, or output.checkpoint_every after the last commit.
   void commit_if_due();
 
