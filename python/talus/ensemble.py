@@ -4,6 +4,7 @@ import re
 import tomllib
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from functools import cache
 from pathlib import Path
 from typing import Any, NamedTuple, NoReturn
 
@@ -75,16 +76,16 @@ class Member:
         return open_run(self.path, units)
 
 
-def read_member(variant: str, seed: int, path: Path, scenario: dict[str, Any] | None = None, bed: str = "") -> Member:
-    """What the run file of a member, or what lies beside it, tells of it. `scenario`: that of its variant; `bed`: the hash
-    of its bed, if that is known. Throws as talus.open does, and Error where the run is that of another member, or its
+def read_member(variant: str, seed: int, path: Path, scenario_of: Callable[[str], dict[str, Any]], bed: str = "") -> Member:
+    """What the run file of a member, or what lies beside it, tells of it. `scenario_of`: gives that of a variant; `bed`: the
+    hash of its bed, if that is known. Throws as talus.open does, and Error where the run is that of another member, or its
     analysis is not one that this package reads."""
     if not path.is_file():
         failed = path.with_suffix(".failed").is_file()
         claimed = any(path.parent.glob(path.stem + ".claim-*"))
         return Member(variant, seed, path, "failed" if failed else "claimed" if claimed else "waiting")
     with open_run(path, "D") as run:
-        check_owner(run, seed, scenario or {}, bed)
+        check_owner(run, seed, scenario_of(variant), bed)
         numbers, units = numbers_of(run)
         timing = sum(run["provenance/timing/" + stage] for stage in ("deposition", "tilt"))
         version = "{version} ({git_hash})".format_map({"version": "unknown", "git_hash": "unknown", **run.provenance})
@@ -145,11 +146,10 @@ class Ensemble:
         self.full_names: dict[str, str] = {}
         self._origins: list[dict[str, str]] = []  #: hashes of the scenario and the bed of each variant
         self._read_manifest()
-        scenarios = [self.scenario(variant) for variant in self.variants]
+        scenario_of = cache(self.scenario)  # each is read once, where a member of it is done
         #: All of them, by seed, and of each seed by variant.
-        self.members = [read_member(variant, seed, folder / variant / f"seed-{seed}.h5", scenario, origin.get("bed", ""))
-                        for seed in self.seeds
-                        for variant, origin, scenario in zip(self.variants, self._origins, scenarios)]
+        self.members = [read_member(variant, seed, folder / variant / f"seed-{seed}.h5", scenario_of, origin.get("bed", ""))
+                        for seed in self.seeds for variant, origin in zip(self.variants, self._origins)]
         self._refuse_copies()
 
     def _read_manifest(self) -> None:
