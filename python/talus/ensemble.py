@@ -1,10 +1,10 @@
 """An ensemble: many runs of one scenario in a folder, and the numbers that each has given."""
 
-import csv
 import re
 import tomllib
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from functools import cache
 from pathlib import Path
 from typing import Any, NamedTuple, NoReturn
 
@@ -16,12 +16,15 @@ from talus.manifest import is_sealed
 from talus.optional import need
 from talus.run import Run, as_path
 from talus.run import open as open_run
+from talus.schema import DATA_SETS
+from talus.table import numbered
 from talus.units import Units, check_units
 
 FIRST_LINE = "talus ensemble 1"
-NUMBERS_HEADER = ["quantity", "unit", "value"]
-#: What a table says of a member besides its numbers, and hashes of the files beside it, whose names begin with a dot.
-FACTS = ("state_hash", "version", "seconds", "seed", "scenario", "bed")
+#: Types and shapes of what there is one of in a run, one for each threshold, or one for each strain.
+NUMBERS = tuple(("float64", shape) for shape in ("", "F", "2"))
+#: What a run finds by itself, with the unit in which members have it.
+FOUND = {"theta_r": "deg", "unconverged_steps_deposition": "1", "unconverged_steps": "1"}
 MOST_SEEDS = 10000
 MOST_VARIANTS = 10000
 LARGEST_SEED = 2**63 - 1
@@ -64,39 +67,62 @@ class Member:
     state_hash: str = ""  #: of its last state, once it is done; so are the following
     version: str = ""  #: of the Talus that computed it
     seconds: float = np.nan  #: of its steps
-    numbers: dict[str, float] = field(default_factory=dict)  #: of its seed-*.csv by name; NaN: no value
+    numbers: dict[str, float] = field(default_factory=dict)  #: of its run and analysis, by name; NaN: no value
     units: dict[str, str] = field(default_factory=dict)  #: of the numbers: "deg", "D", "1", ...
 
     def open(self, units: Units = "SI") -> Run:
-        """The run, as talus.open gives it. Throws Error where it is not there: before it has begun, or where the
-        ensemble does not keep it."""
+        """The run, as talus.open gives it; without frames where the ensemble does not keep them. Throws Error where it
+        is not there, before it has begun."""
         return open_run(self.path, units)
 
 
-def read_member(variant: str, seed: int, path: Path, origin: dict[str, str] | None = None) -> Member:
-    """What the files beside the run of a member tell of it. `origin`: hashes of its `scenario` and its `bed`, as far as
-    they are known. Throws Error where its numbers are not what talus wrote, or those of another member."""
-    table = path.with_suffix(".csv")
-    if not table.is_file():
+def read_member(variant: str, seed: int, path: Path, scenario_of: Callable[[str], dict[str, Any]], bed: str = "") -> Member:
+    """What the run file of a member, or what lies beside it, tells of it. `scenario_of`: gives that of a variant; `bed`: the
+    hash of its bed, if that is known. Throws as talus.open does, and Error where the run is that of another member, or its
+    analysis is not one that this package reads."""
+    if not path.is_file():
         failed = path.with_suffix(".failed").is_file()
         claimed = any(path.parent.glob(path.stem + ".claim-*"))
         return Member(variant, seed, path, "failed" if failed else "claimed" if claimed else "waiting")
-    try:
-        rows = list(csv.reader(read_text(table).splitlines()))
-        if rows[0] != NUMBERS_HEADER:
-            raise ValueError
-        texts = {name: value for name, _, value in rows[1:] if name in FACTS}
-        values = [row for row in rows[1:] if row[0] not in FACTS and not row[0].startswith(".")]
-        numbers = {name: float(value) if value else np.nan for name, _, value in values}
-        member = Member(variant, seed, path, "done", texts["state_hash"], texts["version"], float(texts["seconds"]),
-                        numbers, {name: unit for name, unit, _ in values})
-    except (IndexError, KeyError, ValueError, OSError, csv.Error):
-        raise Error(f"{table}: is not what talus wrote; remove it, and `talus ensemble` analyses the member again") from None
-    for name, expected in {"seed": str(seed), **(origin or {})}.items():
-        if texts.get(name, expected) != expected:
-            raise Error(f"{table}: is the table of another member ({name} {texts[name]!r}, expected {expected!r}); remove "
-                        "it, and `talus ensemble` analyses the member again")
-    return member
+    with open_run(path, "D") as run:
+        check_owner(run, seed, scenario_of(variant), bed)
+        numbers, units = numbers_of(run)
+        timing = sum(run["provenance/timing/" + stage] for stage in ("deposition", "tilt"))
+        version = "{version} ({git_hash})".format_map({"version": "unknown", "git_hash": "unknown", **run.provenance})
+        return Member(variant, seed, path, "done", run["checkpoint/state_hash"], version, timing, numbers, units)
+
+
+def check_owner(run: Run, seed: int, scenario: dict[str, Any], bed: str) -> None:
+    """Throws Error where a run is not that of a member. What earlier versions did not have in a scenario is left out."""
+    sections = {name: (keys, run.scenario.get(name)) for name, keys in scenario.items()}
+    differing = [f"{name}.{key}" for name, (keys, known) in sections.items()
+                 if isinstance(keys, dict) and isinstance(known, dict)
+                 for key, value in keys.items() if known.get(key, value) != value]
+    if run.seed != seed:
+        differing.append(f"seed {run.seed}")
+    if bed and run.provenance.get("bed_hash", bed) != bed:
+        differing.append("its bed")
+    if differing:
+        raise Error(f"{run.path}: is a run of another member ({', '.join(differing)}); remove it, and `talus ensemble` "
+                    "computes the member again")
+
+
+def numbers_of(run: Run) -> tuple[dict[str, float], dict[str, str]]:
+    """What there is one of in a run, or one for each threshold: of its analysis, and what it found by itself; with the
+    units. Nothing of a run that is not analysed yet."""
+    numbers: dict[str, float] = {}
+    units: dict[str, str] = {}
+    if not run.storage.has("analysis/version"):
+        return numbers, units
+    for path, field_of_path in DATA_SETS.items():
+        name = path.removeprefix("analysis/")
+        if path != name and field_of_path[:2] in NUMBERS and name in run.analysis:
+            for k, value in enumerate(np.atleast_1d(run.analysis[name])):
+                numbers[numbered(name, k)] = float(value)
+                units[numbered(name, k)] = run.analysis.unit(name)
+    for name, unit in FOUND.items():
+        numbers[name], units[name] = run.results.get(name, np.nan), unit
+    return numbers, units
 
 
 class Ensemble:
@@ -113,15 +139,16 @@ class Ensemble:
         self.folder = folder
         self.version = ""  #: of the Talus that began it
         self.until = ""  #: the precision that was asked for; empty: none
-        self.keep = "all"  #: which runs stay: "all", "analysis" (none of them), or those of so many seeds, the lowest
+        self.keep = "all"  #: whose frames stay: of "all", "analysis" (of none), or of so many seeds, the lowest
         self.seeds: list[int] = []
         self.variants: list[str] = []  #: names, as "contact.friction=0.3"; [""] where nothing varies
         #: By the names of variants that were shortened: all of them, as "deposition.file=/beds/dense.csv".
         self.full_names: dict[str, str] = {}
         self._origins: list[dict[str, str]] = []  #: hashes of the scenario and the bed of each variant
         self._read_manifest()
+        scenario_of = cache(self.scenario)  # each is read once, where a member of it is done
         #: All of them, by seed, and of each seed by variant.
-        self.members = [read_member(variant, seed, folder / variant / f"seed-{seed}.h5", origin)
+        self.members = [read_member(variant, seed, folder / variant / f"seed-{seed}.h5", scenario_of, origin.get("bed", ""))
                         for seed in self.seeds for variant, origin in zip(self.variants, self._origins)]
         self._refuse_copies()
 
@@ -172,8 +199,8 @@ class Ensemble:
         for member in self.done():
             other = first.setdefault((member.variant, member.state_hash), member)
             if other is not member and not self._has_bed_of_file(member.variant):
-                raise Error(f"{other.path.with_suffix('.csv')} and {member.path.with_suffix('.csv')} have the same "
-                            "state_hash, which two seeds never have: one is a copy")
+                raise Error(f"{other.path} and {member.path} have the same state_hash, which two seeds never have: one "
+                            "is a copy")
 
     def _has_bed_of_file(self, variant: str) -> bool:
         deposition = self.scenario(variant).get("deposition")
@@ -197,7 +224,7 @@ class Ensemble:
             raise Error(f"{path}: cannot be read: {error}") from error
 
     def done(self, variant: str | None = None) -> list[Member]:
-        """The members whose run and analysis are complete; of all variants, or of one."""
+        """The members whose run files are there; of all variants, or of one."""
         chosen = self.variants if variant is None else [self._variant(variant)]
         return [member for member in self.members if member.stage == "done" and member.variant in chosen]
 
@@ -306,7 +333,7 @@ def check_name(name: str, others: Sequence[str]) -> None:
 
 def open_ensemble(folder: str | Path) -> Ensemble:
     """Opens the folder of an ensemble, whatever of it is done. Throws Error where there is none, or its manifest or the
-    numbers of a member are not what talus wrote."""
+    run of a member is damaged or that of another."""
     path = as_path(folder)
     try:
         return Ensemble(path)

@@ -214,6 +214,12 @@ class Run:
         return "last_tilt_step" in self.storage.names("checkpoint/integers")
 
     @cached_property
+    def has_frames(self) -> bool:
+        """False for a file that an ensemble has kept for its analysis alone: of its frames only `step`, `time` and `tilt`
+        are known."""
+        return not self.complete or self.storage.has("contacts/pair")
+
+    @cached_property
     def resists_rolling(self) -> bool:
         """Whether contacts have moments."""
         return self.storage.has("contacts/moment")
@@ -257,6 +263,9 @@ class Run:
         name = self._known(name)
         if not is_by_frame(name):
             raise Error(f"{self.path}: {name} is no data set by frame")
+        if not self.has_frames:
+            raise Error(f"{self.path}: has no frames: it was kept for its analysis alone (--keep analysis); compute it "
+                        "again with talus run for them")
         k = self.frame_index(k)
         values = self.storage.read_frame(name, k)
         check_frame_values(self, name, values)

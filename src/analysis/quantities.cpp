@@ -183,22 +183,6 @@ std::vector<double> list_of(const Quantity& quantity, const FrameRecord& frame, 
   return list;
 }
 
-void set_list(const Quantity& quantity, std::span<const double> values, FrameRecord& frame, std::size_t f) {
-  std::visit(
-      [&]<typename Record, typename T>(T Record::*member) {
-        if constexpr (is_list<Record, T>) {
-          if constexpr (is_fixed_list<T>)
-            if (values.size() != std::tuple_size_v<T>) return;
-          using Number = typename T::value_type;
-          std::vector<Number> numbers;
-          for (const double value : values) numbers.push_back(number_from<Number>(value));
-          if (Record* const record = record_of<Record>(frame, f))
-            assign(record->*member, std::span<const Number>(numbers));
-        }
-      },
-      quantity.member);
-}
-
 double number_of(const Quantity& quantity, const Analysis& analysis, std::size_t k) {
   const Values values = values_of(quantity, analysis);
   const auto* numbers = std::get_if<std::vector<double>>(&values);

@@ -81,11 +81,6 @@ bool is_list_of_run(const Quantity& quantity);
 /// The numbers of such a list of a frame, at threshold f where it depends on one; none for other quantities.
 std::vector<double> list_of(const Quantity& quantity, const FrameRecord& frame, std::size_t f = 0);
 
-/// Sets them, rounded where they count something; leaves a quantity that is no such list, and a list of fixed
-/// length where there are more or fewer values.
-void set_list(const Quantity& quantity, std::span<const double> values, FrameRecord& frame,
-              std::size_t f = 0);
-
 /// Element k of a quantity in doubles, among all its values; NaN where there are fewer.
 double number_of(const Quantity& quantity, const Analysis& analysis, std::size_t k);
 

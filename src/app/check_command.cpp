@@ -149,12 +149,16 @@ void print_run(const std::string& path, const RunFile& run, const RunCheck& chec
     print("  hashes      wrong for %zu of the data sets and frames\n", check.changed);
   print("  series      %zu frames, %zu rows of observables, %zu steps, %zu commands\n", check.frames,
         check.rows, check.steps, check.commands);
-  print("  overlap     at most %.2g D\n", check.largest_overlap);
-  print("  friction    at most %.6f of what Coulomb's law allows\n", check.largest_mobilisation);
-  print("  balance     forces and weight differ by at most %.2g m g (rms) in %zu frames at rest\n",
-        check.largest_imbalance, check.frames_at_rest);
-  print("  moments     differ from those of the contacts by at most %.2g of the largest\n",
-        check.largest_moment_error);
+  if (run.has_frames()) {
+    print("  overlap     at most %.2g D\n", check.largest_overlap);
+    print("  friction    at most %.6f of what Coulomb's law allows\n", check.largest_mobilisation);
+    print("  balance     forces and weight differ by at most %.2g m g (rms) in %zu frames at rest\n",
+          check.largest_imbalance, check.frames_at_rest);
+    print("  moments     differ from those of the contacts by at most %.2g of the largest\n",
+          check.largest_moment_error);
+  } else {
+    print("  frames      are not kept (--keep analysis), nor checked\n");
+  }
   for (const std::string& fault : check.faults) print("  fault: %s\n", fault.c_str());
 }
 

@@ -21,6 +21,7 @@
 #include "app/terminal.h"
 #include "app/wall_time.h"
 #include "core/errors.h"
+#include "core/hash.h"
 #include "core/text.h"
 #include "ensemble/kept_runs.h"
 #include "ensemble/pool.h"
@@ -29,8 +30,7 @@
 #include "ensemble/worker.h"
 #include "io/durable_file.h"
 #include "io/run_file.h"
-#include "runs/analysis_parameters.h"
-#include "runs/run_view.h"
+#include "runs/analysis_run.h"
 
 namespace talus {
 namespace {
@@ -68,50 +68,60 @@ void run_ensemble(const EnsembleArguments& arguments) {
   refuse_failures(view.plan, "left out of the means");
 }
 
-/// Runs or resumes a member, analyses it, does what the task of the ensemble asks besides, and leaves its
-/// numbers beside it: the last of which makes it done. Then the run goes, unless it is to be kept.
+/// Packs the run of a member with its analysis, once what its task asks besides is done: with its file the
+/// member is done. Throws Error(stopped) where it is not to go on; what is computed stays in the folder.
+bool pack_member(const Member& member, const EnsembleManifest& manifest, const std::string& folder,
+                 RunStore& store, const std::function<bool()>& goes_on) {
+  const auto progress = [&](std::size_t) {
+    if (!goes_on()) throw Error(ExitCode::stopped, "the member was stopped; its analysis begins again");
+  };
+  PackedParts parts;
+  const RunFile run = RunFile::open(member.path);
+  const Analysis analysis = analyse_run(run, AnalysisParameters(), 1, progress);
+  parts.analysis = &analysis;
+  if (std::holds_alternative<ReadingsTask>(manifest.task))
+    parts.readings = make_readings(member, run, progress);
+  parts.frames = keeps_frames(manifest, member.seed) || !is_in_folder(member, folder);
+  return store.pack(goes_on, parts);
+}
+
+/// Runs or resumes a member, does what the task of the ensemble asks besides, and packs it with its analysis.
 void compute_member(const EnsembleArguments& arguments) {
   const EnsembleManifest manifest = read_ensemble(arguments.folder);
   const EnsemblePlan plan = plan_of(manifest, arguments.folder);
   const auto member = std::ranges::find(plan.members, arguments.member, &Member::name);
   if (member == plan.members.end())
     throw Error(ExitCode::usage, fmt::format("{} has no member {}", arguments.folder, arguments.member));
-  const auto* trials = std::get_if<PerturbationPlan>(&manifest.task);
   if (const std::string damage = set_damaged_aside(member->path); !damage.empty())
     print_error("talus: note: %s; the member is begun anew\n", damage.c_str());
-  if (!is_complete(*member)) {
-    RunControl control;
-    control.stop = stop_request();
-    std::function<void(const RunProgress&)> push;
-    if (trials != nullptr) push = trials_on_the_way(member->path, *trials, stop_request());
-    control.on_step = [push, show = run_shown(false)](const RunProgress& progress) {
-      show(progress);
-      if (push) push(progress);
-    };
-    if (!arguments.max_wall.empty()) control.max_wall = parse_wall_time("--max-wall", arguments.max_wall);
-    RunRequest request{plan.variants[member->variant].scenario_file,
-                       member->path,
-                       {},
-                       1,
-                       false,
-                       command_line(),
-                       member->origin.bed};
-    request.settings.push_back(fmt::format("seed={}", member->seed));
-    OpenRun open =
-        run_presence(member->path) == RunPresence::folder ? resume_run(request) : start_run(request);
-    open.session.use_threads(1);
-    const CommitOnSignals commit;
-    if (run_to_end(open.session, open.store, control) == RunEnd::stopped)
-      throw Error(ExitCode::stopped, "the member was stopped; its run goes on from its checkpoint");
-  }
-  if (trials != nullptr) complete_trials(member->path, *trials);
-  const RunView analysed = analysed_run(member->path, parse_analysis_settings({}), {.threads = 1});
-  write_tables(member->path, analysed);
-  if (std::holds_alternative<ReadingsTask>(manifest.task)) make_readings(*member);
-  const MemberNumbers numbers = write_numbers(*member, analysed);
-  // From here on the member is done. A kill leaves the run, and the next worker removes it.
-  if (!keeps_run(manifest, member->seed) && is_in_folder(*member, arguments.folder)) drop_run(*member);
-  print("%s is done: state %s\n", member->name.c_str(), numbers.state_hash.c_str());
+  if (is_complete(*member)) return;  // another worker was faster
+  RunControl control;
+  control.stop = stop_request();
+  control.on_step = run_shown(false);
+  control.pack = [&](RunStore& store, const std::function<bool()>& goes_on) {
+    return pack_member(*member, manifest, arguments.folder, store, goes_on);
+  };
+  if (!arguments.max_wall.empty()) control.max_wall = parse_wall_time("--max-wall", arguments.max_wall);
+  RunRequest request{plan.variants[member->variant].scenario_file,
+                     member->path,
+                     {},
+                     1,
+                     false,
+                     command_line(),
+                     {},
+                     member->origin.bed};
+  request.settings.push_back(fmt::format("seed={}", member->seed));
+  const auto* trials = std::get_if<PerturbationPlan>(&manifest.task);
+  if (trials != nullptr) request.facts = {{trials_fact, plan_text(*trials)}};
+  OpenRun open = run_presence(member->path) == RunPresence::folder ? resume_run(request) : start_run(request);
+  if (trials != nullptr)
+    control.trials =
+        trials_on_the_way(table_of(RunFile::open(member->path), *trials, member->path), stop_request());
+  open.session.use_threads(1);
+  const CommitOnSignals commit;
+  if (run_to_end(open.session, open.store, control) == RunEnd::stopped)
+    throw Error(ExitCode::stopped, "the member was stopped; its run goes on from its checkpoint");
+  print("%s is done: state %s\n", member->name.c_str(), hash_text(state_hash(open.session.world())).c_str());
 }
 
 void work(const EnsembleArguments& arguments) {
@@ -124,23 +134,27 @@ void work(const EnsembleArguments& arguments) {
                         }};
   options.tell_wait = tell_wait;
   if (!arguments.max_wall.empty()) options.max_wall = parse_wall_time("--max-wall", arguments.max_wall);
-  drop_old_runs(arguments.folder);
+  const EnsemblePlan plan = plan_of(read_ensemble(arguments.folder), arguments.folder);
+  refuse_old_tables(plan);
+  drop_leftovers(plan);
   const WorkerEnd end = work_on_ensemble(options);
-  drop_old_runs(arguments.folder);
+  drop_leftovers(plan);
   print("%zu done and %zu failed here; %zu are under way elsewhere%s\n", end.done, end.failed, end.elsewhere,
         end.enough ? "; the precision that was asked for is reached" : "");
 }
 
 void average(const EnsembleArguments& arguments) {
-  print_text(ensemble_text(write_averages(arguments.folder)));
+  KnownMembers known;
+  print_text(ensemble_text(write_averages(arguments.folder, known)));
 }
 
 void retry(const EnsembleArguments& arguments) {
-  const EnsembleView view = view_of_ensemble(arguments.folder);
+  const EnsemblePlan plan = plan_of(read_ensemble(arguments.folder), arguments.folder);
+  const std::vector<MemberState> states = look_at_members(plan);
   std::size_t count = 0;
-  for (std::size_t m = 0; m < view.states.size(); ++m) {
-    if (view.states[m].stage != MemberStage::failed) continue;
-    remove_file(failure_path(view.plan.members[m].path));
+  for (std::size_t m = 0; m < states.size(); ++m) {
+    if (states[m].stage != MemberStage::failed) continue;
+    remove_file(failure_path(plan.members[m].path));
     ++count;
   }
   print("%zu members wait again; talus ensemble work %s computes them\n", count,
@@ -176,7 +190,8 @@ void add_subcommands(CLI::App& command, const std::shared_ptr<EnsembleArguments>
       add_folder_command(command, arguments, "status", "How far it is, what failed, and the means");
   status->add_flag("--json", arguments->json, "Print it as JSON");
   status->callback([arguments] {
-    const EnsembleView view = view_of_ensemble(arguments->folder);
+    KnownMembers known;
+    const EnsembleView view = view_of_ensemble(arguments->folder, known);
     const EnsembleJobs jobs = jobs_of_ensemble(arguments->folder);
     print("%s", (arguments->json ? ensemble_json(view, jobs) + "\n" : ensemble_text(view, jobs)).c_str());
   });
@@ -217,9 +232,10 @@ void add_ensemble_command(CLI::App& app) {
       "--until", arguments->until,
       "Begin no more members once the standard error of a mean is this small, e.g. theta_c:0.2");
   add_jobs_option(*command, arguments->jobs);
-  command->add_option("--keep", arguments->keep,
-                      "What stays of a member that is done: all (the default), analysis (its tables, and not "
-                      "its run), or the runs of so many seeds, the lowest ones, and the tables of all");
+  command->add_option(
+      "--keep", arguments->keep,
+      "What stays of a member that is done: all (the default), analysis (all but the frames of "
+      "its run), or the frames of so many seeds, the lowest ones");
   command->add_flag("--json", arguments->json, "Print the result as JSON");
   add_time_options(*command, arguments);
   add_subcommands(*command, arguments);

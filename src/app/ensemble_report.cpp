@@ -118,29 +118,26 @@ Json member_json(const EnsembleView& view, std::size_t m) {
   return json;
 }
 
-std::size_t count_runs(const EnsembleView& view) {
-  return static_cast<std::size_t>(std::ranges::count_if(view.states, [](const MemberState& state) {
-    return state.stage == MemberStage::done && state.has_run;
-  }));
-}
-
-/// "kept: the tables of all that are done, and 10 runs"; empty where the ensemble keeps all runs, and has
-/// them.
+/// "kept: the analyses of all members that are done, and the frames of 10"; empty where the ensemble keeps
+/// all frames, and has them.
 std::string kept_text(const EnsembleView& view) {
-  const std::size_t runs = count_runs(view), done = count_of(view.states, MemberStage::done);
+  const std::size_t done = count_of(view.states, MemberStage::done);
   const bool keeps_all = view.manifest.keep.empty() || view.manifest.keep == "all";
-  if (done == 0 || (keeps_all && runs == done)) return "";
-  return fmt::format("kept: the tables of all members that are done, and {} run{}\n",
-                     runs == 0 ? "no" : std::to_string(runs), runs == 1 ? "" : "s");
+  if (done == 0 || (keeps_all && view.with_frames == done)) return "";
+  return fmt::format("kept: the analyses of all members that are done, and the frames of {}\n",
+                     view.with_frames == 0 ? "none" : std::to_string(view.with_frames));
 }
 
 }  // namespace
 
-EnsembleView view_of_ensemble(const std::string& folder) {
-  EnsembleView view{folder, read_ensemble(folder), {}, {}, {}};
+EnsembleView view_of_ensemble(const std::string& folder, KnownMembers& known) {
+  EnsembleView view{folder, read_ensemble(folder), {}, {}, {}, 0};
   view.plan = plan_of(view.manifest, folder);
   view.states = look_at_members(view.plan);
-  view.numbers = numbers_of(view.plan, view.states);
+  view.numbers = numbers_of(view.plan, view.states, known);
+  for (std::size_t m = 0; m < view.states.size(); ++m)
+    if (view.states[m].stage == MemberStage::done && read_member(view.plan.members[m], known).has_frames)
+      ++view.with_frames;
   return view;
 }
 
@@ -188,7 +185,7 @@ std::string ensemble_json(const EnsembleView& view, const EnsembleJobs& jobs) {
                     {"version", view.manifest.version},
                     {"until", view.manifest.until},
                     {"keep", view.manifest.keep.empty() ? "all" : view.manifest.keep},
-                    {"runs", count_runs(view)},
+                    {"runs", view.with_frames},
                     {"members_in_all", view.states.size()},
                     {"done", count_of(view.states, MemberStage::done)},
                     {"claimed", count_of(view.states, MemberStage::claimed)},

@@ -7,7 +7,7 @@
 
 #include "app/ensemble_jobs.h"
 #include "ensemble/ensemble_manifest.h"
-#include "ensemble/member_numbers.h"
+#include "ensemble/member_reader.h"
 #include "ensemble/member_state.h"
 
 namespace talus {
@@ -19,10 +19,11 @@ struct EnsembleView {
   EnsemblePlan plan;
   std::vector<MemberState> states;     ///< of the members of the plan
   std::vector<MemberNumbers> numbers;  ///< of those that are done; of the others nothing
+  std::size_t with_frames = 0;         ///< members that are done and have the frames of their runs
 };
 
 /// Throws as read_ensemble and numbers_of do.
-EnsembleView view_of_ensemble(const std::string& folder);
+EnsembleView view_of_ensemble(const std::string& folder, KnownMembers& known);
 
 /// Members that will not be begun any more: done, failed, or not needed for the precision that was asked for.
 std::size_t count_ended(const EnsembleView& view);

@@ -98,7 +98,8 @@ SlurmJob submit_array(const SubmitArguments& arguments, std::size_t tasks) {
 }
 
 void submit(const SubmitArguments& arguments) {
-  const EnsembleView view = view_of_ensemble(arguments.folder);
+  KnownMembers known;
+  const EnsembleView view = view_of_ensemble(arguments.folder, known);
   const std::size_t missing = view.states.size() - count_ended(view);
   if (missing == 0) {
     const std::string text = nothing_text(view);
@@ -163,7 +164,8 @@ std::string slurm_number(const char* variable) {
 /// unless starts have been in vain.
 void requeue(const std::string& folder) {
   const std::string job = slurm_number("SLURM_ARRAY_JOB_ID"), task = slurm_number("SLURM_ARRAY_TASK_ID");
-  const EnsembleView view = view_of_ensemble(folder);
+  KnownMembers known;
+  const EnsembleView view = view_of_ensemble(folder, known);
   if (count_ended(view) == view.states.size()) {
     print("nothing is missing\n");
     return;

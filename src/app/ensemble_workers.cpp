@@ -76,7 +76,7 @@ struct AveragesOnTheWay {
 
 /// Makes them anew once a minute, where more members are done than before; for many members less often, so
 /// that it takes a twentieth of the time of this process at most.
-void renew(AveragesOnTheWay& averages, const std::string& folder) {
+void renew(AveragesOnTheWay& averages, const std::string& folder, KnownMembers& known) {
   const auto now = std::chrono::steady_clock::now();
   if (now - averages.made < averages.interval) return;
   averages.made = now;
@@ -85,7 +85,7 @@ void renew(AveragesOnTheWay& averages, const std::string& folder) {
   if (done == averages.members) return;
   averages.members = done;
   try {
-    write_averages(folder);
+    write_averages(folder, known);
   } catch (const Error&) {
     return;  // a table that is refused stops no member under way: it is reported at the end
   }
@@ -102,7 +102,8 @@ std::vector<std::string> worker_words(const EnsembleWorkers& workers) {
 }
 
 /// Workers side by side, until nothing is left that they can begin. Returns those that ended with an error.
-std::vector<FailedJob> run_workers(const EnsembleWorkers& workers, const EnsemblePlan& plan) {
+std::vector<FailedJob> run_workers(const EnsembleWorkers& workers, const EnsemblePlan& plan,
+                                   KnownMembers& known) {
   const std::vector<MemberState> states = look_at_members(plan);
   const std::size_t missing =
       states.size() - count_of(states, MemberStage::done) - count_of(states, MemberStage::failed);
@@ -117,7 +118,7 @@ std::vector<FailedJob> run_workers(const EnsembleWorkers& workers, const Ensembl
   StatusLine line(false, 2.0, 60.0);  // a look at ten thousand members takes some hundredths of a second
   AveragesOnTheWay averages{count_of(states, MemberStage::done)};
   const auto show_now_and_then = [&] {
-    renew(averages, workers.folder);
+    renew(averages, workers.folder, known);
     if (line.is_due()) show(line, plan, before);
     return true;
   };
@@ -132,13 +133,13 @@ std::vector<FailedJob> run_workers(const EnsembleWorkers& workers, const Ensembl
 
 }  // namespace
 
-void compute_members(const EnsembleWorkers& workers) {
+void compute_members(const EnsembleWorkers& workers, KnownMembers& known) {
   ClaimWatch watch{workers.times, {}};
   for (std::size_t ended = 0;;) {
     const EnsemblePlan plan = plan_of(read_ensemble(workers.folder), workers.folder);
     std::vector<FailedJob> killed;
-    if (has_work(plan, look_at_members(plan), watch)) killed = run_workers(workers, plan);
-    const EnsembleView view = view_of_ensemble(workers.folder);
+    if (has_work(plan, look_at_members(plan), watch)) killed = run_workers(workers, plan, known);
+    const EnsembleView view = view_of_ensemble(workers.folder, known);
     const std::size_t ended_now = count_ended(view);
     if (ended_now == view.states.size()) return;
     const bool limited = !workers.max_wall.empty();
@@ -150,13 +151,26 @@ void compute_members(const EnsembleWorkers& workers) {
   }
 }
 
-void drop_old_runs(const std::string& folder) {
+void drop_old_frames(const std::string& folder, KnownMembers& known) {
   const EnsembleManifest manifest = read_ensemble(folder);
   const EnsemblePlan plan = plan_of(manifest, folder);
-  drop_claims(plan);
-  if (const std::size_t dropped = drop_runs(manifest, plan, folder); dropped > 0)
-    print_error("talus: note: %zu run%s of members that are done removed (--keep %s); their tables stay\n",
-                dropped, dropped == 1 ? "" : "s", visible_word(manifest.keep).c_str());
+  drop_leftovers(plan);
+  if (const std::size_t dropped = drop_frames(manifest, plan, folder, known); dropped > 0)
+    print_error(
+        "talus: note: the frames of %zu member%s that %s done are removed (--keep %s); run and analysis "
+        "stay\n",
+        dropped, dropped == 1 ? "" : "s", dropped == 1 ? "is" : "are", visible_word(manifest.keep).c_str());
+}
+
+void refuse_old_tables(const EnsemblePlan& plan) {
+  const std::vector<MemberState> states = look_at_members(plan);
+  for (std::size_t m = 0; m < states.size(); ++m)
+    if (states[m].has_old_table && states[m].stage != MemberStage::done)
+      throw Error(
+          ExitCode::bad_data,
+          fmt::format("{} is the table of a member whose run an earlier version of Talus has not kept; go on "
+                      "in another folder, or remove it, and the member is computed again",
+                      file_beside(plan.members[m].path, ".csv")));
 }
 
 /// What a corrected command has taken out of an ensemble.
@@ -168,7 +182,7 @@ static void tell_withdrawn(const std::vector<Variant>& before, const std::vector
 }
 
 void begin_ensemble(const std::string& folder, const EnsembleManifest& wanted,
-                    const std::vector<std::string>& inputs) {
+                    const std::vector<std::string>& inputs, KnownMembers& known) {
   const bool is_new = !is_ensemble(folder);
   EnsembleManifest asked = wanted;
   take_earlier_names(asked.variants, folder);
@@ -180,16 +194,18 @@ void begin_ensemble(const std::string& folder, const EnsembleManifest& wanted,
   for (const char* name : {"members.csv", "averages.csv", "ensemble.h5"})
     output_target((std::filesystem::path(folder) / name).string(), {true, inputs});
   tell_withdrawn(before, extend_ensemble(folder, asked).variants);
+  refuse_old_tables(plan_of(read_ensemble(folder), folder));
   note_missing_locks();
-  drop_old_runs(folder);
+  drop_old_frames(folder, known);
 }
 
 EnsembleView compute_ensemble(const EnsembleManifest& wanted, const EnsembleWorkers& workers,
                               const std::vector<std::string>& inputs) {
-  begin_ensemble(workers.folder, wanted, inputs);
-  if (workers.jobs > 0) compute_members(workers);
-  drop_old_runs(workers.folder);
-  return write_averages(workers.folder);
+  KnownMembers known;
+  begin_ensemble(workers.folder, wanted, inputs, known);
+  if (workers.jobs > 0) compute_members(workers, known);
+  drop_old_frames(workers.folder, known);
+  return write_averages(workers.folder, known);
 }
 
 void refuse_failures(const EnsemblePlan& plan, const std::string& consequence) {

@@ -20,17 +20,20 @@ struct EnsembleWorkers {
 /// their workers end before them; workers that were killed are replaced, as long as members come to an end.
 /// With a limit of time others are left alone. Throws Error(stopped) on a signal or where the time is over,
 /// the Error of a worker that ended with one, and as read_ensemble does.
-void compute_members(const EnsembleWorkers& workers);
+void compute_members(const EnsembleWorkers& workers, KnownMembers& known);
 
-/// Removes runs that the ensemble does not keep: those of workers that were killed before they did, and of
-/// members that were done before it was told to keep less. Says on stderr how many there were.
-void drop_old_runs(const std::string& folder);
+/// Removes frames that the ensemble does not keep, of members that were done before it was told to keep less,
+/// and what workers have left that were killed. Says on stderr how many members lost their frames.
+void drop_old_frames(const std::string& folder, KnownMembers& known);
+
+/// Throws Error(bad_data) where an earlier version of Talus has kept tables of a member and not its run.
+void refuse_old_tables(const EnsemblePlan& plan);
 
 /// Begins an ensemble in the folder, or adds to the one that is there what it lacks. `inputs`: files that are
 /// read, and never replaced. Throws as extend_ensemble does, and Error(bad_data), before an ensemble is
-/// begun, where a run of another scenario has the name of a member.
+/// begun, where a run of another scenario has the name of a member, and as refuse_old_tables does.
 void begin_ensemble(const std::string& folder, const EnsembleManifest& wanted,
-                    const std::vector<std::string>& inputs);
+                    const std::vector<std::string>& inputs, KnownMembers& known);
 
 /// Does that in the folder of the workers, computes what is missing, and writes the averages. Returns how far
 /// the ensemble is then. Throws as begin_ensemble and compute_members do.

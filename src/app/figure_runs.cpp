@@ -8,17 +8,11 @@
 #include "app/output_files.h"
 #include "app/terminal.h"
 #include "core/errors.h"
-#include "core/paths.h"
 #include "core/visible_text.h"
 #include "ensemble/averages_reader.h"
 #include "ensemble/ensemble_manifest.h"
-#include "ensemble/kept_runs.h"
-#include "ensemble/member_analysis.h"
-#include "ensemble/member_lists.h"
+#include "ensemble/member_reader.h"
 #include "ensemble/member_state.h"
-#include "ensemble/pool.h"
-#include "io/durable_file.h"
-#include "io/run_store.h"
 #include "io/signature.h"
 #include "runs/analysis_parameters.h"
 
@@ -56,25 +50,6 @@ void refuse_settings(const Reading& reading, const std::string& path) {
                           visible_word(reading.settings.front()), path));
 }
 
-/// A member whose run is gone, from its tables.
-void add_tables(Reading& reading, const Member& member, const Variant& variant) {
-  const std::string numbers = numbers_path(member.path), series = series_path(member.path);
-  refuse_settings(reading, numbers);
-  if (!is_there(series)) refuse_missing_series(member);
-  const MemberNumbers found = read_numbers(member);
-  require_own_file(member, found, series_ending);
-  reading.input.runs.push_back(view_of_values(numbers,
-                                              {member.seed, found, parse_series(read_text(series), series)},
-                                              read_text(variant.scenario_file)));
-  reading.input.files.insert(reading.input.files.end(), {numbers, series});
-  const std::string lists = lists_path(member.path);
-  if (!is_there(lists)) return;
-  require_own_file(member, found, lists_ending);
-  RunView& run = reading.input.runs.back();
-  set_lists(read_lists(lists), run.statics.mean_diameter, run.analysis);
-  reading.input.files.push_back(lists);
-}
-
 void add_ensemble(Reading& reading, const std::string& folder) {
   const EnsemblePlan plan = plan_of(read_ensemble(folder), folder);
   const std::vector<MemberState> states = look_at_members(plan);
@@ -84,14 +59,9 @@ void add_ensemble(Reading& reading, const std::string& folder) {
                             "far they are",
                             folder, folder));
   for (std::size_t m = 0; m < states.size(); ++m) {
-    const Member& member = plan.members[m];
     if (states[m].stage != MemberStage::done) continue;
-    if (run_presence(member.path) == RunPresence::none) {
-      add_tables(reading, member, plan.variants[member.variant]);
-    } else {
-      is_complete(member);  // its own run
-      add_run(reading, member.path);
-    }
+    add_run(reading, plan.members[m].path);
+    require_own_run(plan.members[m], reading.input.runs.back().file->header());
   }
 }
 
@@ -99,10 +69,7 @@ void add_values(Reading& reading, const std::string& path) {
   refuse_settings(reading, path);
   for (const StoredVariant& variant : read_averages(path))
     for (std::size_t m = 0; m < variant.seeds.size(); ++m)
-      reading.input.runs.push_back(
-          view_of_values(fmt::format("{}#{}{}seed-{}", path, variant.name, variant.name.empty() ? "" : "/",
-                                     variant.seeds[m]),
-                         member_of(variant, m), variant.scenario));
+      reading.input.runs.push_back(view_of_values(path, variant, m));
   reading.input.files.push_back(path);
 }
 

@@ -19,11 +19,10 @@ struct FigureInput {
   std::vector<std::string> files;  ///< files and folders that were read, and must not be replaced
 };
 
-/// Each of `paths` is a run; a folder of an ensemble, for its members that are done: the run of each where it
-/// is there, else its tables; or an ensemble.h5, or a folder that has one, for the values in it. `settings`
-/// change the analysis, which only runs can have made anew. Throws Error(missing_input) where an ensemble has
-/// no member that is done, Error(usage) where there are settings and no runs to analyse, and as analysed_run,
-/// read_ensemble and read_averages do.
+/// Each of `paths` is a run; a folder of an ensemble, for its members that are done; or an ensemble.h5, or a
+/// folder that has one, for the values in it. `settings` change the analysis, which only runs can have made
+/// anew. Throws Error(missing_input) where an ensemble has no member that is done, Error(usage) where there
+/// are settings and no runs to analyse, and as analysed_run, read_ensemble and read_averages do.
 FigureInput read_figure_input(const std::vector<std::string>& paths, const std::vector<std::string>& settings,
                               const AnalysisOptions& options);
 

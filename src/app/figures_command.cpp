@@ -79,7 +79,7 @@ std::vector<FigureRecipe> chosen_recipes(const std::vector<std::string>& only) {
 /// Whether some run has what a figure is made from.
 bool is_there(Material material, std::span<const RunGroup> groups) {
   const auto has = [material](const RunView& run) {
-    return material == Material::values || run.file ||
+    return material == Material::values || (run.file && run.file->has_frames()) ||
            (material == Material::distributions && !run.analysis.gamma_edge.empty());
   };
   return std::ranges::any_of(groups,
@@ -96,7 +96,7 @@ std::vector<Figure> make_figures(const std::vector<FigureRecipe>& recipes, std::
       print_error("%s", fmt::format("left out: {} needs {}{}\n", recipe.name, recipe.needs,
                                     is_there(recipe.material, groups)
                                         ? ""
-                                        : "; given are only values of members, without their runs")
+                                        : "; given are only values of members, without frames of their runs")
                             .c_str());
   if (figures.empty()) throw Error(ExitCode::bad_data, "no figure can be made of these runs");
   return figures;

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 /// Only a run can be without an analysis: an ensemble has the values of one.
 void refuse_unanalysed(const std::string& path) {
   if (run_presence(path) == RunPresence::none || holds_averages(path)) return;
-  if (read_usable_analysis(path, RunFile::open(path))) return;
+  if (read_usable_analysis(RunFile::open(path))) return;
   throw Error(ExitCode::bad_data, fmt::format("{} has no stored analysis, which curves behind others are "
                                               "taken from; make one first: talus analyze {}",
                                               path, path));

@@ -33,6 +33,7 @@ struct RunInfo {
   Index floor_grains = 0;
   std::size_t frames = 0;       ///< of the tilt
   std::size_t flow_frames = 0;  ///< after failure
+  bool has_frames = true;       ///< false: only their times and tilts are kept
   double tilt_first = none;     ///< rad, of the frames of the tilt
   double tilt_last = none;
   bool has_program = false;
@@ -98,6 +99,7 @@ RunInfo look_at(const std::string& path) {
   info.floor_grains = static_cast<Index>(statics.radius.size()) - statics.free_count;
   info.frames = run.frame_count();
   info.flow_frames = run.all_frame_tilts().size() - info.frames;
+  info.has_frames = run.has_frames();
   if (info.frames > 0) {
     info.tilt_first = run.frame_tilts().front();
     info.tilt_last = run.frame_tilts().back();
@@ -128,6 +130,7 @@ void print_json(const RunInfo& info) {
                      {"floor_grains", info.floor_grains},
                      {"frames", info.frames},
                      {"frames_after_failure", info.flow_frames},
+                     {"has_frames", info.has_frames},
                      {"tilt_first_deg", degrees(info.tilt_first)},
                      {"tilt_last_deg", degrees(info.tilt_last)},
                      {"tilt_lowest_deg", degrees(info.tilt_lowest)},
@@ -198,7 +201,8 @@ void print_report(const RunInfo& info) {
   print_line("grains", fmt::format("{} free, {} on the floor", info.grains, info.floor_grains));
   print_line("frames",
              std::to_string(info.frames) + (info.frames == 0 ? "" : tilts_text(info)) +
-                 (info.flow_frames == 0 ? "" : fmt::format(", {} after failure", info.flow_frames)));
+                 (info.flow_frames == 0 ? "" : fmt::format(", {} after failure", info.flow_frames)) +
+                 (info.has_frames ? "" : "; only their times and tilts are kept (--keep analysis)"));
   print_line("theta_c", std::isnan(theta_c) ? "none: the slope has not failed"
                                             : in_degrees(theta_c) + beyond_repose(theta_c, info.tilt));
   if (find_value(info.results, "theta_r")) print_line("theta_r", rest_text(info));

@@ -27,6 +27,7 @@ OpenRun start_run(const RunRequest& request) {
                     "the change, and talus ensemble retry computes this member",
                     visible(scenario.deposition.file)));
   RunHeader header = run_header(session, origin);
+  header.provenance.insert(header.provenance.end(), request.facts.begin(), request.facts.end());
   output_target(request.output, output_of_scenario(request.scenario, scenario));
   prepare_folder_of(request.output);
   RunStore store = RunStore::create(request.output, header, request.overwrite);

@@ -16,6 +16,7 @@ struct RunRequest {
   int threads = 1;
   bool overwrite = false;
   std::string command_line;  ///< for the provenance
+  Facts facts = {};          ///< more of them, for the provenance of a new run
   std::string bed = {};      ///< hash that a bed of deposition.file has to have; empty: any
 };
 

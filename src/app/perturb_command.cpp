@@ -53,11 +53,14 @@ EnsembleManifest manifest_of(const PerturbArguments& arguments) {
 /// Adds one seed to the ensemble and has it computed here, whatever else is missing. Waits where another
 /// process computes it.
 void perturb_seed(const PerturbArguments& arguments, const EnsembleManifest& wanted) {
-  begin_ensemble(arguments.folder, wanted, {arguments.scenario});
+  KnownMembers known;
+  begin_ensemble(arguments.folder, wanted, {arguments.scenario}, known);
   const EnsemblePlan plan = plan_of(wanted, arguments.folder);
   WorkerOptions options{arguments.folder, {}, {}, {}, plan.members.front().name, tell_wait};
   while (work_on_ensemble(options).elsewhere > 0) std::this_thread::sleep_for(std::chrono::seconds(1));
   refuse_failures(plan, "its trials are not complete");
+  const std::string& run = plan.members.front().path;
+  table_of(RunFile::open(run), arguments.plan, run);  // it may have been there before, without trials
 }
 
 /// A figure of no state would have nothing to show.
@@ -85,8 +88,7 @@ void report(const PerturbArguments& arguments, const EnsemblePlan& plan) {
   for (const std::size_t m : done_members(plan)) {
     const Member& member = plan.members[m];
     paths.push_back(member.path);
-    require_own_file(member, read_numbers(member), trials_ending);
-    tables.push_back(read_trials(member.path, arguments.plan));
+    tables.push_back(table_of(RunFile::open(member.path), arguments.plan, member.path));
   }
   const std::vector<RunGroup> groups = group_runs(open_figure_runs(paths, parse_analysis_settings({}), {}));
   const std::filesystem::path folder = arguments.folder;

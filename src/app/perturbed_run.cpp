@@ -4,24 +4,15 @@
 #include <cmath>
 #include <cstdio>
 #include <fmt/core.h>
+#include <utility>
 
 #include "app/terminal.h"
 #include "core/errors.h"
-#include "core/paths.h"
 #include "core/trigonometry.h"
-#include "ensemble/plan.h"
-#include "io/durable_file.h"
-#include "io/run_file.h"
 #include "session/perturbation_threshold.h"
 
 namespace talus {
 namespace {
-
-std::string trials_path(const std::string& run) { return file_beside(run, trials_ending); }
-
-void write_trials(const std::string& run, const PerturbationTable& table) {
-  write_text(trials_path(run), perturbation_csv(table));
-}
 
 /// The tilt of a session in deg, to the step.
 double tilt_of(const Session& session) {
@@ -48,41 +39,20 @@ std::string bracket_text(const Threshold& threshold) {
 
 }  // namespace
 
-PerturbationTable read_trials(const std::string& run, const PerturbationPlan& plan) {
-  const std::string path = trials_path(run);
-  if (!is_there(path))
-    throw Error(ExitCode::bad_data,
-                fmt::format("{} has no table of trials beside it, expected {}; give another folder, or "
-                            "remove the run",
-                            run, path));
-  return parse_perturbation_csv(read_text(path), path, plan);
-}
-
-std::function<void(const RunProgress&)> trials_on_the_way(const std::string& run,
-                                                          const PerturbationPlan& plan,
-                                                          const volatile std::sig_atomic_t* stop) {
-  const bool begins = run_presence(run) == RunPresence::none;
-  if (begins) write_trials(run, {plan, false, {}});
+std::function<std::vector<TrialRow>(const Session&)> trials_on_the_way(
+    PerturbationTable known, const volatile std::sig_atomic_t* stop) {
   const auto keep_on = [stop] {
     if (*stop != 0)
       throw Error(ExitCode::stopped, "the trials were stopped; they begin again with their state");
   };
-  return [run, keep_on, table = read_trials(run, plan)](const RunProgress& progress) mutable {
-    const Session& session = progress.session;
+  return [keep_on, table = std::move(known)](const Session& session) mutable {
     const double tilt = tilt_of(session);
     const bool done = !table.states.empty() && table.states.back().tilt >= tilt;
-    if (done || !is_due(session, table.plan)) return;
+    if (done || !is_due(session, table.plan)) return std::vector<TrialRow>();
     table.states.push_back({tilt, perturb(session.world(), session.scenario(), table.plan.patch, keep_on)});
-    write_trials(run, table);
     print_error("%.3f deg: %s\n", tilt, bracket_text(threshold_of(table.states.back().trials)).c_str());
+    return rows_of(table.states.back(), session.world().step);
   };
-}
-
-void complete_trials(const std::string& run, const PerturbationPlan& plan) {
-  PerturbationTable table = read_trials(run, plan);
-  if (table.complete) return;
-  table.complete = true;
-  write_trials(run, table);
 }
 
 }  // namespace talus

@@ -39,10 +39,15 @@ struct ReproduceArguments {
   int jobs = default_jobs();
 };
 
-/// Lets workers make again what is missing of members that are done, or is of another version.
-void reopen(const ReproductionPlan& plan) {
-  for (const std::size_t m : done_members(plan))
-    if (!is_measured(plan.members[m])) remove_file(numbers_path(plan.members[m].path));
+/// Makes what is missing of members that are done, or is of another version.
+void complete(const ReproductionPlan& plan) {
+  const std::vector<std::size_t> done = done_members(plan);
+  const CountDone progress = count_shown("analyses", false);
+  for (std::size_t k = 0; k < done.size(); ++k) {
+    progress(k, done.size());
+    if (!is_measured(plan.members[done[k]])) complete_readings(plan.members[done[k]]);
+  }
+  progress(done.size(), done.size());
 }
 
 /// What is still to be run, and how long that may take.
@@ -155,7 +160,6 @@ void reproduce(const ReproduceArguments& arguments) {
   const std::string seeds = !arguments.seeds.empty() ? arguments.seeds : arguments.quick ? "1" : "1-2";
   const ReproductionPlan plan = plan_reproduction(arguments.quick, seeds, folder);
   require_gnuplot();
-  reopen(plan);
   if (arguments.jobs > 0) announce(plan, arguments.jobs);
   const EnsembleView view =
       compute_ensemble({.seeds = plan.seeds, .variants = plan.variants, .task = ReadingsTask{}},
@@ -165,6 +169,7 @@ void reproduce(const ReproduceArguments& arguments) {
     print_text(ensemble_text(view));  // others are to compute it
     return;
   }
+  complete(plan);
   const ReproductionResult result = measure_members(plan);
   write_report(result, draw_figures(plan, result, folder), folder);
   refuse_failures(plan, "left out of the report");

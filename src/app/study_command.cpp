@@ -12,7 +12,6 @@
 #include "app/json.h"
 #include "app/terminal.h"
 #include "core/output_file.h"
-#include "ensemble/pool.h"
 #include "ensemble/study_report.h"
 #include "io/durable_file.h"
 
@@ -77,7 +76,6 @@ void study(const StudyArguments& arguments) {
     print_text(ensemble_text(view));  // others are to compute it
     return;
   }
-  for (const std::size_t m : done_members(plan)) is_complete(plan.members[m]);  // their own runs
   const StudyResult result = read_study(plan, arguments.reference);
   write_text(folder / "study.csv", study_csv(result));
   write_text(folder / "study.md", study_markdown(result));

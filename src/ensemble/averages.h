@@ -8,17 +8,9 @@
 #include <vector>
 
 #include "core/statistics.h"
-#include "ensemble/member_numbers.h"
-#include "ensemble/member_series.h"
+#include "ensemble/member_values.h"
 
 namespace talus {
-
-/// What a member that is done has left, in the order of the seeds.
-struct MemberResult {
-  std::uint64_t seed = 0;
-  MemberNumbers numbers;
-  MemberSeries series;
-};
 
 /// A quantity at the points of a grid.
 struct AveragedQuantity {
@@ -51,9 +43,9 @@ struct Averages {
   AveragedCurves before_failure;  ///< over theta_c - theta; without quantities where no slope failed
 };
 
-/// `frame_every`: spacing of the grids, deg. Values between frames are interpolated linearly; none is
-/// extrapolated, so that a member counts up to its last frame before theta_c. The result does not depend on
-/// when members came, only on which there are.
+/// Of members in the order of the seeds. `frame_every`: spacing of the grids, deg. Values between frames are
+/// interpolated linearly; none is extrapolated, so that a member counts up to its last frame before theta_c.
+/// The result does not depend on when members came, only on which there are.
 Averages averages_of(const std::vector<MemberResult>& members, double frame_every);
 
 /// Multiples of the spacing from 0 up to `largest`, deg: the points of a grid.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "ensemble/averages.h"
+#include "runs/run_view.h"
 
 namespace talus {
 
@@ -40,5 +41,15 @@ std::vector<StoredVariant> read_averages(const std::string& path);
 /// those of before_failure they are known up to the last frame before theta_c, and a straight line between
 /// two points is that of the frames.
 MemberResult member_of(const StoredVariant& variant, std::size_t m);
+
+/// The analysis of such a member: all its numbers of a run and of its frames, and a frame for each row of its
+/// series. What is no single number (distributions, fabric, grains) is empty, and what the file does not have
+/// is not known. It is that of the default parameters, with which members are analysed. `mean_diameter`: D,
+/// m.
+Analysis analysis_of(const MemberResult& member, double mean_diameter);
+
+/// Member m as a run whose file is not there; `path` is that of ensemble.h5. Throws Error(bad_data) where its
+/// scenario cannot be read.
+RunView view_of_values(const std::string& path, const StoredVariant& variant, std::size_t m);
 
 }  // namespace talus

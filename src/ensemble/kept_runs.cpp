@@ -12,12 +12,8 @@
 #include "core/paths.h"
 #include "core/visible_text.h"
 #include "ensemble/claim.h"
-#include "ensemble/member_lists.h"
-#include "ensemble/member_series.h"
-#include "io/durable_file.h"
-#include "io/run_file.h"
+#include "io/analysis_file.h"
 #include "io/run_store.h"
-#include "session/run_header.h"
 
 namespace talus {
 namespace {
@@ -35,21 +31,18 @@ std::optional<std::size_t> number_kept(const std::string& keep) {
                           visible_word(keep)));
 }
 
-/// Whether the run at the place of a member is that of another scenario or seed, which is not removed. A
-/// damaged one does not tell.
-bool has_run_of_another(const Member& member) {
-  try {
-    return stored_scenario(RunFile::open(member.path).header(), member.path) != member.scenario;
-  } catch (const Error&) {
-    return false;
-  }
+/// Removes the folder of a run that is packed, unless somebody is at it; what stays does no harm.
+void discard_packed(const std::string& run) try {
+  if (run_presence(run) == RunPresence::packed) discard_folder(run);
+} catch (const Error& error) {
+  if (error.code() != ExitCode::cannot_create) throw;
 }
 
 }  // namespace
 
 void check_keep(const std::string& keep) { number_kept(keep); }
 
-bool keeps_run(const EnsembleManifest& manifest, std::uint64_t seed) {
+bool keeps_frames(const EnsembleManifest& manifest, std::uint64_t seed) {
   const std::optional<std::size_t> kept = number_kept(manifest.keep);
   if (!kept) return true;
   const auto before = std::ranges::lower_bound(manifest.seeds, seed) - manifest.seeds.begin();
@@ -60,41 +53,35 @@ bool is_in_folder(const Member& member, const std::string& folder) {
   return resolved_path(member.path).starts_with(resolved_path(folder) + "/");
 }
 
-void drop_run(const Member& member) {
-  discard_folder(member.path);  // while its file is there: without it, it would be taken for a run under way
-  remove_file(member.path);
-}
-
-void refuse_missing_series(const Member& member) {
-  throw Error(
-      ExitCode::missing_input,
-      fmt::format("{} is not there, nor the run that it could be made from; remove {}, and the next worker "
-                  "computes the member again",
-                  series_path(member.path), numbers_path(member.path)));
-}
-
-std::size_t drop_runs(const EnsembleManifest& manifest, const EnsemblePlan& plan, const std::string& folder) {
+std::size_t drop_frames(const EnsembleManifest& manifest, const EnsemblePlan& plan, const std::string& folder,
+                        KnownMembers& known) {
   if (!number_kept(manifest.keep)) return 0;
-  const std::vector<MemberState> states = look_at_members(plan);
   std::size_t dropped = 0;
-  for (std::size_t m = 0; m < states.size(); ++m) {
+  for (const std::size_t m : done_members(plan)) {
     const Member& member = plan.members[m];
-    if (states[m].stage != MemberStage::done || !states[m].has_run || keeps_run(manifest, member.seed))
-      continue;
-    if (!is_there(series_path(member.path)) || !is_there(lists_path(member.path))) continue;
-    if (!is_in_folder(member, folder) || has_run_of_another(member)) continue;
-    drop_run(member);
-    ++dropped;
+    if (keeps_frames(manifest, member.seed) || !is_in_folder(member, folder)) continue;
+    try {
+      const MemberResult& result = analysed_member(member, known);
+      if (!result.has_frames) continue;
+      const std::optional<Analysis> analysis = read_analysis(member.path);
+      if (!analysis) continue;
+      store_analysis(member.path, *analysis, result.numbers.state_hash, quantities(), false);
+      ++dropped;
+    } catch (const Error&) {
+      continue;  // it is reported with the averages
+    }
   }
   return dropped;
 }
 
-void drop_claims(const EnsemblePlan& plan) {
+void drop_leftovers(const EnsemblePlan& plan) {
   const std::vector<MemberState> states = look_at_members(plan);
   for (std::size_t m = 0; m < states.size(); ++m) {
+    const std::string& path = plan.members[m].path;
+    if (states[m].stage == MemberStage::done && states[m].has_folder) discard_packed(path);
     if (!states[m].claim) continue;
     if (states[m].stage != MemberStage::done && states[m].stage != MemberStage::failed) continue;
-    for (const std::string& claim : claims_of(plan.members[m].path))
+    for (const std::string& claim : claims_of(path))
       if (!is_locked(claim).value_or(false)) ::unlink(claim.c_str());
   }
 }

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "ensemble/member_lists.h"
+#include "ensemble/member_values.h"
 
 namespace talus {
 

@@ -17,9 +17,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* numbers_ending = ".csv";
+constexpr const char* old_table_ending = ".csv";
 constexpr const char* failure_ending = ".failed";
 constexpr const char* run_ending = ".h5";
+constexpr const char* folder_ending = ".h5.run";
+
+constexpr const char* endings[] = {run_ending, folder_ending, failure_ending, old_table_ending};
 
 /// What one folder tells of its members, by the names of their runs without ending.
 struct FolderNames {
@@ -29,14 +32,15 @@ struct FolderNames {
 
 FolderNames members_named_in(const fs::path& folder) {
   FolderNames names;
-  std::error_code error;  // a folder that is not there has no members yet
+  std::error_code error, unknown;  // a folder that is not there has no members yet
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
     const std::string file = entry->path().filename().string();
     if (const std::optional<ClaimName> claim = parse_claim_name(file)) {
       int& highest = names.claims.try_emplace(claim->run, claim->number).first->second;
       highest = std::max(highest, claim->number);
-    } else if (file.ends_with(numbers_ending) || file.ends_with(failure_ending) ||
-               file.ends_with(run_ending)) {
+    } else if (file.ends_with(run_ending) && !entry->is_regular_file(unknown)) {
+      continue;  // no run file, whatever else it is
+    } else if (std::ranges::any_of(endings, [&](const char* ending) { return file.ends_with(ending); })) {
       names.files.insert(file);
     }
   }
@@ -45,9 +49,10 @@ FolderNames members_named_in(const fs::path& folder) {
 
 MemberState state_of(const FolderNames& names, const std::string& run) {
   MemberState state;
-  state.has_run = names.files.contains(run + run_ending);
+  state.has_folder = names.files.contains(run + folder_ending);
+  state.has_old_table = names.files.contains(run + old_table_ending);
   if (const auto claim = names.claims.find(run); claim != names.claims.end()) state.claim = claim->second;
-  if (names.files.contains(run + numbers_ending))
+  if (names.files.contains(run + run_ending))
     state.stage = MemberStage::done;
   else if (names.files.contains(run + failure_ending))
     state.stage = MemberStage::failed;
@@ -84,7 +89,6 @@ std::size_t count_of(const std::vector<MemberState>& states, MemberStage stage) 
   return static_cast<std::size_t>(std::ranges::count(states, stage, &MemberState::stage));
 }
 
-std::string numbers_path(const std::string& run) { return file_beside(run, numbers_ending); }
 std::string failure_path(const std::string& run) { return file_beside(run, failure_ending); }
 
 void record_failure(const std::string& run, const MemberFailure& failure) {

@@ -14,13 +14,14 @@ enum class MemberStage {
   waiting,
   claimed,  ///< somebody has taken it, who may be at work or gone
   failed,   ///< it ended with an error, which stays until it is retried
-  done,     ///< run and analysis are complete
+  done,     ///< its run file is there
 };
 
 struct MemberState {
   MemberStage stage = MemberStage::waiting;
-  std::optional<int> claim;  ///< the highest claim there is, whatever the stage
-  bool has_run = false;      ///< the file of its run is there
+  std::optional<int> claim;    ///< the highest claim there is, whatever the stage
+  bool has_folder = false;     ///< the folder in which its run is computed is there
+  bool has_old_table = false;  ///< earlier versions of Talus have left a table of it
 };
 
 /// Of all members, in the order of the plan, with one look at each folder.
@@ -31,8 +32,7 @@ std::vector<std::size_t> done_members(const EnsemblePlan& plan);
 
 std::size_t count_of(const std::vector<MemberState>& states, MemberStage stage);
 
-/// The files beside the run that tell of its end: numbers.csv of what is done, the error of what failed.
-std::string numbers_path(const std::string& run);
+/// The file beside the run of a member that failed, which tells its error.
 std::string failure_path(const std::string& run);
 
 /// How a member failed.

@@ -17,8 +17,6 @@
 #include "core/output_file.h"
 #include "core/visible_text.h"
 #include "ensemble/member_state.h"
-#include "io/run_file.h"
-#include "session/run_header.h"
 
 namespace talus {
 namespace {
@@ -127,28 +125,6 @@ void refuse(const std::vector<FailedJob>& failed, const std::string& consequence
     text += fmt::format("\n  {} (exit code {}){}{}", log, exit_code, said.empty() ? "" : ": ", said);
   const int code = failed.front().exit_code;
   throw Error(code > 128 ? ExitCode::internal : static_cast<ExitCode>(code), text);
-}
-
-bool is_complete(const Member& member) {
-  const RunPresence presence = run_presence(member.path);
-  if (presence == RunPresence::none) return false;
-  // Values are compared, not texts: a key that an earlier version did not have is at its default in it.
-  const RunHeader header = RunFile::open(member.path).header();
-  const Scenario scenario = stored_scenario(header, member.path);
-  if (scenario != member.scenario)
-    throw Error(
-        ExitCode::bad_data,
-        fmt::format("{} is a run of another scenario than this member of the ensemble: {}; expected the "
-                    "scenario, the settings and the version that the ensemble began with; give another "
-                    "folder, or remove the run",
-                    member.path, differences(scenario, member.scenario)));
-  const std::string bed = bed_of(header.provenance);
-  if (!bed.empty() && !member.origin.bed.empty() && bed != member.origin.bed)
-    throw Error(ExitCode::bad_data,
-                fmt::format("{} began with another bed than this ensemble: {} (deposition.file) was changed; "
-                            "undo the change, and remove the run",
-                            member.path, visible(scenario.deposition.file)));
-  return presence == RunPresence::packed;
 }
 
 std::string path_word(const std::string& path) { return path.starts_with('-') ? "./" + path : path; }

@@ -34,10 +34,6 @@ std::vector<FailedJob> run_jobs(const std::vector<Job>& jobs, const std::string&
 /// out of the tables".
 [[noreturn]] void refuse(const std::vector<FailedJob>& failed, const std::string& consequence);
 
-/// Whether the run of a member is complete. Throws Error(bad_data) where the run at its path has another
-/// scenario, seed or bed.
-bool is_complete(const Member& member);
-
 /// A path as a word of a command: one that begins with "-" would be read as an option.
 std::string path_word(const std::string& path);
 

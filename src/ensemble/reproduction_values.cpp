@@ -1,24 +1,21 @@
 #include "ensemble/reproduction_values.h"
 
-#include <filesystem>
+#include <algorithm>
+#include <fmt/core.h>
 #include <optional>
+#include <utility>
 
 #include "core/errors.h"
-#include "core/output_file.h"
-#include "core/paths.h"
-#include "ensemble/measured_file.h"
-#include "ensemble/member_numbers.h"
+#include "core/hash.h"
 #include "ensemble/member_state.h"
+#include "ensemble/member_values.h"
 #include "io/analysis_file.h"
-#include "io/durable_file.h"
 #include "io/run_file.h"
 #include "runs/analysis_parameters.h"
 #include "runs/analysis_run.h"
 
 namespace talus {
 namespace {
-
-namespace fs = std::filesystem;
 
 /// The values of a member by one analysis, one for each threshold.
 using Thresholds = std::vector<MeasuredValues>;
@@ -38,33 +35,57 @@ Thresholds measure_thresholds(const RunView& run, Population population) {
   return thresholds;
 }
 
-/// Where the values of an analysis that the run file does not hold are kept.
-std::string reading_path(const std::string& run, const ChainAnalysis& analysis) {
-  return (fs::path(file_beside(run, ".readings")) / (analysis.name + ".csv")).string();
+/// Of what quantities mean: another number makes kept values invalid.
+constexpr int measure_version = 1;
+
+std::string reading_key(const RunFile& run, const ChainAnalysis& analysis) {
+  return fmt::format("{} {}", measure_version, analysis_key(run, parse_analysis_settings(analysis.settings)));
+}
+
+StoredReading stored_reading(const ChainAnalysis& analysis, std::string key, const Thresholds& thresholds) {
+  StoredReading stored{analysis.name, std::move(key), thresholds.size(), {}, {}};
+  for (const MeasuredValues& values : thresholds)
+    for (const auto& [value, at_most] : values) {
+      stored.values.push_back(value);
+      stored.at_most.push_back(at_most ? 1 : 0);
+    }
+  return stored;
+}
+
+Thresholds thresholds_of(const StoredReading& stored) {
+  Thresholds thresholds(stored.thresholds);
+  for (std::size_t k = 0; k < stored.values.size(); ++k)
+    thresholds[k / quantity_count][k % quantity_count] = {stored.values[k], stored.at_most[k] != 0};
+  return thresholds;
 }
 
 /// Whether the bed is analysed for the readings: not between walls.
 bool has_readings(const Member& member) { return member.scenario.bed.boundary == BedBoundary::periodic; }
 
-std::optional<Thresholds> kept_reading(const RunFile& run, const std::string& path,
-                                       const ChainAnalysis& analysis) {
-  const std::string file = reading_path(path, analysis);
-  if (!is_there(file)) return std::nullopt;
-  return parse_measured(read_text(file), analysis_key(run, parse_analysis_settings(analysis.settings)));
+/// The valid one of an analysis, if it is there.
+const StoredReading* kept_reading(const RunFile& run, const std::vector<StoredReading>& stored,
+                                  const ChainAnalysis& analysis) {
+  const auto found = std::ranges::find(stored, analysis.name, &StoredReading::name);
+  const bool is_valid = found != stored.end() && found->key == reading_key(run, analysis) &&
+                        found->values.size() == found->thresholds * quantity_count;
+  return is_valid ? &*found : nullptr;
 }
 
 /// The values of a member by each analysis, as chain_analyses() has them (of beds between walls those of the
 /// run file alone, the others are empty); nothing where one is missing.
 std::optional<std::vector<Thresholds>> values_of(const Member& member, const RunView& run) {
   std::vector<Thresholds> values;
+  const std::vector<StoredReading> stored = read_readings(*run.file);
   for (const ChainAnalysis& analysis : chain_analyses(member.scenario.bed.depth)) {
-    std::optional<Thresholds> found = Thresholds();
-    if (analysis.settings.empty())
+    Thresholds found;
+    if (analysis.settings.empty()) {
       found = measure_thresholds(run, analysis.population);
-    else if (has_readings(member))
-      found = kept_reading(*run.file, member.path, analysis);
-    if (!found) return std::nullopt;
-    values.push_back(std::move(*found));
+    } else if (has_readings(member)) {
+      const StoredReading* const kept = kept_reading(*run.file, stored, analysis);
+      if (kept == nullptr) return std::nullopt;
+      found = thresholds_of(*kept);
+    }
+    values.push_back(std::move(found));
   }
   return values;
 }
@@ -73,26 +94,41 @@ ReproducedOutcome measure_member(const ReproductionPlan& plan, std::size_t m) {
   const Member& member = plan.members[m];
   const std::optional<RunView> run = stored_run(member.path);
   auto values = run ? values_of(member, *run) : std::nullopt;
-  const std::string numbers = numbers_path(member.path);
   if (!values)
-    throw Error(ExitCode::bad_data, member.path + " lacks analyses of this version of Talus; remove " +
-                                        numbers + ", and the member is analysed again");
-  const MemberNumbers found = read_numbers(member);
+    throw Error(ExitCode::bad_data, member.path +
+                                        " lacks analyses of this version of Talus, and they could "
+                                        "not be stored; make the folder writable");
+  const MemberNumbers found = member_numbers(*run->file, run->analysis);
   return {m, found.version, found.seconds, std::move(*values), wall_point(*run)};
 }
 
 }  // namespace
 
-void make_readings(const Member& member) {
-  if (!has_readings(member)) return;
-  RunView run = view_of_run(member.path, RunFile::open(member.path), {});
+std::vector<StoredReading> make_readings(const Member& member, const RunFile& file,
+                                         const AnalysisProgress& progress) {
+  std::vector<StoredReading> readings;
+  if (!has_readings(member)) return readings;
+  const std::vector<StoredReading> stored = read_readings(file);
   for (const ChainAnalysis& analysis : chain_analyses(member.scenario.bed.depth)) {
-    if (analysis.settings.empty() || kept_reading(*run.file, member.path, analysis)) continue;
-    run.analysis = analyse_run(*run.file, parse_analysis_settings(analysis.settings), 1, {});
-    const std::string file = reading_path(member.path, analysis);
-    prepare_folder_of(file);
-    write_text(file, measured_text(run.analysis.key, measure_thresholds(run, Population::carrying)));
+    if (analysis.settings.empty()) continue;
+    if (const StoredReading* const kept = kept_reading(file, stored, analysis)) {
+      readings.push_back(*kept);
+      continue;
+    }
+    RunView run;
+    run.statics = file.header().statics;
+    run.analysis = analyse_run(file, parse_analysis_settings(analysis.settings), 1, progress);
+    readings.push_back(
+        stored_reading(analysis, reading_key(file, analysis), measure_thresholds(run, Population::carrying)));
   }
+  return readings;
+}
+
+void complete_readings(const Member& member) {
+  const RunFile run = RunFile::open(member.path);
+  const std::vector<StoredReading> readings = make_readings(member, run, {});
+  if (!std::ranges::equal(readings, read_readings(run), {}, &StoredReading::key, &StoredReading::key))
+    store_readings(member.path, readings, hash_text(state_hash(run.checkpoint().world)));
 }
 
 bool is_measured(const Member& member) {

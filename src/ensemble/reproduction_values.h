@@ -3,13 +3,18 @@
 /// readings.
 
 #include "ensemble/reproduction.h"
+#include "io/run_file.h"
+#include "runs/analysis_run.h"
 
 namespace talus {
 
-/// Analyses the complete run of a periodic bed for each reading that its file does not hold, and keeps their
-/// values beside it ("seed-1.readings/averaging=1.csv"); those that are there and valid are kept. A bed
-/// between walls has none.
-void make_readings(const Member& member);
+/// Analyses the run of a periodic bed for each reading, and returns what they give; those that are stored
+/// with it and valid are taken as they are. A bed between walls has none. Throws as analyse_run does.
+std::vector<StoredReading> make_readings(const Member& member, const RunFile& run,
+                                         const AnalysisProgress& progress);
+
+/// Stores with the complete run of a member what it lacks of them. Throws as store_readings does.
+void complete_readings(const Member& member);
 
 /// Whether the run of a member is there, with its analysis and its readings, both of this version.
 bool is_measured(const Member& member);

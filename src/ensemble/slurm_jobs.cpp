@@ -99,15 +99,13 @@ EnsembleMark mark_of(const EnsemblePlan& plan) {
       ++mark.done;
       continue;
     }
-    const RunPresence presence = run_presence(path);
-    if (presence == RunPresence::packed) ++mark.computed;
-    if (presence == RunPresence::folder) mark.steps += committed_steps(path);
+    if (run_presence(path) == RunPresence::folder) mark.steps += committed_steps(path);
   }
   return mark;
 }
 
 bool is_further(const EnsembleMark& now, const EnsembleMark& before) {
-  return std::tie(now.done, now.computed, now.steps) > std::tie(before.done, before.computed, before.steps);
+  return std::tie(now.done, now.steps) > std::tie(before.done, before.steps);
 }
 
 TaskMemory after_start(const TaskMemory& before, const EnsembleMark& now) {
@@ -124,16 +122,15 @@ TaskMemory read_memory(const std::string& folder, const std::string& job, const 
   std::string header;
   std::getline(text, header);
   char comma = ',';
-  text >> memory.mark.done >> comma >> memory.mark.computed >> comma >> memory.mark.steps >> comma >>
-      memory.idle_starts;
+  text >> memory.mark.done >> comma >> memory.mark.steps >> comma >> memory.idle_starts;
   return text ? memory : TaskMemory{};
 }
 
 void write_memory(const std::string& folder, const std::string& job, const std::string& task,
                   const TaskMemory& memory) {
   write_text(memory_path(folder, job, task),
-             fmt::format("done,computed,steps,idle_starts\n{},{},{},{}\n", memory.mark.done,
-                         memory.mark.computed, memory.mark.steps, memory.idle_starts));
+             fmt::format("done,steps,idle_starts\n{},{},{}\n", memory.mark.done, memory.mark.steps,
+                         memory.idle_starts));
 }
 
 }  // namespace talus

@@ -25,15 +25,14 @@ std::vector<SlurmJob> recorded_jobs(const std::string& folder);
 
 /// How far an ensemble is.
 struct EnsembleMark {
-  std::uint64_t done = 0;      ///< members
-  std::uint64_t computed = 0;  ///< members whose runs are complete
-  std::uint64_t steps = 0;     ///< committed in the runs that are under way
+  std::uint64_t done = 0;   ///< members
+  std::uint64_t steps = 0;  ///< committed in the runs that are under way
   bool operator==(const EnsembleMark&) const = default;
 };
 EnsembleMark mark_of(const EnsemblePlan& plan);
 
-/// Whether any member has come further from `before` to `now`. A run that is complete counts no steps any
-/// more, and a member that is done no run: the first of these numbers that differs tells.
+/// Whether any member has come further from `before` to `now`. A member that is done counts no steps any
+/// more: the first of these numbers that differs tells.
 bool is_further(const EnsembleMark& now, const EnsembleMark& before);
 
 /// Starts of a task, one after the other, after which no member had come further.

@@ -47,9 +47,11 @@ double common_angle(const std::vector<RunReach>& reaches) {
 StudyResult read_study(const StudyPlan& plan, std::optional<double> reference) {
   StudyResult result{plan, 0.0, {}};
   std::vector<RunReach> reaches;
-  const std::vector<MemberNumbers> numbers = numbers_of(plan, look_at_members(plan));
+  const std::vector<MemberState> states = look_at_members(plan);
+  KnownMembers known;
+  const std::vector<MemberNumbers> numbers = numbers_of(plan, states, known);
   for (std::size_t m = 0; m < plan.members.size(); ++m) {
-    if (numbers[m].numbers.empty()) continue;
+    if (states[m].stage != MemberStage::done) continue;
     reaches.push_back(reach(RunFile::open(plan.members[m].path)));
     result.outcomes.push_back({m, {}, numbers[m].state_hash, numbers[m].version});
   }

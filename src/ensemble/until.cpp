@@ -33,13 +33,14 @@ Precision parse_precision(const std::string& text) {
                           visible_word(text)));
 }
 
-std::vector<MemberNumbers> numbers_of(const EnsemblePlan& plan, const std::vector<MemberState>& states) {
+std::vector<MemberNumbers> numbers_of(const EnsemblePlan& plan, const std::vector<MemberState>& states,
+                                      KnownMembers& known) {
   std::vector<MemberNumbers> numbers(plan.members.size());
   std::map<std::pair<std::size_t, std::string>, const Member*> ends;
   for (std::size_t m = 0; m < plan.members.size(); ++m) {
     if (states[m].stage != MemberStage::done) continue;
     const Member& member = plan.members[m];
-    numbers[m] = read_numbers(member);
+    numbers[m] = read_member(member, known).numbers;
     // Nothing is random in the bed of a file, so there it may be the same for all seeds.
     if (member.scenario.deposition.method == DepositionMethod::file) continue;
     const auto [first, is_new] = ends.emplace(std::pair(member.variant, numbers[m].state_hash), &member);
@@ -47,8 +48,8 @@ std::vector<MemberNumbers> numbers_of(const EnsemblePlan& plan, const std::vecto
       throw Error(
           ExitCode::bad_data,
           fmt::format("{} and {} have the same state_hash, which two seeds never have: one is a copy; "
-                      "remove it with its run, and talus ensemble computes that member again",
-                      numbers_path(first->second->path), numbers_path(member.path)));
+                      "remove it, and talus ensemble computes that member again",
+                      first->second->path, member.path));
   }
   return numbers;
 }

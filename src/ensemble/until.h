@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "ensemble/member_numbers.h"
+#include "ensemble/member_reader.h"
 #include "ensemble/member_state.h"
 #include "ensemble/plan.h"
 
@@ -24,8 +24,9 @@ inline constexpr int least_members = 5;
 Precision parse_precision(const std::string& text);
 
 /// The numbers of the members that are done, in the order of the plan; of the others nothing. Throws as
-/// read_numbers does, and Error(bad_data) where two seeds of a variant have the same state hash.
-std::vector<MemberNumbers> numbers_of(const EnsemblePlan& plan, const std::vector<MemberState>& states);
+/// read_member does, and Error(bad_data) where two seeds of a variant have the same state hash.
+std::vector<MemberNumbers> numbers_of(const EnsemblePlan& plan, const std::vector<MemberState>& states,
+                                      KnownMembers& known);
 
 /// Whether the mean of each variant is known that well, each from `least_members` values or more. `numbers`
 /// as numbers_of gives them.

@@ -28,6 +28,7 @@ struct Worker {
   ClaimWatch watch;
   std::map<std::string, std::string> waits_for = {};  ///< who writes the run of which member, as was told
   std::set<std::string> refused = {};                 ///< members that ended with 73 once
+  KnownMembers known = {};
   Clock::time_point begin = Clock::now();
   WorkerEnd end = {};
 };
@@ -163,8 +164,8 @@ WorkerEnd work_on_ensemble(const WorkerOptions& options) {
     const EnsembleManifest manifest = read_ensemble(options.folder);
     const EnsemblePlan plan = plan_of(manifest, options.folder);
     const std::vector<MemberState> states = look_at_members(plan);
-    worker.end.enough = !manifest.until.empty() &&
-                        is_reached(parse_precision(manifest.until), plan, numbers_of(plan, states));
+    worker.end.enough = !manifest.until.empty() && is_reached(parse_precision(manifest.until), plan,
+                                                              numbers_of(plan, states, worker.known));
     if (worker.end.enough) return worker.end;
     Look look = take_next(plan, states, worker);
     worker.end.elsewhere = look.alive + look.unknown + look.written;

@@ -22,7 +22,7 @@ std::optional<FailedGroup> first_group(std::span<const RunGroup> groups, RunChoi
 }  // namespace
 
 std::optional<FailedGroup> first_failed_group(std::span<const RunGroup> groups) {
-  return first_group(groups, with_files);
+  return first_group(groups, with_frames);
 }
 
 std::optional<FailedGroup> first_group_with_distributions(std::span<const RunGroup> groups) {

@@ -50,6 +50,11 @@ RunChoice with_files(RunChoice runs) {
   return runs;
 }
 
+RunChoice with_frames(RunChoice runs) {
+  std::erase_if(runs, [](const RunView* run) { return !run->file || !run->file->has_frames(); });
+  return runs;
+}
+
 RunChoice with_distributions(RunChoice runs) {
   std::erase_if(runs, [](const RunView* run) { return run->analysis.gamma_edge.empty(); });
   return runs;

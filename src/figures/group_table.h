@@ -23,6 +23,8 @@ RunChoice failed_runs(const RunGroup& group);
 
 /// Those of some runs whose files are there: for what values of an ensemble do not tell.
 RunChoice with_files(RunChoice runs);
+/// Those of which frames are there as well: an ensemble may keep a run without them.
+RunChoice with_frames(RunChoice runs);
 
 /// Those of some runs whose distributions are known: ensemble.h5 has no more than means of them.
 RunChoice with_distributions(RunChoice runs);

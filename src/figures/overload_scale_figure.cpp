@@ -89,7 +89,7 @@ std::optional<Figure> overload_scale_figure(std::span<const RunGroup> groups) {
       "failed, of which at least half stand at an angle that is shown; error bars are standard errors over "
       "the runs, none for a single run.";
   for (const RunGroup& group : groups) {
-    const RunChoice runs = with_files(failed_runs(group));
+    const RunChoice runs = with_frames(failed_runs(group));
     if (!group.periodic() || runs.empty()) continue;
     add_group_table(figure, group, runs, scale_columns(runs));
   }

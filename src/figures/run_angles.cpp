@@ -5,7 +5,7 @@
 
 #include "core/statistics.h"
 #include "core/trigonometry.h"
-#include "ensemble/member_numbers.h"
+#include "ensemble/member_values.h"
 #include "figures/theta_d_estimators.h"
 
 namespace talus {

@@ -8,7 +8,6 @@
 #include "core/errors.h"
 #include "core/text_stream.h"
 #include "io/durable_file.h"
-#include "io/frames_of_tilt.h"
 #include "io/packed_file.h"
 #include "io/run_records.h"
 
@@ -55,17 +54,6 @@ Values read_values(hdf5::Reader& reader, const DataSetField& field) {
   return reader.read<double>(field);
 }
 
-/// The tilts of the frames that an analysis has rows for.
-std::vector<double> analysed_tilts(const std::string& path) {
-  hdf5::Reader reader = hdf5::Reader::from_file(path);
-  std::vector<double> tilts = reader.read_finite("/frames/tilt");
-  std::optional<std::int64_t> last_tilt_step;
-  if (const std::string last = std::string("/checkpoint/integers/") + last_tilt_step_name; reader.has(last))
-    last_tilt_step = reader.read_scalar<std::int64_t>(last);
-  tilts.resize(frames_of_tilt(tilts, reader.read<std::int64_t>("/frames/step"), last_tilt_step));
-  return tilts;
-}
-
 /// The frames, thresholds and events of a stored analysis, with nothing in them yet.
 void make_records(hdf5::Reader& reader, const std::vector<double>& tilts, Analysis& analysis) {
   if (reader.has(analysis_group + "/threshold"))
@@ -86,7 +74,7 @@ void check_frame_count(const hdf5::Reader& reader, std::size_t rows, std::size_t
 }
 
 /// The packed file at `path` without an analysis.
-std::vector<std::byte> bare_bytes(const std::string& path, const std::string& state_hash) {
+std::vector<std::byte> bare_bytes(const std::string& path, const std::string& state_hash, bool keep_frames) {
   verify_seal(path);
   std::vector<std::byte> bytes = read_file(path);
   hdf5::Reader reader = hdf5::Reader::from_memory(bytes, path, {});
@@ -95,17 +83,17 @@ std::vector<std::byte> bare_bytes(const std::string& path, const std::string& st
   if (stored_hash != state_hash)
     throw Error(ExitCode::cannot_create,
                 path + ": was replaced by another run while it was being analysed; analyse it again");
-  // HDF5 leaves holes where something is removed from a file, so a file that has an analysis is packed again.
-  if (!reader.has(analysis_group)) return bytes;
+  // HDF5 leaves holes where something is removed from a file, so it is packed again.
+  if (!reader.has(analysis_group) && keep_frames) return bytes;
   const RunFile run = RunFile::open(path);
-  return packed_bytes(content_of(run));
+  return packed_bytes(content_of(run, keep_frames));
 }
 
 }  // namespace
 
-std::optional<Analysis> read_analysis(const std::string& path, std::span<const Quantity> table) {
-  verify_seal(path);
-  hdf5::Reader reader = hdf5::Reader::from_file(path);
+std::optional<Analysis> read_analysis(const RunFile& run, std::span<const Quantity> table) {
+  if (!run.complete()) return std::nullopt;
+  hdf5::Reader reader = run.packed_reader();
   if (!reader.has(analysis_group) ||
       reader.read_scalar<std::int32_t>(analysis_group + "/version") != analysis_version)
     return std::nullopt;
@@ -114,7 +102,7 @@ std::optional<Analysis> read_analysis(const std::string& path, std::span<const Q
   for (const std::string& name : reader.names(analysis_group + "/parameters"))
     analysis.parameters.emplace_back(name,
                                      reader.read_text(fmt::format("{}/parameters/{}", analysis_group, name)));
-  const std::vector<double> tilts = analysed_tilts(path);
+  const std::vector<double>& tilts = run.frame_tilts();
   check_frame_count(reader, reader.row_count(analysis_group + "/packing/volume"), tilts.size());
   reader.row_count("/particles/grains/id");  // how many grains there are
   make_records(reader, tilts, analysis);
@@ -124,17 +112,62 @@ std::optional<Analysis> read_analysis(const std::string& path, std::span<const Q
   return analysis;
 }
 
-void store_analysis(const std::string& path, const Analysis& analysis, const std::string& state_hash,
-                    std::span<const Quantity> table) {
-  hdf5::Writer writer(sizes_of(analysis), seal_size, bare_bytes(path, state_hash));
+std::vector<StoredReading> read_readings(const RunFile& run) {
+  if (!run.complete()) return {};
+  hdf5::Reader reader = run.packed_reader();
+  std::vector<StoredReading> readings;
+  if (!reader.has("/readings")) return readings;
+  for (const std::string& name : reader.names("/readings/key")) {
+    const std::string value = "/readings/value/" + name;
+    readings.push_back({name, reader.read_text("/readings/key/" + name), reader.row_count(value),
+                        reader.read<double>(value), reader.read<std::int8_t>("/readings/at_most/" + name)});
+  }
+  return readings;
+}
+
+std::vector<std::byte> with_analysis(const std::vector<std::byte>& packed, const Analysis& analysis,
+                                     const std::vector<StoredReading>& readings,
+                                     std::span<const Quantity> table) {
+  Sizes sizes = sizes_of(analysis);
+  if (!readings.empty()) {
+    sizes['F'] = readings.front().thresholds;
+    sizes['W'] = readings.front().values.size() / readings.front().thresholds;
+  }
+  hdf5::Writer writer(std::move(sizes), seal_size, packed);
   write_analysis(writer, analysis, table);
+  for (const StoredReading& reading : readings) {
+    writer.write_text("/readings/key/" + reading.name, reading.key);
+    writer.write("/readings/value/" + reading.name, reading.values);
+    writer.write("/readings/at_most/" + reading.name, reading.at_most);
+  }
   std::vector<std::byte> file = writer.image();
   seal(file);
+  return file;
+}
+
+namespace {
+
+void replace_packed(const std::string& path, const std::vector<std::byte>& file) {
   // What a kill left of packing tells the file by its seal, which changes now.
   if (const std::string target = output_target(path); run_presence(target) == RunPresence::packed)
     discard_folder(target);
   prepare_folder_of(path);
   write_durably(path, file);
+}
+
+}  // namespace
+
+void store_analysis(const std::string& path, const Analysis& analysis, const std::string& state_hash,
+                    std::span<const Quantity> table, bool keep_frames) {
+  const std::vector<StoredReading> readings = read_readings(RunFile::open(path));
+  replace_packed(path, with_analysis(bare_bytes(path, state_hash, keep_frames), analysis, readings, table));
+}
+
+void store_readings(const std::string& path, const std::vector<StoredReading>& readings,
+                    const std::string& state_hash) {
+  const std::optional<Analysis> analysis = read_analysis(path);
+  if (!analysis) throw Error(ExitCode::bad_data, path + " has no analysis of this version of Talus");
+  replace_packed(path, with_analysis(bare_bytes(path, state_hash, true), *analysis, readings));
 }
 
 }  // namespace talus

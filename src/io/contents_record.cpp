@@ -1,3 +1,5 @@
+#include <fmt/core.h>
+
 #include "core/errors.h"
 #include "core/text_stream.h"
 #include "io/analysis_schema.h"
@@ -16,6 +18,9 @@ std::vector<std::string> analysis_data_sets(hdf5::Reader& reader) {
   for (const DataSetField& field : analysis_schema())
     if (reader.has(field.path)) paths.push_back(field.path);
   for (const std::string& name : reader.names(parameters)) paths.push_back(parameters + "/" + name);
+  for (const char* group : {"/readings/key", "/readings/value", "/readings/at_most"})
+    if (reader.has(group))
+      for (const std::string& name : reader.names(group)) paths.push_back(fmt::format("{}/{}", group, name));
   return paths;
 }
 

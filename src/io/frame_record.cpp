@@ -194,6 +194,16 @@ void write_frames(hdf5::Writer& writer, const std::function<Frame(std::size_t)>&
   }
 }
 
+void write_instants(hdf5::Writer& writer, const std::function<Frame(std::size_t)>& frame_at) {
+  for (const char* path : {"/frames/step", "/frames/time", "/frames/tilt"}) writer.create(path);
+  for (std::size_t k = 0; k < writer.sizes().at('T'); ++k) {
+    const Frame frame = frame_at(k);
+    writer.write_rows("/frames/step", k, std::vector{frame.step});
+    writer.write_rows("/frames/time", k, std::vector{frame.time});
+    writer.write_rows("/frames/tilt", k, std::vector{frame.tilt});
+  }
+}
+
 Frame as_stored(Frame frame) {
   FrameContacts& c = frame.contacts;
   for (std::vector<double>* values : {&frame.x, &frame.y, &frame.angle, &frame.vx, &frame.vy, &frame.omega,

@@ -119,11 +119,18 @@ void verify_seal(const std::string& path) {
                     path, size, hash_text(hasher.value()), path));
 }
 
-RunContent content_of(const RunFile& run) {
-  return {run.header(),          run.checkpoint(),
-          run.all_observables(), run.steps(),
-          run.commands(),        run.all_frame_tilts().size(),
-          run.contact_count(),   [&run](std::size_t k) { return run.frame(k); }};
+RunContent content_of(const RunFile& run, bool with_frames) {
+  const bool whole = with_frames && run.has_frames();
+  return {run.header(),
+          run.checkpoint(),
+          run.all_observables(),
+          run.steps(),
+          run.commands(),
+          run.trials(),
+          run.all_frame_tilts().size(),
+          run.contact_count(),
+          [&run, whole](std::size_t k) { return whole ? run.frame(k) : run.instant(k); },
+          whole};
 }
 
 bool lacks_state(const RunHeader& header, const Checkpoint& checkpoint) {
@@ -138,19 +145,25 @@ std::vector<std::byte> packed_bytes(const RunContent& run, const std::function<b
                  {'R', run.observables.size()},
                  {'S', run.steps.size()},
                  {'K', run.commands.size()},
+                 {'Q', run.trials.size()},
                  {'G', world.grains.radius.size()},
                  {'C', world.contacts.a.size()},
                  {'P', world.boundary.planes.size()}};
   hdf5::Writer writer(with_branch(std::move(sizes), run.header), seal_size);
   write_header(writer, run.header);
   write_h5md(writer, run.header.statics.periodic);
-  write_frames(writer, [&](std::size_t k) {
+  const auto frame_at = [&](std::size_t k) {
     if (goes_on && !goes_on()) throw Interrupted{};
     return run.frame_at(k);
-  });
+  };
+  if (run.has_frames)
+    write_frames(writer, frame_at);
+  else
+    write_instants(writer, frame_at);
   write_observables(writer, run.observables);
   write_steps(writer, run.steps);
   write_commands(writer, run.commands);
+  write_trials(writer, run.trials);
   if (lacks_state(run.header, run.checkpoint))
     write_results(writer, run.checkpoint);
   else

@@ -38,12 +38,14 @@ struct RunContent {
   std::vector<ObservableRow> observables;
   std::vector<StepRow> steps;
   std::vector<Command> commands;
+  std::vector<TrialRow> trials;
   std::size_t frames = 0;
   std::uint64_t contacts = 0;  ///< of all frames
   std::function<Frame(std::size_t)> frame_at;
+  bool has_frames = true;  ///< false: of frames only steps, times and tilts are stored
 };
-/// Of a run, which must outlive it.
-RunContent content_of(const RunFile& run);
+/// Of a run, which must outlive it; without its frames where it has none, or they are not wanted.
+RunContent content_of(const RunFile& run, bool with_frames = true);
 
 /// Whether a run was repaired and lacks its last state: it has no /checkpoint.
 bool lacks_state(const RunHeader& header, const Checkpoint& checkpoint);

@@ -51,7 +51,7 @@ void append(std::vector<Row>& rows, const std::vector<Row>& more) {
 StoredSegment whole_file(hdf5::Reader& reader) {
   StoredSegment segment;
   segment.frames = reader.row_count("/frames/tilt");
-  segment.contacts = reader.row_count("/contacts/pair");
+  if (reader.has("/contacts")) segment.contacts = reader.row_count("/contacts/pair");
   return segment;
 }
 
@@ -71,6 +71,10 @@ bool is_known_row(const ObservableRow& row, std::int64_t last) {
   return at(row, Observable::step) <= static_cast<double>(last);
 }
 
+bool is_known_trial(const TrialRow& row, std::int64_t last) {
+  return at(row, TrialField::step) <= static_cast<double>(last);
+}
+
 bool is_known_command(const Command& command, std::int64_t last) { return command.step <= last; }
 
 }  // namespace
@@ -81,7 +85,10 @@ struct RunFile::State {
   RunHeader header;
   Checkpoint checkpoint;
   std::vector<StoredSegment> segments;
+  std::string name;  ///< what messages call it
   std::vector<double> all_tilts, all_times;
+  std::vector<std::int64_t> all_steps;
+  bool has_frames = true;
   std::vector<double> tilts;                   ///< of the frames of the tilt
   std::optional<std::int64_t> last_tilt_step;  ///< with a programme
   std::size_t open_segment = 0;
@@ -134,6 +141,12 @@ struct RunFile::State {
 
   /// What `record` reads of frame k, from the segment that holds it.
   Frame read(Frame (*record)(hdf5::Reader&, std::size_t), std::size_t k) {
+    if (!has_frames)
+      throw Error(
+          ExitCode::missing_input,
+          fmt::format("{} has no frames: it was kept for its analysis alone (--keep analysis); compute "
+                      "it again with talus run for pictures",
+                      name));
     const FramePlace place = place_of(k);
     Frame frame = record(place.reader, place.row);
     check_frame(place.reader, {frame, header.statics}, plane_count());
@@ -164,17 +177,16 @@ struct RunFile::State {
   }
 
   void read_tilts() {
-    std::vector<std::int64_t> steps;
     for (std::size_t s = 0; s < segments.size(); ++s) {
       hdf5::Reader& from = segment(s);
       if (packed_since) throw Error(ExitCode::missing_input, folder + ": was packed at this moment");
       append(all_tilts, from.read_finite("/frames/tilt"));
       append(all_times, from.read_finite("/frames/time"));
-      append(steps, from.read<std::int64_t>("/frames/step"));
+      append(all_steps, from.read<std::int64_t>("/frames/step"));
     }
     last_tilt_step = find_value(checkpoint.integers, last_tilt_step_name);
     tilts = all_tilts;
-    tilts.resize(frames_of_tilt(all_tilts, steps, last_tilt_step));
+    tilts.resize(frames_of_tilt(all_tilts, all_steps, last_tilt_step));
   }
 };
 
@@ -211,15 +223,17 @@ RunFile::~RunFile() = default;
 
 RunFile RunFile::open_packed(const std::string& path) {
   verify_seal(path);
-  return read_packed(hdf5::Reader::from_file(path));
+  return read_packed(hdf5::Reader::from_file(path), path);
 }
 
 RunFile RunFile::of_bytes(std::vector<std::byte> bytes, const std::string& name) {
-  return read_packed(hdf5::Reader::from_memory(std::move(bytes), name, {}));
+  return read_packed(hdf5::Reader::from_memory(std::move(bytes), name, {}), name);
 }
 
-RunFile RunFile::read_packed(hdf5::Reader&& reader) {
+RunFile RunFile::read_packed(hdf5::Reader&& reader, const std::string& name) {
   auto state = std::make_unique<State>();
+  state->name = name;
+  state->has_frames = reader.has("/contacts") || reader.has("/frames/hash");
   state->reader = std::move(reader);
   state->header = read_header(*state->reader);
   const bool was_repaired = find_value(state->header.provenance, lost_fact).has_value();
@@ -282,6 +296,18 @@ std::uint64_t RunFile::contact_count() const {
 
 Frame RunFile::frame(std::size_t k) const { return state_->read(read_frame, k); }
 
+bool RunFile::has_frames() const { return state_->has_frames; }
+
+Frame RunFile::instant(std::size_t k) const {
+  Frame frame;
+  frame.step = state_->all_steps.at(k);
+  frame.time = state_->all_times.at(k);
+  frame.tilt = state_->all_tilts.at(k);
+  return frame;
+}
+
+hdf5::Reader RunFile::packed_reader() const { return state_->reader->again(); }
+
 bool RunFile::is_as_written(const Frame& frame, std::size_t k) const {
   const State::FramePlace place = state_->place_of(k);
   return place.reader.read_rows<std::uint64_t>("/frames/hash", place.row, 1).front() == frame_hash(frame);
@@ -312,6 +338,8 @@ std::vector<ObservableRow> RunFile::all_observables() const {
 }
 
 std::vector<StepRow> RunFile::steps() const { return state_->rows(read_steps, is_known_step); }
+
+std::vector<TrialRow> RunFile::trials() const { return state_->rows(read_trials, is_known_trial); }
 
 std::vector<Command> RunFile::commands() const { return state_->rows(read_commands, is_known_command); }
 

@@ -44,30 +44,41 @@ class RunFile {
   const std::vector<double>& all_frame_times() const;  ///< s
   std::vector<ObservableRow> all_observables() const;
   std::uint64_t contact_count() const;  ///< of all frames together
+  /// False for a file that was kept for its analysis alone (talus ensemble --keep analysis): of its frames
+  /// only steps, times and tilts are known.
+  bool has_frames() const;
+  /// Of frame k only step, time and tilt, which are always there.
+  Frame instant(std::size_t k) const;
   /// Frame k with everything stored, k < all_frame_tilts().size(). Values are those of the file (single
-  /// precision where it stores floats). Not for several threads at once.
+  /// precision where it stores floats). Not for several threads at once. Throws Error(missing_input) where
+  /// the file has no frames.
   Frame frame(std::size_t k) const;
   /// Whether a frame that was read as frame k is the one whose hash was stored with it.
   bool is_as_written(const Frame& frame, std::size_t k) const;
   /// Paths of the data sets that do not agree with their own hashes: of a packed file, its analysis included,
   /// or of the segments of a folder.
   std::vector<std::string> changed_data_sets() const;
-  /// Of frame k only step, time, tilt, x and y: read several times faster than all of it.
+  /// Of frame k only step, time, tilt, x and y: read several times faster than all of it. Throws as frame
+  /// does.
   Frame positions(std::size_t k) const;
   std::vector<StepRow> steps() const;
   /// What was done to the run while it went on, in order.
   std::vector<Command> commands() const;
+  /// What became of copies of the bed that were pushed on its way to failure, in order.
+  std::vector<TrialRow> trials() const;
   const Checkpoint& checkpoint() const;  ///< the last state, with results and timing
   /// Whether the last state is there; it may be lost in a run that was repaired, and is without grains then.
   bool has_state() const { return checkpoint().world.grains.count() > 0; }
   /// What was lost of a run before it was repaired; empty for a run of which nothing is missing.
   std::string lost() const;
+  /// The packed file that is open, of whose letters nothing is known yet. Private to this room.
+  hdf5::Reader packed_reader() const;
 
  private:
   struct State;
   explicit RunFile(std::unique_ptr<State> state);
   static RunFile open_packed(const std::string& path);
-  static RunFile read_packed(hdf5::Reader&& reader);
+  static RunFile read_packed(hdf5::Reader&& reader, const std::string& name);
   static RunFile open_folder(const std::string& folder);
   std::unique_ptr<State> state_;
 };

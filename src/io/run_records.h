@@ -24,6 +24,8 @@ RunHeader read_header(hdf5::Reader& reader, const std::function<bool(const std::
 /// /frames, the time-dependent data sets of /particles, and /contacts. Sizes: T, N, M.
 /// `frame_at(k)` is called once for each frame, in order.
 void write_frames(hdf5::Writer& writer, const std::function<Frame(std::size_t)>& frame_at);
+/// Of the frames only /frames/step, time and tilt.
+void write_instants(hdf5::Writer& writer, const std::function<Frame(std::size_t)>& frame_at);
 /// Frame `row` of the file; or only its step, time, tilt, x and y.
 Frame read_frame(hdf5::Reader& reader, std::size_t row);
 Frame read_positions(hdf5::Reader& reader, std::size_t row);
@@ -49,6 +51,10 @@ std::vector<StepRow> read_steps(hdf5::Reader& reader);
 /// /commands, a group that is there where there are any. Sizes: K.
 void write_commands(hdf5::Writer& writer, const std::vector<Command>& commands);
 std::vector<Command> read_commands(hdf5::Reader& reader);
+
+/// /trials, a group that is there where there are any. Sizes: Q.
+void write_trials(hdf5::Writer& writer, const std::vector<TrialRow>& rows);
+std::vector<TrialRow> read_trials(hdf5::Reader& reader);
 
 /// /checkpoint, /results and /provenance/timing. Sizes: G, C, P.
 void write_checkpoint(hdf5::Writer& writer, const Checkpoint& checkpoint);

@@ -173,10 +173,11 @@ class Salvager {
       });
       has_header_ = true;
     }
-    if (whole.contains("/frames")) add_frames(reader);
+    if (whole.contains("/frames") && reader.has("/frames/hash")) add_frames(reader);
     if (whole.contains("/observables")) append(run_.observables, read_observables(reader));
     if (whole.contains("/steps")) append(run_.steps, read_steps(reader));
     if (whole.contains("/commands")) append(run_.commands, read_commands(reader));
+    if (whole.contains("/trials")) append(run_.trials, read_trials(reader));
     if (!whole.contains("/results")) return;
     run_.checkpoint = whole.contains("/checkpoint") ? read_checkpoint(reader) : read_results(reader);
   }
@@ -291,7 +292,7 @@ Salvage salvage_run(const std::string& run) {
 /// own.
 bool is_whole(const std::string& run) try {
   const RunFile file = RunFile::open(run);
-  for (std::size_t k = 0; k < file.all_frame_tilts().size(); ++k)
+  for (std::size_t k = 0; file.has_frames() && k < file.all_frame_tilts().size(); ++k)
     if (!file.is_as_written(file.frame(k), k)) return false;
   return file.changed_data_sets().empty();
 } catch (const Error& error) {

@@ -3,6 +3,7 @@
 #include "core/errors.h"
 #include "core/observables.h"
 #include "core/text_stream.h"
+#include "core/trial_row.h"
 #include "io/analysis_schema.h"
 
 namespace talus {
@@ -151,6 +152,20 @@ std::vector<DataSetField> checkpoint_fields() {
   };
 }
 
+/// Values of further analyses, beside the one in /analysis.
+std::vector<DataSetField> reading_fields() {
+  return {
+      {"/readings/key/*", text, "", "1",
+       "key of an analysis with the parameters of the name, of which only these values are kept"},
+      {"/readings/value/*", float64, "F W", "by quantity",
+       "what it gives at each threshold for the quantities of the paper, in their order in the program and "
+       "in "
+       "the units of the paper; NaN where there is none"},
+      {"/readings/at_most/*", int8, "F W", "1",
+       "1 where no more is known of a value than that it is not above it"},
+  };
+}
+
 /// The state that a branch begins from has the data sets of the last state, in a group of its own.
 std::vector<DataSetField> branch_fields() {
   std::vector<DataSetField> fields = {
@@ -182,8 +197,10 @@ std::vector<DataSetField> make_schema() {
   append_series(schema, "/observables/", "R", observable_fields);
   append_series(schema, "/steps/", "S", step_fields);
   for (const DataSetField& field : command_fields()) schema.push_back(field);
+  append_series(schema, "/trials/", "Q", trial_fields);
   for (const DataSetField& field : branch_fields()) schema.push_back(field);
   for (const DataSetField& field : checkpoint_fields()) schema.push_back(field);
+  for (const DataSetField& field : reading_fields()) schema.push_back(field);
   return schema;
 }
 

@@ -17,6 +17,7 @@
 
 #include "core/errors.h"
 #include "core/paths.h"
+#include "io/analysis_file.h"
 #include "io/durable_file.h"
 #include "io/manifest.h"
 #include "io/packed_file.h"
@@ -171,12 +172,14 @@ std::vector<std::byte> segment_bytes(const Segment& segment, const StoredSegment
                        {'M', sizes.contacts},
                        {'R', sizes.observables},
                        {'S', sizes.steps},
-                       {'K', segment.commands.size()}},
+                       {'K', segment.commands.size()},
+                       {'Q', segment.trials.size()}},
                       0, hdf5::Storage::as_it_is);
   write_frames(writer, [&segment](std::size_t k) { return segment.frames[k]; });
   write_observables(writer, segment.observables);
   write_steps(writer, segment.steps);
   write_commands(writer, segment.commands);
+  write_trials(writer, segment.trials);
   return writer.image();
 }
 
@@ -193,7 +196,7 @@ StoredSegment store_segment(const std::string& folder, const std::string& name, 
 
 bool is_empty(const Segment& segment) {
   return segment.frames.empty() && segment.observables.empty() && segment.steps.empty() &&
-         segment.commands.empty();
+         segment.commands.empty() && segment.trials.empty();
 }
 
 void refuse_existing(const std::string& path, bool overwrite) {
@@ -344,12 +347,13 @@ void RunStore::commit(const Segment& segment, const Checkpoint& checkpoint) try 
   throw;
 }
 
-bool RunStore::pack(const std::function<bool()>& goes_on) try {
+bool RunStore::pack(const std::function<bool()>& goes_on, const PackedParts& parts) try {
   const std::string folder = state_->folder;
   state_->lock.require();
   const RunFile run = RunFile::open(folder);
-  std::vector<std::byte> bytes = packed_bytes(content_of(run), goes_on);
+  std::vector<std::byte> bytes = packed_bytes(content_of(run, parts.frames), goes_on);
   if (bytes.empty()) return false;
+  if (parts.analysis != nullptr) bytes = with_analysis(bytes, *parts.analysis, parts.readings);
   if (state_->manifest.replaces) {
     // When the new file has taken the name of the old one, the folder beside it must not hide it any more:
     // the manifest tells the two apart, before and after the rename alike.

@@ -12,8 +12,11 @@
 
 #include "core/command.h"
 #include "core/snapshot.h"
+#include "core/trial_row.h"
 
 namespace talus {
+
+struct Analysis;
 
 /// All that is needed to continue with the same bits: the world in doubles, and the state of the schedule as
 /// named values that the session understands. `results` are the figures of the run so far (theta_c, ...),
@@ -50,11 +53,29 @@ struct Segment {
   std::vector<ObservableRow> observables;
   std::vector<StepRow> steps;
   std::vector<Command> commands;
+  std::vector<TrialRow> trials;
 };
 
 /// The integer that a run with a programme of the tilt has: steps of the world when the last step of the tilt
 /// was taken. Its tilt need not be highest there.
 inline constexpr const char* last_tilt_step_name = "last_tilt_step";
+
+/// Values that another analysis than the stored one gave: a row for each threshold, a column for each
+/// quantity.
+struct StoredReading {
+  std::string name;  ///< "l_min=0,min_contacts=3"
+  std::string key;   ///< of the analysis
+  std::size_t thresholds = 0;
+  std::vector<double> values;
+  std::vector<std::int8_t> at_most;  ///< 1 where no more is known than that it is not above the value
+};
+
+/// What a packed file holds besides all that was committed, and what not.
+struct PackedParts {
+  const Analysis* analysis = nullptr;        ///< stored with the run, if there is one
+  std::vector<StoredReading> readings = {};  ///< the same, where there is an analysis
+  bool frames = true;                        ///< false: only with steps, times and tilts of its frames
+};
 
 /// The open folder of a running run, locked against other writers.
 class RunStore {
@@ -82,7 +103,7 @@ class RunStore {
   /// Packs everything committed into the file at `path`, which gets its name once it can be read, and removes
   /// the folder. Ends the store. Asks before each frame whether it `goes_on`; returns false where it does
   /// not. Then, and where it throws, the folder is kept, and pack can be called again.
-  bool pack(const std::function<bool()>& goes_on = {});
+  bool pack(const std::function<bool()>& goes_on = {}, const PackedParts& parts = {});
 
   /// Seconds spent in commit so far.
   double seconds_writing() const;

@@ -36,6 +36,15 @@ void write_steps(hdf5::Writer& writer, const std::vector<StepRow>& rows) {
   write_series(writer, "/steps/", step_fields, rows);
 }
 
+void write_trials(hdf5::Writer& writer, const std::vector<TrialRow>& rows) {
+  if (!rows.empty()) write_series(writer, "/trials/", trial_fields, rows);
+}
+
+std::vector<TrialRow> read_trials(hdf5::Reader& reader) {
+  if (!reader.has("/trials")) return {};
+  return read_series<TrialRow>(reader, "/trials/", trial_fields);
+}
+
 std::vector<ObservableRow> read_observables(hdf5::Reader& reader) {
   return read_series<ObservableRow>(reader, "/observables/", observable_fields);
 }

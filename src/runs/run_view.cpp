@@ -37,7 +37,7 @@ RunView analysed_run(const std::string& path, const AnalysisParameters& paramete
                      const AnalysisOptions& options) {
   RunFile run = RunFile::open(path);
   if (run.complete() && !options.force)
-    if (auto stored = read_analysis(path); stored && stored->key == analysis_key(run, parameters)) {
+    if (auto stored = read_analysis(run); stored && stored->key == analysis_key(run, parameters)) {
       RunView view = view_of_run(path, std::move(run), std::move(*stored));
       view.kept = "analysis read from the file";
       view.is_kept = true;

@@ -1,10 +1,10 @@
 #include "session/perturbation_table.h"
 
-#include <array>
 #include <charconv>
 #include <fmt/core.h>
 
 #include "core/errors.h"
+#include "core/snapshot.h"
 #include "core/text_stream.h"
 #include "core/visible_text.h"
 #include "scenario/text.h"
@@ -12,44 +12,9 @@
 namespace talus {
 namespace {
 
-constexpr std::string_view head =
-    "tilt_deg,velocity_over_sqrt_gD,energy_over_mgD,end,time_over_sqrt_D_over_g,moved,displacement_over_D";
-constexpr std::size_t column_count = 7;
-
-std::string plan_line(const PerturbationTable& table) {
-  return fmt::format("# talus perturb {}{}", plan_text(table.plan),
-                     table.complete ? ": complete" : ": under way");
-}
-
 bool read_number(std::string_view text, auto& number) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   return error == std::errc() && end == text.data() + text.size();
-}
-
-bool read_end(std::string_view text, TrialEnd& end) {
-  for (const TrialEnd known : {TrialEnd::rest, TrialEnd::avalanche, TrialEnd::undecided})
-    if (text == name_of(known)) {
-      end = known;
-      return true;
-    }
-  return false;
-}
-
-bool read_row(const std::string& line, double& tilt, Trial& trial) {
-  std::array<std::string, column_count> cells;
-  std::istringstream text = text_stream(line);
-  for (std::string& cell : cells)
-    if (!std::getline(text, cell, ',')) return false;
-  return read_number(cells[0], tilt) && read_number(cells[1], trial.strength) &&
-         read_number(cells[2], trial.energy) && read_end(cells[3], trial.end) &&
-         read_number(cells[4], trial.time) && read_number(cells[5], trial.moved) &&
-         read_number(cells[6], trial.displacement) && text.peek() == EOF;
-}
-
-std::string row_text(double tilt, const Trial& trial) {
-  return fmt::format("{},{},{},{},{},{},{}\n", short_text(tilt), short_text(trial.strength),
-                     short_text(trial.energy), name_of(trial.end), short_text(trial.time), trial.moved,
-                     short_text(trial.displacement));
 }
 
 }  // namespace
@@ -88,41 +53,32 @@ std::optional<PerturbationPlan> parse_plan(const std::string& text) {
   return plan;
 }
 
-std::string perturbation_csv(const PerturbationTable& table) {
-  std::string text = fmt::format("{}\n{}\n", plan_line(table), head);
-  for (const PerturbedState& state : table.states)
-    for (const Trial& trial : state.trials) text += row_text(state.tilt, trial);
-  return text;
+std::vector<TrialRow> rows_of(const PerturbedState& state, std::int64_t step) {
+  std::vector<TrialRow> rows;
+  for (const Trial& trial : state.trials)
+    rows.push_back({static_cast<double>(step), state.tilt, trial.strength, trial.energy,
+                    static_cast<double>(trial.end), trial.time, static_cast<double>(trial.moved),
+                    trial.displacement});
+  return rows;
 }
 
-PerturbationTable parse_perturbation_csv(const std::string& text, const std::string& name,
-                                         const PerturbationPlan& plan) {
-  PerturbationTable table{plan, false, {}};
-  const std::string under_way = plan_line(table);
-  table.complete = true;
-  std::istringstream lines = text_stream(text);
-  std::string line;
-  std::getline(lines, line);
-  if (line != plan_line(table) && line != under_way)
-    throw Error(
-        ExitCode::bad_data,
-        fmt::format(
-            "{} begins with '{}', expected '{}': it was made with other settings; give another folder", name,
-            visible_word(line, 120), under_way));
-  table.complete = line != under_way;
-  std::getline(lines, line);
-  bool whole = line == head;
-  double tilt = 0.0;
-  Trial trial;
-  while (whole && std::getline(lines, line)) {
-    whole = read_row(line, tilt, trial);
-    if (table.states.empty() || table.states.back().tilt != tilt) table.states.push_back({tilt, {}});
-    table.states.back().trials.push_back(trial);
-  }
-  if (!whole)
+PerturbationTable table_of(const RunFile& run, const PerturbationPlan& plan, const std::string& path) {
+  const std::string found = find_value(run.header().provenance, trials_fact).value_or("none");
+  if (found != plan_text(plan))
     throw Error(ExitCode::bad_data,
-                fmt::format("{}: unexpected line '{}'; remove the file, and its rows are computed again",
-                            name, visible_word(line, 120)));
+                fmt::format("{} has the trials '{}', expected '{}'; give another folder, or remove the run",
+                            path, visible_word(found, 120), plan_text(plan)));
+  PerturbationTable table{plan, {}};
+  for (const TrialRow& row : run.trials()) {
+    const double tilt = at(row, TrialField::tilt), end = at(row, TrialField::end);
+    if (end != 0.0 && end != 1.0 && end != 2.0)
+      throw Error(ExitCode::bad_data, path + ": /trials/end holds a value other than 0, 1 and 2");
+    if (table.states.empty() || table.states.back().tilt != tilt) table.states.push_back({tilt, {}});
+    table.states.back().trials.push_back(
+        {at(row, TrialField::velocity), at(row, TrialField::energy),
+         static_cast<TrialEnd>(static_cast<int>(end)), at(row, TrialField::time),
+         static_cast<Index>(at(row, TrialField::moved)), at(row, TrialField::displacement)});
+  }
   return table;
 }
 

@@ -1,10 +1,12 @@
 #pragma once
-/// The trials of one run as a table, and as the CSV file beside it.
+/// The trials of one run as a table, and as the rows that are stored with it.
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "io/run_file.h"
 #include "session/perturbation.h"
 
 namespace talus {
@@ -28,7 +30,6 @@ struct PerturbedState {
 
 struct PerturbationTable {
   PerturbationPlan plan;
-  bool complete = false;               ///< the run has come to its end
   std::vector<PerturbedState> states;  ///< ascending in tilt
 };
 
@@ -42,13 +43,14 @@ std::string plan_text(const PerturbationPlan& plan);
 /// The plan of such a text; no value where plan_text writes no such one.
 std::optional<PerturbationPlan> parse_plan(const std::string& text);
 
-/// CSV with one row for each trial. Its first line says how the run is perturbed and whether the table is
-/// complete.
-std::string perturbation_csv(const PerturbationTable& table);
+/// The fact in the provenance of a run that says how it is perturbed: a plan_text.
+inline constexpr const char* trials_fact = "trials";
 
-/// The table of such a text, bit for bit. `name` is what messages call it. Throws Error(bad_data) where it is
-/// none, or that of another plan.
-PerturbationTable parse_perturbation_csv(const std::string& text, const std::string& name,
-                                         const PerturbationPlan& plan);
+/// A row for each trial of a state, which the run has come to in so many steps.
+std::vector<TrialRow> rows_of(const PerturbedState& state, std::int64_t step);
+
+/// The table of the trials that are stored with a run, bit for bit. Throws Error(bad_data), naming `path`,
+/// where the run is not perturbed by this plan.
+PerturbationTable table_of(const RunFile& run, const PerturbationPlan& plan, const std::string& path);
 
 }  // namespace talus

@@ -13,8 +13,10 @@ void Recorder::advance() {
   }
 }
 
-void Recorder::commit() {
-  store_->commit(session_->segment(), session_->checkpoint(store_->seconds_writing()));
+void Recorder::commit(const std::vector<TrialRow>& trials) {
+  Segment segment = session_->segment();
+  segment.trials = trials;
+  store_->commit(segment, session_->checkpoint(store_->seconds_writing()));
   session_->clear_segment();
   last_ = Clock::now();
 }

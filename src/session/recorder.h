@@ -2,6 +2,7 @@
 /// What a session records, into its store: when a commit is due, and the last of them.
 
 #include <chrono>
+#include <vector>
 
 #include "session/session.h"
 
@@ -15,8 +16,8 @@ class Recorder {
   /// Takes a step of the session. Where it cannot be taken, the state before it, which is whole, is
   /// committed, so that it can be looked at, and what the step throws goes through.
   void advance();
-  /// Makes durable what the session has recorded since the last commit, and its state.
-  void commit();
+  /// Makes durable what the session has recorded since the last commit, and its state; with trials of it.
+  void commit(const std::vector<TrialRow>& trials = {});
   /// The same where it is due: with a new frame, or output.checkpoint_every after the last commit.
   void commit_if_due();
 

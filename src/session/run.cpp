@@ -68,15 +68,18 @@ RunEnd run_to_end(Session& session, RunStore& store, const RunControl& control) 
     const Clock::time_point step_start = Clock::now();
     recorder.advance();
     tell(session, start, control);
+    const std::vector<TrialRow> trials = control.trials ? control.trials(session) : std::vector<TrialRow>();
     const bool stop = must_stop();
-    if (takes_checkpoint(control) || stop)
-      recorder.commit();
+    if (takes_checkpoint(control) || stop || !trials.empty())
+      recorder.commit(trials);
     else
       recorder.commit_if_due();
     if (stop && session.phase() != Phase::done) return RunEnd::stopped;
     longest_step = std::max(longest_step, seconds_since(step_start));
   }
-  return store.pack([&] { return !must_stop(); }) ? RunEnd::complete : RunEnd::stopped;
+  const auto goes_on = [&] { return !must_stop(); };
+  return (control.pack ? control.pack(store, goes_on) : store.pack(goes_on)) ? RunEnd::complete
+                                                                             : RunEnd::stopped;
 }
 
 RunEnd replay(Session& session, RunStore* store, std::span<const Command> commands, std::int64_t steps,

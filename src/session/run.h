@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "session/session.h"
 
@@ -30,6 +31,11 @@ struct RunControl {
   /// Called with each new frame before it is committed; must not change anything the run depends on, nor
   /// throw. May be empty.
   std::function<void(const Frame&)> on_frame;
+  /// Tries something with copies of the bed after a step, and returns what became of them: it is committed at
+  /// once. Must not change anything the run depends on. May be empty.
+  std::function<std::vector<TrialRow>(const Session&)> trials;
+  /// Packs the run when it is done, as RunStore::pack with `goes_on`; returns what that does. Empty: that.
+  std::function<bool(RunStore& store, const std::function<bool()>& goes_on)> pack;
 };
 
 enum class RunEnd { complete, stopped };

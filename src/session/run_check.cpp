@@ -346,7 +346,7 @@ void check_results(const Scenario& scenario, const Checkpoint& checkpoint, Findi
 void check_branch(const RunFile& run, const Scenario& scenario, Findings& found) try {
   const BranchOrigin& branch = *run.header().branch;
   check_branch_start(branch, scenario, "the run");
-  if (!run.lost().empty() || run.all_frame_tilts().empty()) return;
+  if (!run.lost().empty() || !run.has_frames() || run.all_frame_tilts().empty()) return;
   const Frame first = run.positions(0);
   const World& start = branch.start.world;
   const auto same = [](double one, double other) {
@@ -394,7 +394,7 @@ RunCheck check_run(const RunFile& run, const std::function<void(std::size_t)>& p
            run.commands(), [](CommandKind kind) { return kind == CommandKind::drag; }, &Command::kind) ||
        (run.header().branch && find_value(run.header().branch->start.integers, "drag_grain")));
   std::int64_t before = -1;
-  for (std::size_t k = 0; k < run.all_frame_tilts().size(); ++k, ++check.frames) {
+  for (std::size_t k = 0; run.has_frames() && k < run.all_frame_tilts().size(); ++k, ++check.frames) {
     const std::string name = frame_name(k);
     try {
       const Frame frame = run.frame(k);

@@ -31,9 +31,9 @@ FrameRecord overload_record(const BedFrame& bed, const Clusters& clusters, const
   return {.tilt = bed.frame.tilt, .thresholds = {at}};
 }
 
-std::optional<Analysis> read_usable_analysis(const std::string& path, const RunFile& run) {
+std::optional<Analysis> read_usable_analysis(const RunFile& run) {
   if (!run.complete()) return std::nullopt;
-  std::optional<Analysis> analysis = read_analysis(path);
+  std::optional<Analysis> analysis = read_analysis(run);
   if (!analysis) return std::nullopt;
   const AnalysisParameters parameters = from_facts(analysis->parameters);
   const bool single_frames = parameters.averaging == 0.0 && parameters.min_contacts == 1;

@@ -20,9 +20,9 @@ CoarseGrainingRule coarse_graining_rule(const OverloadRule& rule, const RunStati
 /// rule, without the values of single grains.
 FrameRecord overload_record(const BedFrame& bed, const Clusters& clusters, const OverloadRule& rule);
 
-/// The analysis in the file at `path` of a run, if it has one that is of this run and of single frames as
-/// they are (no averaging, min_contacts 1, l_c up to length_cut). Throws as read_analysis does.
-std::optional<Analysis> read_usable_analysis(const std::string& path, const RunFile& run);
+/// The analysis in the file of a run, if it has one that is of this run and of single frames as they are (no
+/// averaging, min_contacts 1, l_c up to length_cut). Throws as read_analysis does.
+std::optional<Analysis> read_usable_analysis(const RunFile& run);
 
 /// Which of its thresholds is that of the rule, with the same l_min and joining, and l_c that ends there;
 /// none where none is.

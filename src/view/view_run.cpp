@@ -67,7 +67,7 @@ void ViewModel::open_replay() {
   all_statics_ = statics();
   theta_c_ = find_value(file.checkpoint().results, "theta_c");
   if (theta_c_ && !std::isfinite(*theta_c_)) theta_c_.reset();  // it has not failed
-  analysis_ = read_usable_analysis(pictures_.path, file);
+  analysis_ = read_usable_analysis(file);
   rows_ = file.observables();
   plot_rows();
   plot_steps(file.steps(), plots_);

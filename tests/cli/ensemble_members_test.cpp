@@ -55,7 +55,7 @@ TEST(EnsembleMembers, is_not_stopped_by_a_value_with_a_mistake_in_it) {
   EXPECT_EQ(more.out.find("e: 5 of 6 done, 0 under way, 1 failed"), 0u) << more.out;
 }
 
-TEST(EnsembleMembers, knows_whose_a_table_is) {
+TEST(EnsembleMembers, knows_whose_a_run_is) {
   const TemporaryFolder folder;
   write_file(folder, "bed.toml", tiny_bed);
   std::vector<std::string> words = ensemble_of("e", "1-2");
@@ -71,21 +71,9 @@ TEST(EnsembleMembers, knows_whose_a_table_is) {
     return average.exit_code == 65 &&
            average.err.find(std::filesystem::path(to).filename().string()) != std::string::npos;
   };
-  EXPECT_TRUE(refused_with(there + "1.csv", here + "1.csv")) << "another scenario";
-  EXPECT_TRUE(refused_with(here + "1.csv", here + "2.csv")) << "another seed";
-  EXPECT_TRUE(refused_with(there + "1.series.csv", here + "1.series.csv"));
-  EXPECT_TRUE(refused_with(there + "1.lists.h5", here + "1.lists.h5"));
+  EXPECT_TRUE(refused_with(there + "1.h5", here + "1.h5")) << "another scenario";
+  EXPECT_TRUE(refused_with(here + "1.h5", here + "2.h5")) << "another seed";
   EXPECT_EQ(run_talus({"ensemble", "average", "e"}, folder.path()).exit_code, 0) << "all is as it was";
-  // Tables of earlier versions do not say whose they are.
-  std::string old;
-  std::istringstream lines(text_of(here + "1.csv"));
-  for (std::string line; std::getline(lines, line);)
-    if (!line.starts_with("seed,") && !line.starts_with("scenario,") && !line.starts_with("."))
-      old += line + "\n";
-  for (const char* seed : {"1.csv", "2.csv"}) std::ofstream(here + seed) << old;
-  const Outcome twice = run_talus({"ensemble", "status", "e"}, folder.path());
-  EXPECT_EQ(twice.exit_code, 65);
-  EXPECT_NE(twice.err.find("have the same state_hash"), std::string::npos) << twice.err;
 }
 
 TEST(EnsembleMembers, knows_the_bed_that_its_members_begin_with) {
@@ -124,7 +112,7 @@ TEST(EnsembleMembers, that_are_refused_their_file_are_tried_again_before_they_co
   const Outcome outcome = run_talus(ensemble_of("e", "1-2"), folder.path());
   EXPECT_EQ(outcome.exit_code, 73) << outcome.out << outcome.err;
   EXPECT_NE(outcome.out.find("failed: seed-1, exit code 73"), std::string::npos) << outcome.out;
-  EXPECT_TRUE(std::filesystem::exists(folder.path("e/seed-2.csv")));
+  EXPECT_TRUE(std::filesystem::exists(folder.path("e/seed-2.h5")));
   std::stringstream log;
   log << std::ifstream(folder.path("e/seed-1.log")).rdbuf();
   const std::string said = log.str();

@@ -160,9 +160,9 @@ TEST_F(EnsembleSubmit, queues_a_task_again_while_members_come_further) {
   EXPECT_EQ(enough.exit_code, 75);
   EXPECT_TRUE(has(enough.err, "after 3 starts in a row no member had come further")) << enough.err;
   EXPECT_EQ(called(), before) << "it asks for no other start";
-  std::ofstream(file("seed-1.csv")) << "done";
+  std::ofstream(file("seed-1.h5")) << "done";
   std::ofstream(file("seed-2.failed")) << "exit code 65\n\n";
-  fs::remove(file("seed-1.csv"));
+  fs::remove(file("seed-1.h5"));
   EXPECT_EQ(talus(words, task).exit_code, 0) << "a member has come to its end";
   command("scontrol", "echo 'Job is disabled' >&2; exit 1");
   std::ofstream(file("seed-3.failed")) << "exit code 65\n\n";

@@ -24,11 +24,9 @@ std::vector<std::string> ensemble_of(const std::string& folder, const std::strin
   return {"ensemble", "bed.toml", "--seeds", seeds, "-o", folder};
 }
 
-/// The hash that stands in the numbers of a member.
-std::string hash_in(const std::string& numbers) {
-  const std::string text = text_of(numbers), key = "state_hash,,";
-  const std::size_t at = text.find(key);
-  return at == std::string::npos ? std::string() : text.substr(at + key.size(), 16);
+/// The hash of the last state of a run.
+std::string hash_in(const TemporaryFolder& folder, const std::string& run) {
+  return json_value(run_talus({"info", run, "--json"}, folder.path()).out, "state_hash");
 }
 
 std::size_t count_of_lines(const std::string& text) {
@@ -47,11 +45,9 @@ TEST(Ensemble, has_the_bits_of_talus_run_and_its_analysis) {
                       folder.path())
                 .exit_code,
             0);
-  const std::string alone =
-      json_value(run_talus({"info", "alone.h5", "--json"}, folder.path()).out, "state_hash");
-  EXPECT_EQ(hash_in(folder.path("e/contact.friction=0.3/seed-2.csv")), alone);
-  const Outcome info = run_talus({"info", "e/contact.friction=0.3/seed-2.h5", "--json"}, folder.path());
-  EXPECT_EQ(json_value(info.out, "state_hash"), alone);
+  const std::string alone = hash_in(folder, "alone.h5");
+  EXPECT_EQ(hash_in(folder, "e/contact.friction=0.3/seed-2.h5"), alone);
+  EXPECT_NE(text_of(folder.path("e/members.csv")).find(",2," + alone + ","), std::string::npos);
   const Outcome analysis = run_talus({"analyze", "e/contact.friction=0.3/seed-2.h5"}, folder.path());
   EXPECT_NE((analysis.out + analysis.err).find("analysis read from the file"), std::string::npos)
       << analysis.out;
@@ -88,23 +84,30 @@ TEST(Ensemble, has_averages_over_tilt_that_do_not_depend_on_when_members_came) {
   EXPECT_EQ(text_of(folder.path("read.txt")), "1 2 3 0.0 0.5 1.0 1.5\n");
 }
 
-TEST(Ensemble, is_averaged_again_from_the_tables_of_its_members_or_from_their_runs) {
+TEST(Ensemble, is_averaged_again_from_the_runs_of_its_members) {
   const TemporaryFolder folder;
   write_file(folder, "bed.toml", tiny_bed);
   ASSERT_EQ(run_talus(ensemble_of("e", "1-2"), folder.path()).exit_code, 0);
   const std::string before = text_of(folder.path("e/averages.csv"));
-  std::filesystem::remove(folder.path("e/seed-1.series.csv"));  // as of an ensemble before there were any
-  for (const char* name : {"e/averages.csv", "e/ensemble.h5", "e/members.csv", "e/seed-2.h5"})
+  for (const char* name : {"e/averages.csv", "e/ensemble.h5", "e/members.csv"})
     std::filesystem::remove(folder.path(name));
+  // As talus run leaves it: without an analysis.
+  ASSERT_EQ(run_talus({"run", "bed.toml", "--seed", "2", "-o", "e/seed-2.h5", "--overwrite"}, folder.path())
+                .exit_code,
+            0);
+  EXPECT_EQ(run_talus({"ensemble", "status", "e"}, folder.path()).exit_code, 0);
   const Outcome again = run_talus({"ensemble", "average", "e"}, folder.path());
   EXPECT_EQ(again.exit_code, 0) << again.err;
   EXPECT_EQ(text_of(folder.path("e/averages.csv")), before);
   EXPECT_EQ(count_of_lines(text_of(folder.path("e/members.csv"))), 3u);
   EXPECT_TRUE(std::filesystem::exists(folder.path("e/ensemble.h5")));
-  write_file(folder, "e/seed-1.series.csv", "theta (deg),z (1)\n0,what\n");
+  const std::string whole = text_of(folder.path("e/seed-1.h5"));
+  write_file(folder, "e/seed-1.h5", whole.substr(0, whole.size() / 2));
   const Outcome changed = run_talus({"ensemble", "average", "e"}, folder.path());
   EXPECT_EQ(changed.exit_code, 65);
-  EXPECT_NE(changed.err.find("seed-1.series.csv"), std::string::npos) << changed.err;
+  EXPECT_NE(changed.err.find("e/seed-1.h5: is damaged"), std::string::npos) << changed.err;
+  std::filesystem::remove(folder.path("e/seed-1.h5"));
+  EXPECT_EQ(run_talus(ensemble_of("e", "1-2"), folder.path()).exit_code, 0) << "it is computed again";
 }
 
 TEST(Ensemble, is_averaged_by_one_process_at_a_time_and_none_is_refused) {
@@ -134,13 +137,14 @@ TEST_P(InterruptedEnsemble, goes_on_to_the_same_bits) {
   for (const int code : codes)
     EXPECT_TRUE(code == 0 || code == -1 || code == 75) << code << errors_in(folder.path());
   EXPECT_EQ(codes.back(), 0);
-  for (const char* member : {"seed-1.csv", "seed-2.csv", "seed-3.csv", "seed-4.csv"})
-    EXPECT_EQ(hash_in(folder.path(std::string("parts/") + member)),
-              hash_in(folder.path(std::string("whole/") + member)))
+  for (const char* member : {"seed-1.h5", "seed-2.h5", "seed-3.h5", "seed-4.h5"})
+    EXPECT_EQ(hash_in(folder, std::string("parts/") + member),
+              hash_in(folder, std::string("whole/") + member))
         << member;
+  EXPECT_EQ(text_of(folder.path("parts/averages.csv")), text_of(folder.path("whole/averages.csv")));
 }
 
-TEST_P(InterruptedEnsemble, that_keeps_no_runs_ends_with_the_tables_of_all) {
+TEST_P(InterruptedEnsemble, that_keeps_no_frames_ends_with_the_analyses_of_all) {
   const TemporaryFolder folder;
   write_file(folder, "bed.toml", tiny_bed);
   ASSERT_EQ(run_talus(ensemble_of("whole"), folder.path()).exit_code, 0);
@@ -151,11 +155,14 @@ TEST_P(InterruptedEnsemble, that_keeps_no_runs_ends_with_the_tables_of_all) {
   EXPECT_EQ(codes.back(), 0);
   EXPECT_EQ(text_of(folder.path("parts/averages.csv")), text_of(folder.path("whole/averages.csv")));
   for (const char* seed : {"1", "2", "3", "4"}) {
-    const std::string member = folder.path(std::string("parts/seed-") + seed);
-    EXPECT_FALSE(std::filesystem::exists(member + ".h5")) << member;
-    EXPECT_FALSE(std::filesystem::exists(member + ".h5.run")) << member;
-    EXPECT_TRUE(std::filesystem::exists(member + ".series.csv")) << member;
-    EXPECT_TRUE(std::filesystem::exists(member + ".lists.h5")) << member;
+    const std::string member = std::string("parts/seed-") + seed + ".h5";
+    EXPECT_FALSE(std::filesystem::exists(folder.path(member + ".run"))) << member;
+    EXPECT_EQ(hash_in(folder, member), hash_in(folder, std::string("whole/seed-") + seed + ".h5"));
+    EXPECT_EQ(run_talus({"check", member}, folder.path()).exit_code, 0) << member;
+    EXPECT_EQ(
+        run_talus({"render", member, "--map", "size", "--at", "0", "-o", "x.png"}, folder.path()).exit_code,
+        66)
+        << member;
   }
 }
 
@@ -164,53 +171,66 @@ TEST(Ensemble, that_keeps_less_goes_on_from_what_is_there) {
   write_file(folder, "bed.toml", tiny_bed);
   ASSERT_EQ(run_talus(ensemble_of("e", "1-3"), folder.path()).exit_code, 0);
   const std::string before = text_of(folder.path("e/averages.csv"));
-  const auto has_run = [&](int seed) {
-    return std::filesystem::exists(folder.path("e/seed-" + std::to_string(seed) + ".h5"));
+  const auto has_frames = [&](int seed) {
+    const Outcome render = run_talus(
+        {"render", "e/seed-" + std::to_string(seed) + ".h5", "--map", "size", "--at", "0", "-o", "x.png"},
+        folder.path());
+    EXPECT_TRUE(render.exit_code == 0 ||
+                render.err.find(".h5 has no frames: it was kept for its analysis alone "
+                                "(--keep analysis)") != std::string::npos)
+        << render.err;
+    return render.exit_code == 0;
   };
-  std::filesystem::copy_file(folder.path("e/seed-2.h5"), folder.path("of-seed-2.h5"));
   std::vector<std::string> words = ensemble_of("e", "1-3");
   words.insert(words.end(), {"--keep", "1"});
   const Outcome less = run_talus(words, folder.path());
   ASSERT_EQ(less.exit_code, 0) << less.err;
-  EXPECT_NE(less.err.find("2 runs of members that are done removed (--keep 1)"), std::string::npos)
+  EXPECT_NE(less.err.find("the frames of 2 members that are done are removed (--keep 1)"), std::string::npos)
       << less.err;
-  EXPECT_TRUE(has_run(1) && !has_run(2) && !has_run(3));
+  EXPECT_TRUE(has_frames(1) && !has_frames(2) && !has_frames(3));
   EXPECT_EQ(text_of(folder.path("e/averages.csv")), before);
-  // As where a worker was killed after the tables of a member, and before its run went.
-  std::filesystem::rename(folder.path("of-seed-2.h5"), folder.path("e/seed-2.h5"));
-  EXPECT_EQ(run_talus({"ensemble", "work", "e"}, folder.path()).exit_code, 0);
-  EXPECT_FALSE(has_run(2));
-  std::filesystem::copy_file(folder.path("e/seed-1.h5"), folder.path("e/seed-2.h5"));
-  EXPECT_EQ(run_talus({"ensemble", "work", "e"}, folder.path()).exit_code, 0);
-  EXPECT_TRUE(has_run(2)) << "a run of somebody else is not removed";
-  std::filesystem::remove(folder.path("e/seed-2.h5"));
+  const auto written = std::filesystem::last_write_time(folder.path("e/seed-2.h5"));
   EXPECT_EQ(run_talus(ensemble_of("e", "4"), folder.path()).exit_code, 0)
       << "the folder remembers what it keeps";
-  EXPECT_FALSE(has_run(4));
+  EXPECT_FALSE(has_frames(4));
+  EXPECT_EQ(std::filesystem::last_write_time(folder.path("e/seed-2.h5")), written);
   const Outcome status = run_talus({"ensemble", "status", "e"}, folder.path());
-  EXPECT_NE(status.out.find(
-                "e: 4 of 4 done, 0 under way\nkept: the tables of all members that are done, and 1 run\n"),
-            std::string::npos)
+  EXPECT_NE(
+      status.out.find("e: 4 of 4 done, 0 under way\nkept: the analyses of all members that are done, and "
+                      "the frames of 1\n"),
+      std::string::npos)
       << status.out;
   const Outcome json = run_talus({"ensemble", "status", "e", "--json"}, folder.path());
   EXPECT_EQ(json_value(json.out, "keep"), "1");
   EXPECT_EQ(json_value(json.out, "runs"), "1");
   EXPECT_EQ(run_talus({"ensemble", "average", "e"}, folder.path()).exit_code, 0);
-  // A table that is lost cannot be made again, and the message says what to do.
-  std::filesystem::remove(folder.path("e/seed-2.series.csv"));
-  const Outcome lost = run_talus({"ensemble", "average", "e"}, folder.path());
-  EXPECT_EQ(lost.exit_code, 66);
-  EXPECT_NE(lost.err.find("remove e/seed-2.csv, and the next worker computes the member again"),
-            std::string::npos)
-      << lost.err;
-  const Outcome figures = run_talus({"figures", "e", "-o", "f"}, folder.path());
-  EXPECT_EQ(figures.exit_code, 66);
-  EXPECT_NE(figures.err.find("remove e/seed-2.csv, and the next worker"), std::string::npos) << figures.err;
-  std::filesystem::remove(folder.path("e/seed-2.csv"));
-  EXPECT_EQ(run_talus({"ensemble", "work", "e"}, folder.path()).exit_code, 0);
-  EXPECT_TRUE(std::filesystem::exists(folder.path("e/seed-2.series.csv")) && !has_run(2));
+  EXPECT_EQ(run_talus({"analyze", "e/seed-2.h5"}, folder.path()).exit_code, 0) << "read from the file";
+  const Outcome other = run_talus({"analyze", "e/seed-2.h5", "--set", "gamma_c=0.3"}, folder.path());
+  EXPECT_EQ(other.exit_code, 66);
+  EXPECT_NE(other.err.find("compute it again with talus run"), std::string::npos) << other.err;
   words.back() = "none";
   EXPECT_EQ(run_talus(words, folder.path()).exit_code, 64);
+}
+
+TEST(Ensemble, of_an_earlier_version_goes_on_with_what_it_has_kept_of_runs) {
+  const TemporaryFolder folder;
+  write_file(folder, "bed.toml", tiny_bed);
+  ASSERT_EQ(run_talus(ensemble_of("e", "1-2"), folder.path()).exit_code, 0);
+  for (const char* table : {"e/seed-1.csv", "e/seed-2.csv"})
+    write_file(folder, table, "quantity,unit,value\n");
+  EXPECT_EQ(run_talus(ensemble_of("e", "1-2"), folder.path()).exit_code, 0) << "beside their runs";
+  std::filesystem::remove(folder.path("e/seed-2.h5"));
+  for (const std::vector<std::string>& words : {ensemble_of("e", "1-2"), {"ensemble", "work", "e"}}) {
+    const Outcome lost = run_talus(words, folder.path());
+    EXPECT_EQ(lost.exit_code, 65);
+    EXPECT_NE(
+        lost.err.find("e/seed-2.csv is the table of a member whose run an earlier version of Talus has not "
+                      "kept; go on in another folder, or remove it"),
+        std::string::npos)
+        << lost.err;
+  }
+  std::filesystem::remove(folder.path("e/seed-2.csv"));
+  EXPECT_EQ(run_talus(ensemble_of("e", "1-2"), folder.path()).exit_code, 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Signals, InterruptedEnsemble, testing::Values(SIGINT, SIGTERM, SIGKILL));
@@ -309,7 +329,6 @@ TEST(Ensemble, takes_over_what_a_worker_of_another_machine_has_left) {
   const TemporaryFolder folder;
   write_file(folder, "bed.toml", tiny_bed);
   ASSERT_EQ(run_talus(ensemble_of("e", "1"), folder.path()).exit_code, 0);
-  std::filesystem::remove(folder.path("e/seed-1.csv"));
   std::filesystem::remove(folder.path("e/seed-1.h5"));
   write_file(folder, "e/seed-1.claim-0", "process 1 on host far, boot another\n...");
   const Outcome status = run_talus({"ensemble", "status", "e"}, folder.path());
@@ -400,8 +419,8 @@ TEST(Ensemble, leaves_a_member_for_later_whose_run_somebody_else_writes) {
     ASSERT_EQ(flock(lock.get(), LOCK_EX), 0);
     work = start_talus({"ensemble", "work", "e"}, folder.path());
     const auto others_are_done = [&] {
-      return std::filesystem::exists(folder.path("e/seed-2.csv")) &&
-             std::filesystem::exists(folder.path("e/seed-3.csv"));
+      return std::filesystem::exists(folder.path("e/seed-2.h5")) &&
+             std::filesystem::exists(folder.path("e/seed-3.h5"));
     };
     for (int wait = 0; wait < 6000 && !others_are_done(); ++wait)
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
@@ -413,7 +432,7 @@ TEST(Ensemble, leaves_a_member_for_later_whose_run_somebody_else_writes) {
     EXPECT_FALSE(std::filesystem::exists(folder.path("e/seed-1.claim-0")));
   }
   EXPECT_EQ(wait_for(work), 0) << errors_in(folder.path());
-  EXPECT_TRUE(std::filesystem::exists(folder.path("e/seed-1.csv")));
+  EXPECT_TRUE(std::filesystem::exists(folder.path("e/seed-1.h5")));
 }
 
 TEST(Ensemble, begins_a_member_anew_whose_folder_is_damaged) {
@@ -458,7 +477,7 @@ TEST(Ensemble, computes_a_member_whatever_the_number_of_a_dead_claim) {
   write_file(folder, "e/seed-1.claim-2147483647", "process 1 on host far, boot another\n");
   write_file(folder, "e/seed-2.claim-07", "process 1 on host far, boot another\n");
   EXPECT_EQ(run_talus({"ensemble", "work", "e", "--stale", "1"}, folder.path()).exit_code, 0);
-  for (const char* table : {"e/seed-1.csv", "e/seed-2.csv"})
+  for (const char* table : {"e/seed-1.h5", "e/seed-2.h5"})
     EXPECT_TRUE(std::filesystem::exists(folder.path(table))) << table;
 }
 
@@ -467,7 +486,7 @@ TEST(Ensemble, does_not_end_well_because_a_failure_does_not_tell_its_code) {
   write_file(folder, "bed.toml", tiny_bed);
   ASSERT_EQ(run_talus(ensemble_of("e", "1"), folder.path()).exit_code, 0);
   for (const char* text : {"", "exit code 0\nall is well\n", "exit code 256\n", "exit code -1\n", "what\n"}) {
-    std::filesystem::remove(folder.path("e/seed-1.csv"));
+    std::filesystem::remove(folder.path("e/seed-1.h5"));
     write_file(folder, "e/seed-1.failed", text);
     const Outcome outcome = run_talus(ensemble_of("e", "1"), folder.path());
     EXPECT_EQ(outcome.exit_code, 65) << text;

@@ -76,14 +76,14 @@ TEST_F(Figures, are_files_of_each_kind) {
 
 TEST_F(Figures, of_an_ensemble_are_of_its_members_that_are_done) {
   ASSERT_EQ(run_talus({"ensemble", "bed.toml", "--seeds", "1-3", "-o", "e"}, folder_.path()).exit_code, 0);
-  fs::remove(folder_.path() / "e/seed-3.csv");  // as if it were still under way
+  fs::remove(folder_.path() / "e/seed-3.h5");  // as if it were still under way
   const Outcome two = run_talus({"figures", "e", "-o", "out", "--only", "4"}, folder_.path());
   ASSERT_EQ(two.exit_code, 0) << two.err;
   const std::string table = content(out("fig04-shear-stress-pbc-l-10-d.csv"));
   EXPECT_TRUE(table.starts_with("theta,n,ratio,ratio_error,ratio_deviation\n0,2,")) << table;
   EXPECT_EQ(table.find("NaN"), std::string::npos) << "two runs have an error and a spread\n" << table;
   for (const char* seed : {"1", "2"})
-    fs::remove(folder_.path() / "e" / ("seed-" + std::string(seed) + ".csv"));
+    fs::remove(folder_.path() / "e" / ("seed-" + std::string(seed) + ".h5"));
   const Outcome none = run_talus({"figures", "e", "-o", "none"}, folder_.path());
   EXPECT_EQ(none.exit_code, 66);
   expect_parts(none.err, {"e: no member of this ensemble is done yet"});
@@ -106,16 +106,18 @@ TEST_F(Figures, of_ensemble_h5_alone_are_those_of_its_runs) {
   ASSERT_EQ(run_talus({"figures", "e", "-o", "of-runs", "--only", "4,14"}, folder_.path()).exit_code, 0);
   fs::create_directory(folder_.path("moved"));
   fs::rename(folder_.path("e/ensemble.h5"), folder_.path("moved/ensemble.h5"));
-  for (const char* seed : {"1", "2", "3"})  // and of members whose runs are gone, by their tables
-    fs::remove(folder_.path() / "e" / ("seed-" + std::string(seed) + ".h5"));
+  ASSERT_EQ(
+      run_talus({"ensemble", "bed.toml", "--seeds", "1-3", "--keep", "analysis", "-o", "e"}, folder_.path())
+          .exit_code,
+      0);  // and of members without frames
   for (const auto& [input, output] :
-       {std::pair{"moved/ensemble.h5", "of-file"}, {"moved", "of-folder"}, {"e", "of-tables"}}) {
+       {std::pair{"moved/ensemble.h5", "of-file"}, {"moved", "of-folder"}, {"e", "of-analyses"}}) {
     const Outcome alone =
         run_talus({"figures", input, "-o", output, "--only", "4,14,force-chains"}, folder_.path());
     ASSERT_EQ(alone.exit_code, 0) << alone.err;
     EXPECT_EQ(alone.err,
               "left out: force-chains needs a run that has failed; given are only values of members, without "
-              "their runs\n");
+              "frames of their runs\n");
     for (const char* table : {"fig04-shear-stress-pbc-l-10-d.csv", "fig14-volume-strain-pbc-l-10-d.csv",
                               "fig14-volume-strain-theta_d-pbc-l-10-d.csv"}) {
       const std::vector<double> runs = numbers_in(content(folder_.path() / "of-runs" / table)),
@@ -130,7 +132,7 @@ TEST_F(Figures, of_ensemble_h5_alone_are_those_of_its_runs) {
                {"\"path\": \"moved/ensemble.h5#seed-3\""});
   const Outcome twice = run_talus({"figures", "moved", "e", "-o", "out", "--only", "4"}, folder_.path());
   EXPECT_EQ(twice.exit_code, 65);
-  expect_parts(twice.err, {"moved/ensemble.h5#seed-1 and e/seed-1.csv are the same run"});
+  expect_parts(twice.err, {"moved/ensemble.h5#seed-1 and e/seed-1.h5 are the same run"});
   const Outcome settings =
       run_talus({"figures", "moved", "-o", "out", "--set", "gamma_c=0.3"}, folder_.path());
   EXPECT_EQ(settings.exit_code, 64);

@@ -6,6 +6,7 @@
 #include <csignal>
 #include <thread>
 
+#include "io/run_file.h"
 #include "support/process.h"
 #include "support/runs.h"
 
@@ -35,9 +36,17 @@ TEST(Perturb, leaves_the_run_as_it_is_without) {
   EXPECT_NE(hash_of("plain.h5", folder), "");
   EXPECT_EQ(hash_of("p/seed-2.h5", folder), hash_of("plain.h5", folder));
   EXPECT_NE(text_of(folder.path("p/seed-2.log")).find("13.000 deg: no avalanche"), std::string::npos);
-  const std::string table = text_of(folder.path("p/seed-2.trials.csv"));
-  for (const char* part : {"4x1: complete\n", "\n8,0,0,rest,", "\n13,0,0,rest,", "\n18,0,0,rest,", "\n18,5,"})
-    EXPECT_NE(table.find(part), std::string::npos) << part << "\n" << table;
+  const std::vector<TrialRow> trials = RunFile::open(folder.path("p/seed-2.h5")).trials();
+  for (const double tilt : {8.0, 13.0, 18.0})
+    EXPECT_TRUE(std::ranges::any_of(trials, [&](const TrialRow& row) {
+      return at(row, TrialField::tilt) == tilt && at(row, TrialField::velocity) == 0.0 &&
+             at(row, TrialField::end) == 0.0;
+    })) << tilt;
+  EXPECT_TRUE(
+      std::ranges::any_of(trials, [](const TrialRow& row) { return at(row, TrialField::velocity) == 5.0; }));
+  EXPECT_NE(
+      run_talus({"info", "p/seed-2.h5", "--json"}, folder.path()).out.find("--from 8 --every 5 --patch 4x1"),
+      std::string::npos);
 }
 
 TEST(Perturb, reports_its_seeds_and_computes_none_again) {
@@ -49,11 +58,11 @@ TEST(Perturb, reports_its_seeds_and_computes_none_again) {
   EXPECT_NE(first.out.find("6 states of 2 runs"), std::string::npos) << first.out;
   const std::string rows = text_of(folder.path("p/perturb.csv"));
   EXPECT_EQ(std::ranges::count(rows, '\n'), 7) << rows;
-  const auto written = std::filesystem::last_write_time(folder.path("p/seed-1.trials.csv"));
+  const auto written = std::filesystem::last_write_time(folder.path("p/seed-1.h5"));
   const Outcome again = run_talus(perturb("p", {"--seeds", "1-2"}), folder.path());
   EXPECT_EQ(again.exit_code, 0) << again.err;
   EXPECT_EQ(again.out, first.out);
-  EXPECT_EQ(std::filesystem::last_write_time(folder.path("p/seed-1.trials.csv")), written);
+  EXPECT_EQ(std::filesystem::last_write_time(folder.path("p/seed-1.h5")), written);
 }
 
 TEST(Perturb, says_so_where_no_copy_was_pushed) {
@@ -94,33 +103,38 @@ TEST_P(InterruptedPerturb, goes_on_to_the_same_table) {
         << code << errors_in(folder.path());
   EXPECT_EQ(codes.back(), 0);
   EXPECT_EQ(hash_of("parts/seed-1.h5", folder), hash_of("whole/seed-1.h5", folder));
-  EXPECT_EQ(text_of(folder.path("parts/seed-1.trials.csv")), text_of(folder.path("whole/seed-1.trials.csv")));
+  EXPECT_EQ(RunFile::open(folder.path("parts/seed-1.h5")).trials(),
+            RunFile::open(folder.path("whole/seed-1.h5")).trials());
 }
 
 INSTANTIATE_TEST_SUITE_P(Signals, InterruptedPerturb, testing::Values(SIGTERM, SIGKILL));
 
-// As after a kill: the table is ahead of the checkpoint from which the run goes on.
-TEST(Perturb, pushes_no_copy_again_whose_trials_its_table_has) {
+// What was tried is committed with the state that it was tried with.
+TEST(Perturb, pushes_no_copy_again_whose_trials_are_stored) {
   const TemporaryFolder folder;
   write_file(folder, "bed.toml", tiny_bed);
-  ASSERT_EQ(run_talus(perturb("whole", {"--seed", "1"}), folder.path()).exit_code, 0);
-  const std::string table = folder.path("parts/seed-1.trials.csv");
-  const pid_t process = start_talus(perturb("parts", {"--seed", "1"}), folder.path());
-  for (int wait = 0; wait < 10000 && !std::filesystem::exists(table); ++wait)
+  const std::string log = folder.path("p/seed-1.log");
+  const auto count_of_states = [&] {
+    const std::string said = std::filesystem::exists(log) ? text_of(log) : "";
+    std::size_t count = 0;
+    for (std::size_t k = said.find(" deg: "); k != std::string::npos; k = said.find(" deg: ", k + 1)) ++count;
+    return count;
+  };
+  const pid_t process = start_talus(perturb("p", {"--seed", "1"}), folder.path());
+  for (int wait = 0; wait < 10000 && count_of_states() == 0; ++wait)
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  kill(process, SIGINT);
-  ASSERT_EQ(wait_for(process), 75) << "it was too late: nothing is tested";
-  const std::string whole = text_of(folder.path("whole/seed-1.trials.csv"));
-  write_file(folder, "parts/seed-1.trials.csv", whole);
-  EXPECT_EQ(run_talus(perturb("parts", {"--seed", "1"}), folder.path()).exit_code, 0);
-  EXPECT_EQ(text_of(table), whole);
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  kill(process, SIGKILL);
+  wait_for(process);
+  EXPECT_EQ(run_talus(perturb("p", {"--seed", "1"}), folder.path()).exit_code, 0);
+  EXPECT_EQ(count_of_states(), 3u) << text_of(log);
 }
 
 TEST(Perturb, that_is_stopped_stops_its_seeds) {
   const TemporaryFolder folder;
   write_file(folder, "bed.toml", "[bed]\nlength = 50\ndepth = 20\n");
   const pid_t process = start_talus(perturb("p", {"--seeds", "1-2"}), folder.path());
-  for (int wait = 0; wait < 1000 && !std::filesystem::exists(folder.path("p/seed-1.trials.csv")); ++wait)
+  for (int wait = 0; wait < 1000 && !std::filesystem::exists(folder.path("p/seed-1.h5.run/manifest")); ++wait)
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   kill(process, SIGINT);
   EXPECT_EQ(wait_for(process), 75);
@@ -164,11 +178,11 @@ TEST(Perturb, takes_no_run_that_lacks_its_trials) {
   take_run(folder, "p/seed-1.h5", tiny_bed);
   const Outcome missing = run_talus(perturb("p", {"--seed", "1"}), folder.path());
   EXPECT_EQ(missing.exit_code, 65);
-  EXPECT_NE(missing.err.find("no table of trials beside it"), std::string::npos) << missing.err;
+  EXPECT_NE(missing.err.find("has the trials 'none', expected '--from 8 --every 5 --patch 4x1'"),
+            std::string::npos)
+      << missing.err;
   EXPECT_EQ(run_talus(perturb("p", {"--seed", "2"}), folder.path()).exit_code, 0) << "another seed";
   std::filesystem::remove(folder.path("p/seed-1.h5"));
-  EXPECT_EQ(run_talus(perturb("p", {"--seed", "1"}), folder.path()).exit_code, 65) << "it has failed";
-  ASSERT_EQ(run_talus({"ensemble", "retry", "p"}, folder.path()).exit_code, 0);
   EXPECT_EQ(run_talus(perturb("p", {"--seed", "1"}), folder.path()).exit_code, 0);
 }
 
@@ -180,9 +194,9 @@ TEST(Perturb, of_one_seed_computes_no_other_and_is_an_ensemble_that_others_may_c
   EXPECT_NE(begun.out.find("p: 0 of 3 done"), std::string::npos) << begun.out;
   const pid_t beside = start_talus(perturb("p", {"--seed", "2"}), folder.path());
   EXPECT_EQ(run_talus(perturb("p", {"--seed", "2"}), folder.path()).exit_code, 0) << "it waits";
-  EXPECT_TRUE(std::filesystem::exists(folder.path("p/seed-2.csv")));
+  EXPECT_TRUE(std::filesystem::exists(folder.path("p/seed-2.h5")));
   EXPECT_EQ(wait_for(beside), 0);
-  for (const char* other : {"p/seed-1.trials.csv", "p/seed-3.trials.csv", "p/perturb.md"})
+  for (const char* other : {"p/seed-1.h5", "p/seed-3.h5", "p/perturb.md"})
     EXPECT_FALSE(std::filesystem::exists(folder.path(other))) << other;
   ASSERT_EQ(run_talus({"ensemble", "work", "p"}, folder.path()).exit_code, 0);
   const Outcome report = run_talus(perturb("p", {"--seeds", "1-3", "--jobs", "0"}), folder.path());

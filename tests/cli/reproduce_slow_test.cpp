@@ -22,23 +22,31 @@ TEST(QuickReproduction, writes_a_whole_report_and_keeps_all_of_it) {
   const auto drawn =
       std::filesystem::last_write_time(folder.path("quick/figures/fig12-coarse-graining-length.png"));
   const auto run = std::filesystem::last_write_time(folder.path("quick/pbc/seed-1.h5"));
-  const auto kept =
-      std::filesystem::last_write_time(folder.path("quick/pbc/seed-1.readings/averaging=1.csv"));
   const Outcome second = run_talus(command, folder.path());
   ASSERT_EQ(second.exit_code, 0) << second.err;
   EXPECT_EQ(std::filesystem::last_write_time(folder.path("quick/figures/fig12-coarse-graining-length.png")),
             drawn);
   EXPECT_EQ(std::filesystem::last_write_time(folder.path("quick/pbc/seed-1.h5")), run);
-  EXPECT_EQ(std::filesystem::last_write_time(folder.path("quick/pbc/seed-1.readings/averaging=1.csv")), kept);
   EXPECT_EQ(text_of(folder.path("quick/report.html")), page);
   EXPECT_EQ(second.out, first.out);
 
   // What is missing of a member, as after a change of the analysis, is made again, and nothing else.
-  std::filesystem::remove(folder.path("quick/pbc/seed-1.readings/averaging=1.csv"));
+  const std::string other = folder.path("quick/pbc-collapse/seed-1.h5"),
+                    readings = "cd " + folder.path().string() +
+                               " && /usr/bin/python3 -c 'import h5py; print(len(h5py.File(\"quick/pbc/"
+                               "seed-1.h5\")[\"readings/key\"]))' > readings.txt";
+  const auto untouched = std::filesystem::last_write_time(other);
+  ASSERT_EQ(run_talus({"run", "quick/scenarios/pbc.toml", "--seed", "1", "-o", "quick/pbc/seed-1.h5",
+                       "--overwrite"},
+                      folder.path())
+                .exit_code,
+            0)
+      << "as talus run leaves it, without an analysis and readings";
   const Outcome third = run_talus(command, folder.path());
   ASSERT_EQ(third.exit_code, 0) << third.err;
-  EXPECT_TRUE(std::filesystem::exists(folder.path("quick/pbc/seed-1.readings/averaging=1.csv")));
-  EXPECT_EQ(std::filesystem::last_write_time(folder.path("quick/pbc/seed-1.h5")), run);
+  EXPECT_EQ(std::filesystem::last_write_time(other), untouched);
+  EXPECT_EQ(std::system(readings.c_str()), 0);
+  EXPECT_EQ(text_of(folder.path("readings.txt")), "12\n");
   EXPECT_EQ(text_of(folder.path("quick/report.html")), page);
 }
 

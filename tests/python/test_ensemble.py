@@ -82,10 +82,10 @@ def test_means_leave_out_what_is_no_number():
 
 def test_stages_of_members_that_are_not_done(folder_of, tmp_path):
     copy = tmp_path / "copy"
-    shutil.copytree(folder_of, copy, ignore=shutil.ignore_patterns("*.h5"))
+    shutil.copytree(folder_of, copy)
     variant = copy / VARIANTS[0]
     for seed in (1, 2, 3):
-        (variant / f"seed-{seed}.csv").unlink()
+        (variant / f"seed-{seed}.h5").unlink()
     (variant / "seed-1.failed").write_text("exit code 65\nit failed\n")
     (variant / "seed-2.claim-0").touch()
     status = json_of("ensemble", "status", copy)
@@ -144,20 +144,14 @@ def test_seeds_of_a_manifest_have_bounds(tmp_path, seeds):
         talus.open_ensemble(tmp_path)
 
 
-def test_tables_of_other_members_are_refused(folder_of, tmp_path):
+def test_runs_of_other_members_are_refused(folder_of, tmp_path):
     copy = tmp_path / "copy"
-    shutil.copytree(folder_of, copy, ignore=shutil.ignore_patterns("*.h5"))
+    shutil.copytree(folder_of, copy)
     here, there = copy / VARIANTS[0], copy / VARIANTS[1]
-    whole = (here / "seed-1.csv").read_text()
-    for other, fact in ((there / "seed-1.csv", "scenario"), (here / "seed-2.csv", "seed")):
-        shutil.copy(other, here / "seed-1.csv")
-        with pytest.raises(talus.Error, match=f"seed-1.csv: is the table of another member .{fact} "):
+    for other, fact in ((there / "seed-1.h5", "contact.friction"), (here / "seed-2.h5", "seed 2")):
+        shutil.copy(other, here / "seed-1.h5")
+        with pytest.raises(talus.Error, match=rf"seed-1.h5: is a run of another member \(.*{fact}"):
             talus.open_ensemble(copy)
-    old = "".join(line for line in whole.splitlines(True) if not line.startswith(("seed,", "scenario,", ".")))
-    for seed in (1, 2):
-        (here / f"seed-{seed}.csv").write_text(old)
-    with pytest.raises(talus.Error, match="seed-1.csv and .*seed-2.csv have the same state_hash"):
-        talus.open_ensemble(copy)
 
 
 def test_names_that_were_shortened_are_told_in_full(tmp_path):
@@ -172,21 +166,25 @@ def test_names_that_were_shortened_are_told_in_full(tmp_path):
     assert len({member.state_hash for member in ensemble.done()}) == 1, "nothing is random in the bed of a file"
 
 
-def test_damaged_numbers(folder_of, tmp_path):
+def test_damaged_members(folder_of, tmp_path):
     copy = tmp_path / "copy"
-    shutil.copytree(folder_of, copy, ignore=shutil.ignore_patterns("*.h5"))
-    (copy / VARIANTS[1] / "seed-2.csv").write_text("quantity,unit,value\nstate_hash,,0\n")
-    with pytest.raises(talus.Error, match="seed-2.csv: is not what talus wrote"):
+    shutil.copytree(folder_of, copy)
+    file = copy / VARIANTS[1] / "seed-2.h5"
+    file.write_bytes(file.read_bytes()[:-1])
+    with pytest.raises(talus.Error, match="seed-2.h5: is damaged"):
         talus.open_ensemble(copy)
 
 
-def test_members_whose_runs_were_not_kept_have_their_numbers(tmp_path):
+def test_members_without_frames_have_their_numbers(tmp_path):
     (tmp_path / "bed.toml").write_text(BED)
     run_talus("ensemble", "bed.toml", "--seeds", "1-2", "--keep", "1", "-o", "e", folder=tmp_path)
     kept = talus.open_ensemble(tmp_path / "e")
     assert kept.keep == "1" and len(kept.done()) == 2
     with kept.done()[0].open() as run:
-        assert len(run.tilt) > 1
-    with pytest.raises(talus.Error, match="seed-2.h5: no such run"):
-        kept.done()[1].open()
+        assert run.has_frames and len(run.frames[0].position)
+    with kept.done()[1].open() as run:
+        assert not run.has_frames and len(run.tilt) > 1 and len(run.analysis["packing/volume"]) and len(run.steps["step"])
+        for read in (lambda: run.frames[0].position, lambda: run.frame_at(0).contacts):
+            with pytest.raises(talus.Error, match="seed-2.h5: has no frames: it was kept for its analysis alone"):
+                read()
     assert kept.mean("theta_c").count == 2

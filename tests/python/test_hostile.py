@@ -213,16 +213,17 @@ def test_an_ensemble_has_no_more_seeds_than_there_can_be(tmp_path, seeds):
     tracemalloc.stop()
 
 
-def ensemble_with(folder, scenario, manifest=None):
+def ensemble_with(folder, analysed, scenario, manifest=None, seeds=(1, 2)):
     """An ensemble of two members with one state hash, whose manifest says the hash of a scenario; the scenario is then
-    replaced by `scenario`. `manifest`: what is said to be its scenario."""
+    replaced by `scenario`. `manifest`: what is said to be its scenario; `seeds`: of the members that are done."""
     told = xxhash.xxh3_64_hexdigest((scenario if manifest is None else manifest).encode())
     (folder / "scenarios").mkdir()
     (folder / "scenarios/scenario.toml").write_text(scenario)
     text = f"talus ensemble 1\nversion 0.1.0\nseeds 1-2\nvariant {told} \nhash \n"
     (folder / "ensemble.manifest").write_text(sealed_text(text))
-    for seed in (1, 2):
-        (folder / f"seed-{seed}.csv").write_text("quantity,unit,value\nstate_hash,,5\nversion,,0.1.0\nseconds,s,1\n")
+    for seed in seeds:
+        copy = shutil.copy(analysed, folder / f"seed-{seed}.h5")
+        sealed(copy, lambda file: file["provenance/seed"].__setitem__((), seed))
     return folder
 
 
@@ -231,21 +232,21 @@ OF_FILE = '[deposition]\nmethod = "file"\n'
 
 @pytest.mark.chosen
 @pytest.mark.parametrize("scenario", ["x = 1\n", "deposition = 1\n", "[deposition]\nx = 1\n", OF_FILE + "# more\n"])
-def test_a_scenario_of_an_ensemble_is_the_one_that_it_began_with(tmp_path, scenario):
+def test_a_scenario_of_an_ensemble_is_the_one_that_it_began_with(analysed, tmp_path, scenario):
     with pytest.raises(talus.Error, match="scenario.toml: was changed since the ensemble began; expected"):
-        talus.open_ensemble(ensemble_with(tmp_path, scenario, OF_FILE))
+        talus.open_ensemble(ensemble_with(tmp_path, analysed, scenario, OF_FILE))
 
 
 @pytest.mark.chosen
 @pytest.mark.parametrize("scenario", ["x = 1\n", "deposition = 1\n", "[deposition]\nx = 1\n"])
-def test_a_scenario_without_a_deposition_has_no_bed_of_a_file(tmp_path, scenario):
+def test_a_scenario_without_a_deposition_has_no_bed_of_a_file(analysed, tmp_path, scenario):
     with pytest.raises(talus.Error, match="have the same state_hash, which two seeds never have"):
-        talus.open_ensemble(ensemble_with(tmp_path, scenario))
+        talus.open_ensemble(ensemble_with(tmp_path, analysed, scenario))
 
 
 @pytest.mark.chosen
-def test_a_scenario_that_was_changed_is_not_given(tmp_path):
-    ensemble = talus.open_ensemble(ensemble_with(tmp_path, OF_FILE))
+def test_a_scenario_that_was_changed_is_not_given(analysed, tmp_path):
+    ensemble = talus.open_ensemble(ensemble_with(tmp_path, analysed, OF_FILE, seeds=()))
     assert ensemble.scenario() == {"deposition": {"method": "file"}}
     with (tmp_path / "scenarios/scenario.toml").open("a") as file:
         file.write("# a line\n")

@@ -9,7 +9,6 @@
 #include "core/random.h"
 #include "ensemble/averages_file.h"
 #include "ensemble/averages_reader.h"
-#include "ensemble/member_analysis.h"
 #include "io/hdf5_handle.h"
 #include "io/plain_file.h"
 #include "reliability/hostile_test.h"

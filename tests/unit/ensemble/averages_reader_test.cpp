@@ -9,7 +9,6 @@
 
 #include "core/trigonometry.h"
 #include "ensemble/averages_file.h"
-#include "ensemble/member_analysis.h"
 #include "io/durable_file.h"
 #include "io/plain_file.h"
 #include "support/blank_analysis.h"

@@ -149,21 +149,5 @@ TEST(MemberSeries, of_a_bed_that_slopes_to_the_other_side_are_mirrored) {
   EXPECT_DOUBLE_EQ(shear->values[2], 0.2);
 }
 
-TEST(MemberSeries, are_read_back_to_the_last_bit_and_refused_where_they_were_changed) {
-  MemberSeries series = member(1, 3.0, 10.0 / 3.0).series;
-  series.series[0].values[1] = none;
-  const std::string text = series_csv(series);
-  const MemberSeries again = parse_series(text, "x.csv");
-  EXPECT_EQ(again.theta, series.theta);
-  EXPECT_EQ(again.series[0].name, series.series[0].name);
-  EXPECT_EQ(again.series[0].unit, "1");
-  EXPECT_EQ(again.series[0].values[2], 10.0 / 3.0 - 2);
-  EXPECT_TRUE(std::isnan(again.series[0].values[1]));
-  for (const char* bad :
-       {"", "tilt\n1\n", "theta (deg),z\n0,1\n", "theta (deg),z (1)\n0\n", "theta (deg),z (1)\n0,x\n",
-        "theta (deg),z (1)\n,1\n", "theta (deg),z (1)\n1,1\n1,1\n"})
-    EXPECT_EQ(test::exit_code_of([&] { parse_series(bad, "x.csv"); }), ExitCode::bad_data) << bad;
-}
-
 }  // namespace
 }  // namespace talus

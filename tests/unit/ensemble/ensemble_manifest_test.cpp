@@ -251,7 +251,7 @@ TEST_F(EnsembleManifestTest, loses_a_variant_that_only_fails_to_a_command_withou
   const EnsemblePlan plan = plan_of(read_ensemble(ensemble), ensemble);
   record_failure(plan.members[1].path, {65, "bad"});  // of 0.4
   record_failure(plan.members[2].path, {65, "bad"});  // of 0.5
-  write_text(numbers_path(plan.members[5].path), "done");
+  write_text(plan.members[5].path, "done");
   extend_ensemble(ensemble, wanted({1}, {"contact.friction=0.3,0.4"}));
   EXPECT_EQ(names(), "0.3 0.4 0.5 ") << "0.4 is wanted, and a member of 0.5 is done";
   extend_ensemble(ensemble, wanted({1}, {"contact.friction=0.3,0.7"}));

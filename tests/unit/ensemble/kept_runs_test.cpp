@@ -1,14 +1,21 @@
-/// Runs that go once their members are done.
+/// Frames that go once their members are done.
 
 #include "ensemble/kept_runs.h"
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 
-#include "io/run_store.h"
+#include "core/hash.h"
+#include "ensemble/claim.h"
+#include "io/analysis_file.h"
+#include "runs/analysis_run.h"
+#include "session/run.h"
+#include "session/run_header.h"
 #include "support/exit_code.h"
+#include "support/small_bed.h"
 #include "support/temporary_folder.h"
 
 namespace talus {
@@ -26,13 +33,13 @@ EnsembleManifest manifest_with(const std::string& keep) {
 
 TEST(KeptRuns, are_all_none_or_those_of_the_lowest_seeds) {
   for (const char* all : {"", "all", "3", "4"})
-    for (const std::uint64_t seed : {3, 5, 8}) EXPECT_TRUE(keeps_run(manifest_with(all), seed)) << all;
+    for (const std::uint64_t seed : {3, 5, 8}) EXPECT_TRUE(keeps_frames(manifest_with(all), seed)) << all;
   for (const char* none : {"analysis", "0"})
-    for (const std::uint64_t seed : {3, 5, 8}) EXPECT_FALSE(keeps_run(manifest_with(none), seed)) << none;
-  EXPECT_TRUE(keeps_run(manifest_with("1"), 3));
-  EXPECT_FALSE(keeps_run(manifest_with("1"), 5));
-  EXPECT_TRUE(keeps_run(manifest_with("2"), 5));
-  EXPECT_FALSE(keeps_run(manifest_with("2"), 8));
+    for (const std::uint64_t seed : {3, 5, 8}) EXPECT_FALSE(keeps_frames(manifest_with(none), seed)) << none;
+  EXPECT_TRUE(keeps_frames(manifest_with("1"), 3));
+  EXPECT_FALSE(keeps_frames(manifest_with("1"), 5));
+  EXPECT_TRUE(keeps_frames(manifest_with("2"), 5));
+  EXPECT_FALSE(keeps_frames(manifest_with("2"), 8));
 }
 
 TEST(KeptRuns, have_no_other_name) {
@@ -41,54 +48,92 @@ TEST(KeptRuns, have_no_other_name) {
   for (const char* good : {"", "all", "analysis", "0", "12"}) EXPECT_NO_THROW(check_keep(good)) << good;
 }
 
-class DroppedRuns : public testing::Test {
+class DroppedFrames : public testing::Test {
  protected:
-  std::string touch(const std::string& name) {
-    std::ofstream(folder_.path(name)) << "x";
-    return folder_.path(name);
+  /// A plan of members with the files of the first `count` of them.
+  EnsemblePlan plan(const std::string& folder, std::size_t count) {
+    EnsembleManifest manifest = manifest_with("");
+    manifest.variants[0].scenario = test::small_tilted_bed(1.0);
+    EnsemblePlan found = plan_of(manifest, folder_.path(folder));
+    fs::create_directories(folder_.path(folder));
+    for (std::size_t m = 0; m < count; ++m) {
+      const Member& member = found.members[m];
+      Session session(member.scenario);
+      RunStore store = RunStore::create(member.path, run_header(session, {"", {}, "", 1}), false);
+      run_to_end(session, store, {});
+    }
+    return found;
   }
-  EnsemblePlan plan() const { return plan_of(manifest_with(""), folder_.path().string()); }
+  std::size_t drop(const std::string& keep, const EnsemblePlan& of, const std::string& folder) {
+    return drop_frames(manifest_with(keep), of, folder_.path(folder), known_);
+  }
 
   test::TemporaryFolder folder_;
+  KnownMembers known_;
 };
 
-TEST_F(DroppedRuns, are_those_of_members_that_are_done_and_have_all_tables) {
-  for (const char* name :
-       {"seed-3.h5", "seed-3.csv", "seed-3.series.csv", "seed-3.lists.h5", "seed-5.h5", "seed-5.series.csv",
-        "seed-5.lists.h5", "seed-8.h5", "seed-8.csv", "seed-8.series.csv"})
-    touch(name);
-  EXPECT_EQ(drop_runs(manifest_with(""), plan(), folder_.path()), 0u);
-  EXPECT_EQ(drop_runs(manifest_with("1"), plan(), folder_.path()), 0u) << "seed 3 keeps its run";
-  EXPECT_EQ(drop_runs(manifest_with("analysis"), plan(), folder_.path()), 1u);
-  EXPECT_FALSE(fs::exists(folder_.path("seed-3.h5")));
-  EXPECT_TRUE(fs::exists(folder_.path("seed-3.csv")) && fs::exists(folder_.path("seed-3.series.csv")));
-  EXPECT_TRUE(fs::exists(folder_.path("seed-5.h5"))) << "a member that is not done";
-  EXPECT_TRUE(fs::exists(folder_.path("seed-8.h5"))) << "one whose lists are made from its run only";
-  EXPECT_EQ(drop_runs(manifest_with("analysis"), plan(), folder_.path()), 0u);
+TEST_F(DroppedFrames, are_those_of_members_that_are_done_and_the_rest_of_a_run_stays) {
+  const EnsemblePlan of = plan("e", 2);
+  const std::string path = of.members[0].path;
+  EXPECT_EQ(drop("", of, "e"), 0u);
+  EXPECT_EQ(drop("2", of, "e"), 0u) << "both seeds keep their frames";
+  const MemberResult before = analysed_member(of.members[0], known_);
+  EXPECT_TRUE(before.has_frames);
+  const std::vector<StepRow> steps = RunFile::open(path).steps();
+  const std::vector<double> tilts = RunFile::open(path).frame_tilts();
+  fs::create_directory(run_folder(path));
+  EXPECT_EQ(drop("analysis", of, "e"), 2u);
+  EXPECT_FALSE(fs::exists(run_folder(path))) << "what a kill had left";
+  EXPECT_EQ(drop("analysis", of, "e"), 0u);
+  const RunFile run = RunFile::open(path);
+  EXPECT_FALSE(run.has_frames());
+  EXPECT_EQ(run.frame_tilts(), tilts);
+  EXPECT_EQ(run.steps(), steps);
+  EXPECT_EQ(run.changed_data_sets(), std::vector<std::string>());
+  EXPECT_EQ(hash_text(state_hash(run.checkpoint().world)), before.numbers.state_hash);
+  for (const auto& read : {&RunFile::frame, &RunFile::positions})
+    EXPECT_EQ(test::exit_code_of([&] { (run.*read)(0); }), ExitCode::missing_input);
+  const MemberResult& after = read_member(of.members[0], known_);
+  EXPECT_FALSE(after.has_frames);
+  ASSERT_EQ(after.numbers.numbers.size(), before.numbers.numbers.size());
+  for (std::size_t k = 0; k < before.numbers.numbers.size(); ++k) {
+    const double left = before.numbers.numbers[k].value, right = after.numbers.numbers[k].value;
+    EXPECT_TRUE(left == right || std::isnan(left)) << before.numbers.numbers[k].name;
+  }
+  EXPECT_EQ(after.series.theta, before.series.theta);
+  EXPECT_EQ(after.lists.lists.size(), before.lists.lists.size());
+  EXPECT_LT(fs::file_size(path), fs::file_size(of.members[1].path) * 2) << "both are small";
+  store_analysis(path, *read_analysis(run), before.numbers.state_hash);
+  EXPECT_FALSE(RunFile::open(path).has_frames()) << "analysed again, it is as it was";
+  EXPECT_EQ(test::exit_code_of([&] { analyse_run(run, AnalysisParameters(), 1, {}); }),
+            ExitCode::missing_input);
 }
 
-TEST_F(DroppedRuns, are_none_behind_a_link) {
-  const std::string ensemble = folder_.path("e");
-  fs::create_directory(folder_.path("victim"));
-  for (const char* name : {"seed-3.h5", "seed-3.csv", "seed-3.series.csv", "seed-3.lists.h5"})
-    touch(std::string("victim/") + name);
-  fs::create_symlink(folder_.path("victim"), ensemble);
-  const EnsemblePlan behind = plan_of(manifest_with("analysis"), ensemble);
-  EXPECT_EQ(drop_runs(manifest_with("analysis"), behind, folder_.path()), 1u)
-      << "the link is the folder's own";
-  touch("victim/seed-3.h5");
+TEST_F(DroppedFrames, are_none_behind_a_link) {
+  plan("victim", 1);
+  fs::create_symlink(folder_.path("victim"), folder_.path("e"));
+  const EnsemblePlan behind = plan("e", 0);
   fs::create_directory(folder_.path("own"));
-  EXPECT_EQ(drop_runs(manifest_with("analysis"), behind, folder_.path("own")), 0u);
-  EXPECT_TRUE(fs::exists(folder_.path("victim/seed-3.h5")));
+  EXPECT_EQ(drop("analysis", behind, "own"), 0u);
+  EXPECT_TRUE(RunFile::open(folder_.path("victim/seed-3.h5")).has_frames());
+  EXPECT_EQ(drop("analysis", behind, "e"), 1u) << "the link is the folder's own";
 }
 
-TEST_F(DroppedRuns, leave_no_folder_behind) {
-  for (const char* name : {"seed-3.h5", "seed-3.csv", "seed-3.series.csv"}) touch(name);
-  fs::create_directory(run_folder(folder_.path("seed-3.h5")));
-  drop_run(plan().members[0]);
-  EXPECT_FALSE(fs::exists(run_folder(folder_.path("seed-3.h5"))));
-  EXPECT_FALSE(fs::exists(folder_.path("seed-3.h5")));
-  EXPECT_NO_THROW(drop_run(plan().members[0])) << "another worker may have been faster";
+TEST_F(DroppedFrames, are_not_those_of_another_run) {
+  const EnsemblePlan of = plan("e", 1);
+  fs::rename(of.members[0].path, of.members[1].path);
+  EXPECT_EQ(drop("analysis", of, "e"), 0u);
+  EXPECT_TRUE(RunFile::open(of.members[1].path).has_frames());
+}
+
+TEST_F(DroppedFrames, leave_no_folders_and_claims_of_members_that_are_done) {
+  const EnsemblePlan of = plan("e", 1);
+  for (const std::size_t m : {0u, 1u}) fs::create_directory(run_folder(of.members[m].path));
+  std::ofstream(claim_path(of.members[0].path, 0)) << "process 1 on host far, boot another\n";
+  drop_leftovers(of);
+  EXPECT_FALSE(fs::exists(run_folder(of.members[0].path)));
+  EXPECT_FALSE(fs::exists(claim_path(of.members[0].path, 0)));
+  EXPECT_TRUE(fs::exists(run_folder(of.members[1].path))) << "of a member that is not done";
 }
 
 }  // namespace

@@ -18,12 +18,14 @@ TEST(MemberState, follows_from_the_files_beside_the_run) {
   std::filesystem::create_directory(folder.path("a"));
   const EnsemblePlan plan =
       plan_ensemble({1, 2, 3, 4}, {{"a", "", {}}, {"b", "", {}}}, folder.path().string());
-  touch(folder.path("a/seed-1.csv"));
+  touch(folder.path("a/seed-1.h5"));
   touch(folder.path("a/seed-1.claim-0"));  // its worker has not given it back yet
   touch(folder.path("a/seed-2.failed"));
   touch(folder.path("a/seed-3.claim-2"));
   touch(folder.path("a/seed-3.claim-10"));
-  touch(folder.path("a/seed-4.h5"));  // not analysed yet
+  touch(folder.path("a/seed-4.csv"));  // as earlier versions left them
+  std::filesystem::create_directory(folder.path("a/seed-4.h5.run"));
+  std::filesystem::create_directory(folder.path("a/seed-2.h5"));
   const std::vector<MemberState> states = look_at_members(plan);
   ASSERT_EQ(states.size(), 8u);
   EXPECT_EQ(states[0].stage, MemberStage::done);
@@ -33,8 +35,8 @@ TEST(MemberState, follows_from_the_files_beside_the_run) {
   EXPECT_EQ(states[6].stage, MemberStage::waiting);
   EXPECT_EQ(states[1].stage, MemberStage::waiting) << "folder b is not there yet";
   EXPECT_EQ(count_of(states, MemberStage::waiting), 5u);
-  EXPECT_TRUE(states[6].has_run);
-  EXPECT_FALSE(states[0].has_run) << "done, and its run is gone";
+  EXPECT_TRUE(states[6].has_folder && states[6].has_old_table);
+  EXPECT_FALSE(states[0].has_folder || states[0].has_old_table);
 }
 
 TEST(MemberFailure, is_read_back_and_harmless) {

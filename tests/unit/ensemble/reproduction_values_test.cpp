@@ -7,7 +7,6 @@
 #include "core/errors.h"
 #include "core/hash.h"
 #include "core/snapshot.h"
-#include "ensemble/member_numbers.h"
 #include "ensemble/member_state.h"
 #include "io/analysis_file.h"
 #include "io/durable_file.h"
@@ -36,14 +35,10 @@ class ReadingsTest : public testing::Test {
     const RunFile run = RunFile::open(member.path);
     const Analysis analysis = analyse_run(run, AnalysisParameters(), 1, {});
     store_analysis(member.path, analysis, hash_text(state_hash(run.checkpoint().world)));
-    write_text(numbers_path(member.path), numbers_csv(member_numbers(RunFile::open(member.path), analysis)));
     return plan;
   }
-  std::size_t count_of_readings() const {
-    const fs::path readings = folder_.path("bed/seed-1.readings");
-    if (!fs::exists(readings)) return 0;
-    return static_cast<std::size_t>(
-        std::distance(fs::directory_iterator(readings), fs::directory_iterator()));
+  static std::vector<StoredReading> readings_of(const Member& member) {
+    return read_readings(RunFile::open(member.path));
   }
   test::TemporaryFolder folder_;
 };
@@ -53,18 +48,26 @@ TEST_F(ReadingsTest, are_made_where_they_are_missing_and_measured) {
   const Member& member = plan.members.front();
   EXPECT_FALSE(is_measured(member));
   EXPECT_EQ(test::exit_code_of([&] { measure_members(plan); }), ExitCode::bad_data);
-  make_readings(member);
+  complete_readings(member);
   EXPECT_TRUE(is_measured(member));
-  EXPECT_EQ(count_of_readings(), 12u);
-  const std::string averaged = folder_.path("bed/seed-1.readings/averaging=1.csv"),
-                    joined = folder_.path("bed/seed-1.readings/joining=neighbours.csv");
-  const std::string before = read_text(averaged);
-  const auto written = fs::last_write_time(joined);
-  write_text(averaged, "of another version\n");
+  const std::vector<StoredReading> before = readings_of(member);
+  EXPECT_EQ(before.size(), 12u);
+  const std::string state = hash_text(state_hash(RunFile::open(member.path).checkpoint().world));
+  std::vector<StoredReading> changed = before;
+  changed[3].key = "of another version";
+  changed[4].values[0] = 7.5;  // valid by its key: it is taken as it is
+  store_readings(member.path, changed, state);
   EXPECT_FALSE(is_measured(member));
-  make_readings(member);
-  EXPECT_EQ(read_text(averaged), before);
-  EXPECT_EQ(fs::last_write_time(joined), written);
+  complete_readings(member);
+  EXPECT_TRUE(is_measured(member));
+  EXPECT_EQ(readings_of(member)[3].key, before[3].key);
+  EXPECT_EQ(readings_of(member)[4].values[0], 7.5);
+  store_analysis(member.path, *read_analysis(member.path), state);
+  EXPECT_EQ(readings_of(member).size(), 12u) << "a run that is analysed again keeps them";
+  EXPECT_EQ(RunFile::open(member.path).changed_data_sets(), std::vector<std::string>());
+  const auto written = fs::last_write_time(member.path);
+  complete_readings(member);
+  EXPECT_EQ(fs::last_write_time(member.path), written) << "nothing is missing";
 
   const ReproductionResult result = measure_members(plan);
   ASSERT_EQ(result.outcomes.size(), 1u);
@@ -80,14 +83,14 @@ TEST_F(ReadingsTest, are_none_between_walls) {
   Scenario scenario = test::small_tilted_bed(1.0);
   scenario.bed.boundary = BedBoundary::walls;
   const ReproductionPlan plan = computed(scenario);
-  make_readings(plan.members.front());
-  EXPECT_EQ(count_of_readings(), 0u);
+  complete_readings(plan.members.front());
+  EXPECT_TRUE(readings_of(plan.members.front()).empty());
   EXPECT_TRUE(is_measured(plan.members.front()));
   const ReproductionResult result = measure_members(plan);
   ASSERT_EQ(result.outcomes.size(), 1u);
   EXPECT_FALSE(result.outcomes[0].values.front().empty());
   EXPECT_TRUE(result.outcomes[0].values[1].empty());
-  remove_file(numbers_path(plan.members.front().path));
+  remove_file(plan.members.front().path);
   EXPECT_TRUE(measure_members(plan).outcomes.empty()) << "of what is not done";
 }
 

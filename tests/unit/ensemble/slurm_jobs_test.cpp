@@ -24,7 +24,7 @@ TEST(SlurmJobs, are_remembered_until_they_are_forgotten) {
   std::filesystem::create_directory(slurm_folder(path));
   record_job(path, {"100", "", 8});
   record_job(path, {"9", "far", 3});
-  write_memory(path, "9", "2", {{1, 0, 50}, 1});
+  write_memory(path, "9", "2", {{1, 50}, 1});
   write(slurm_folder(path) + "/job-x.csv", "no job");
   std::vector<SlurmJob> jobs = recorded_jobs(path);
   ASSERT_EQ(jobs.size(), 2u);
@@ -48,15 +48,14 @@ TEST(SlurmJobs, that_are_damaged_are_named) {
 }
 
 TEST(Starts, that_bring_no_member_further_are_counted) {
-  TaskMemory memory = after_start({}, {0, 0, 10});
+  TaskMemory memory = after_start({}, {0, 10});
   EXPECT_EQ(memory.idle_starts, 0);
-  memory = after_start(memory, {0, 0, 10});
-  memory = after_start(memory, {0, 0, 10});
+  memory = after_start(memory, {0, 10});
+  memory = after_start(memory, {0, 10});
   EXPECT_EQ(memory.idle_starts, 2);
-  EXPECT_EQ(after_start(memory, {0, 0, 11}).idle_starts, 0) << "steps";
-  EXPECT_EQ(after_start(memory, {0, 1, 0}).idle_starts, 0) << "a run that is complete has no steps to commit";
-  EXPECT_EQ(after_start(memory, {1, 0, 0}).idle_starts, 0) << "a member that is done";
-  EXPECT_EQ(after_start(memory, {0, 0, 10}).idle_starts, most_idle_starts);
+  EXPECT_EQ(after_start(memory, {0, 11}).idle_starts, 0) << "steps";
+  EXPECT_EQ(after_start(memory, {1, 0}).idle_starts, 0) << "a member that is done";
+  EXPECT_EQ(after_start(memory, {0, 10}).idle_starts, most_idle_starts);
 }
 
 TEST(Starts, are_remembered_from_one_to_the_next) {
@@ -64,19 +63,19 @@ TEST(Starts, are_remembered_from_one_to_the_next) {
   const std::string path = folder.path().string();
   std::filesystem::create_directory(slurm_folder(path));
   EXPECT_EQ(read_memory(path, "12", "3").idle_starts, 0);
-  write_memory(path, "12", "3", {{1, 2, 30}, 2});
+  write_memory(path, "12", "3", {{1, 30}, 2});
   const TaskMemory memory = read_memory(path, "12", "3");
   EXPECT_EQ(memory.idle_starts, 2);
-  EXPECT_EQ(memory.mark, (EnsembleMark{1, 2, 30}));
+  EXPECT_EQ(memory.mark, (EnsembleMark{1, 30}));
   write(slurm_folder(path) + "/task-12_3.csv", "done\nx");
   EXPECT_EQ(read_memory(path, "12", "3").idle_starts, 0);
 }
 
-TEST(EnsembleMark, counts_members_runs_and_committed_steps) {
+TEST(EnsembleMark, counts_members_and_committed_steps) {
   const test::TemporaryFolder folder;
   const EnsemblePlan plan = plan_ensemble({1, 2, 3, 4}, {{"", "", {}}}, folder.path().string());
-  write(folder.path("seed-1.csv"), "");
-  write(folder.path("seed-2.h5"), "");
+  write(folder.path("seed-1.h5"), "");
+  write(folder.path("seed-2.failed"), "");
   std::filesystem::create_directory(folder.path("seed-3.h5.run"));
   Manifest manifest;
   const std::string bytes = "x";
@@ -84,7 +83,7 @@ TEST(EnsembleMark, counts_members_runs_and_committed_steps) {
   manifest.header = manifest.checkpoint = file;
   manifest.segments = {{file, 1, 0, 1, 40}, {file, 1, 0, 1, 2}};
   write(folder.path("seed-3.h5.run/manifest"), manifest_text(manifest));
-  EXPECT_EQ(mark_of(plan), (EnsembleMark{1, 1, 42}));
+  EXPECT_EQ(mark_of(plan), (EnsembleMark{2, 42}));
 }
 
 }  // namespace

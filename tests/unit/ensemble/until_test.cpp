@@ -1,10 +1,9 @@
-/// When an ensemble knows enough, and the numbers of its members as a table.
+/// When an ensemble knows enough.
 
 #include "ensemble/until.h"
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <limits>
 
 #include "support/exit_code.h"
@@ -51,24 +50,6 @@ TEST(Precision, of_what_no_run_has_is_refused_and_says_what_there_is) {
       EXPECT_NE(std::string(error.what()).find(name), std::string::npos) << error.what();
   }
   EXPECT_EQ(parse_precision("theta_d/dilation[1]:1").quantity, "theta_d/dilation[1]");
-}
-
-TEST(MemberNumbers, are_read_back_to_the_last_bit) {
-  const MemberNumbers numbers = member_with(20.1 / 3.0);
-  const MemberNumbers again = parse_numbers(numbers_csv(numbers), "x.csv");
-  EXPECT_EQ(again.state_hash, numbers.state_hash);
-  EXPECT_EQ(again.version, numbers.version);
-  EXPECT_EQ(again.seconds, numbers.seconds);
-  EXPECT_EQ(number_called(again, "theta_c"), 20.1 / 3.0);
-  EXPECT_TRUE(std::isnan(number_called(again, "theta_d/lc_jump[1]")));
-  EXPECT_EQ(again.numbers[0].unit, "deg");
-}
-
-TEST(MemberNumbers, of_another_form_are_refused) {
-  const std::string whole = numbers_csv(member_with(20.0));
-  for (const std::string& text : {std::string(), std::string("x\n"), whole.substr(0, whole.find("theta_c")),
-                                  whole + "theta_c,deg\n", whole + "a,deg,x\n"})
-    EXPECT_EQ(test::exit_code_of([&] { parse_numbers(text, "x.csv"); }), ExitCode::bad_data) << text;
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-/// The table of trials as text and back.
+/// The trials of a run as they are stored, and back.
 
 #include "session/perturbation_table.h"
 
@@ -6,7 +6,10 @@
 
 #include <string>
 
-#include "core/errors.h"
+#include "session/run_header.h"
+#include "support/exit_code.h"
+#include "support/small_bed.h"
+#include "support/temporary_folder.h"
 
 namespace talus {
 namespace {
@@ -21,31 +24,55 @@ PerturbationTable example() {
   return table;
 }
 
-ExitCode code_of(const std::string& text, const PerturbationPlan& plan) {
-  try {
-    parse_perturbation_csv(text, "seed-1.csv", plan);
-    return ExitCode::done;
-  } catch (const Error& error) {
-    EXPECT_NE(std::string(error.what()).find("seed-1.csv"), std::string::npos);
-    return error.code();
+/// A run that is under way, with the rows of the trials of a table.
+class StoredTrials : public testing::Test {
+ protected:
+  void store(const PerturbationTable& table) {
+    const Session session(test::small_tilted_bed(1.0));
+    RunHeader header = run_header(session, {"", {}, "", 1});
+    header.provenance.emplace_back(trials_fact, plan_text(table.plan));
+    RunStore store = RunStore::create(path_, header, false);
+    for (const PerturbedState& state : table.states) {
+      Segment segment;
+      segment.trials = rows_of(state, 0);
+      store.commit(segment, session.checkpoint(0.0));
+    }
   }
+  PerturbationTable read(const PerturbationPlan& plan) const {
+    return table_of(RunFile::open(path_), plan, "seed-1.h5");
+  }
+
+  test::TemporaryFolder folder_;
+  std::string path_ = folder_.path("seed-1.h5");
+};
+
+TEST_F(StoredTrials, are_read_back_to_the_last_bit) {
+  store(example());
+  const PerturbationTable found = read(example().plan);
+  ASSERT_EQ(found.states.size(), 2u);
+  ASSERT_EQ(found.states[0].trials.size(), 2u);
+  EXPECT_EQ(found.states[0].trials[1].end, TrialEnd::undecided);
+  EXPECT_EQ(found.states[0].trials[0].time, 1.0 / 3.0);
+  EXPECT_EQ(found.states[1].tilt, 12.75);
+  EXPECT_EQ(found.states[1].trials[0].moved, 412);
+  for (std::size_t k = 0; k < 2; ++k) EXPECT_EQ(rows_of(found.states[k], 7), rows_of(example().states[k], 7));
 }
 
-TEST(PerturbationTable, reads_back_to_the_last_bit) {
+TEST_F(StoredTrials, of_another_plan_are_refused) {
+  store(example());
+  PerturbationPlan plan = example().plan;
+  plan.every = 0.5;
+  EXPECT_EQ(test::exit_code_of([&] { read(plan); }), ExitCode::bad_data);
+  plan = example().plan;
+  plan.patch.depth = 2.0;
+  EXPECT_EQ(test::exit_code_of([&] { read(plan); }), ExitCode::bad_data);
+}
+
+TEST_F(StoredTrials, that_end_as_none_does_are_refused) {
   PerturbationTable table = example();
-  for (const bool complete : {false, true}) {
-    table.complete = complete;
-    const std::string text = perturbation_csv(table);
-    const PerturbationTable read = parse_perturbation_csv(text, "seed-1.csv", table.plan);
-    EXPECT_EQ(read.complete, complete);
-    ASSERT_EQ(read.states.size(), 2u);
-    EXPECT_EQ(read.states[0].trials.size(), 2u);
-    EXPECT_EQ(read.states[0].trials[1].end, TrialEnd::undecided);
-    EXPECT_EQ(read.states[0].trials[0].time, 1.0 / 3.0);
-    EXPECT_EQ(read.states[1].tilt, 12.75);
-    EXPECT_EQ(read.states[1].trials[0].moved, 412);
-    EXPECT_EQ(perturbation_csv(read), text);
-  }
+  table.states[0].trials[0].end = static_cast<TrialEnd>(3);
+  store(table);
+  EXPECT_EQ(test::exit_code_of([&] { read(table.plan); }), ExitCode::bad_data);
 }
 
 TEST(PerturbationPlan, is_read_back_from_its_text_alone) {
@@ -56,27 +83,6 @@ TEST(PerturbationPlan, is_read_back_from_its_text_alone) {
        {"", "--from 12.5 --every 0.25", "--from 12.5 --every 0.25 --patch 10x1.5 --all",
         "--from 12.5 --each 0.25 --patch 10x1.5", "--from 12.50 --every 0.25 --patch 10x1.5"})
     EXPECT_FALSE(parse_plan(text).has_value()) << text;
-}
-
-TEST(PerturbationTable, of_another_plan_is_refused) {
-  const std::string text = perturbation_csv(example());
-  PerturbationPlan plan = example().plan;
-  EXPECT_EQ(code_of(text, plan), ExitCode::done);
-  plan.every = 0.5;
-  EXPECT_EQ(code_of(text, plan), ExitCode::bad_data);
-  plan = example().plan;
-  plan.patch.depth = 2.0;
-  EXPECT_EQ(code_of(text, plan), ExitCode::bad_data);
-}
-
-TEST(PerturbationTable, that_is_damaged_is_refused) {
-  const std::string text = perturbation_csv(example());
-  const PerturbationPlan plan = example().plan;
-  EXPECT_EQ(code_of("", plan), ExitCode::bad_data);
-  EXPECT_EQ(code_of(text.substr(0, text.find('\n') + 1), plan), ExitCode::bad_data);
-  EXPECT_EQ(code_of(text.substr(0, text.size() - 10), plan), ExitCode::bad_data);
-  EXPECT_EQ(code_of(text + "13,0,0,slept,1,0,0\n", plan), ExitCode::bad_data);
-  EXPECT_EQ(code_of(text + "13,0,0,rest,1,0,0,7\n", plan), ExitCode::bad_data);
 }
 
 TEST(Patch, is_read_as_width_by_depth) {

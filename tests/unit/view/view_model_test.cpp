@@ -207,7 +207,7 @@ TEST_F(ViewOfRun, takes_no_analysis_of_means_over_frames) {
   AnalysisParameters parameters;
   parameters.averaging = 10.0;
   store_analysis(path_, analyse_run(run, parameters, 1, {}), hash_text(state_hash(run.checkpoint().world)));
-  EXPECT_FALSE(read_usable_analysis(path_, RunFile::open(path_)).has_value());
+  EXPECT_FALSE(read_usable_analysis(RunFile::open(path_)).has_value());
 }
 
 TEST_F(ViewOfRun, takes_grains_with_their_first_neighbours_unless_told_otherwise) {

@@ -1,0 +1,122 @@
+#include "ensemble/member_reader.h"
+
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <fmt/core.h>
+#include <functional>
+#include <iterator>
+
+#include "analysis/quantities.h"
+#include "core/errors.h"
+#include "core/visible_text.h"
+#include "io/analysis_file.h"
+#include "runs/analysis_parameters.h"
+#include "runs/analysis_run.h"
+#include "runs/run_view.h"
+#include "scenario/text.h"
+#include "session/run_header.h"
+
+namespace talus {
+namespace {
+
+KnownMembers::FileMark mark_of(const std::string& path) {
+  struct stat file = {};
+  if (::stat(path.c_str(), &file) != 0) throw system_error(ExitCode::missing_input, "open", path, errno);
+  return {file.st_dev, file.st_ino, file.st_size, file.st_mtim.tv_sec, file.st_mtim.tv_nsec};
+}
+
+std::vector<Quantity> rows_where(const std::function<bool(const Quantity&)>& is_wanted) {
+  std::vector<Quantity> found;
+  std::ranges::copy_if(quantities(), std::back_inserter(found), is_wanted);
+  return found;
+}
+
+const std::vector<Quantity>& numbers_of_members() {
+  static const std::vector<Quantity> table =
+      rows_where([](const Quantity& quantity) { return is_number_of_run(quantity); });
+  return table;
+}
+
+/// What averages are made of: no values of single grains, which are most of an analysis.
+const std::vector<Quantity>& averaged_quantities() {
+  static const std::vector<Quantity> table = rows_where([](const Quantity& quantity) {
+    return is_number_of_run(quantity) || is_number_of_frame(quantity) || is_list_of_run(quantity) ||
+           is_list_of_frame(quantity);
+  });
+  return table;
+}
+
+MemberResult result_of(const Member& member, const RunFile& run, const Analysis& analysis) {
+  const double mean_diameter = run.header().statics.mean_diameter;
+  return {member.seed, member_numbers(run, analysis), member_series(analysis, mean_diameter),
+          member_lists(analysis, mean_diameter), run.has_frames()};
+}
+
+MemberResult read_result(const Member& member, bool whole) {
+  const RunFile run = RunFile::open(member.path);
+  require_own_run(member, run.header());
+  const std::optional<Analysis> analysis =
+      read_analysis(run, whole ? averaged_quantities() : numbers_of_members());
+  const bool is_valid = analysis && analysis->key == analysis_key(run, AnalysisParameters());
+  if (is_valid && whole) return result_of(member, run, *analysis);
+  MemberResult found{member.seed, {}, {}, {}, run.has_frames()};
+  found.numbers = member_numbers(run, is_valid ? *analysis : Analysis());
+  if (!is_valid) found.numbers.numbers.clear();
+  return found;
+}
+
+const MemberResult& keep(const Member& member, KnownMembers& known, KnownMembers::Known read) {
+  return known.by_path.insert_or_assign(member.path, std::move(read)).first->second.result;
+}
+
+const MemberResult& read_parts(const Member& member, KnownMembers& known, bool whole) {
+  const KnownMembers::FileMark mark = mark_of(member.path);  // before it is read, lest it changes meanwhile
+  const auto found = known.by_path.find(member.path);
+  if (found != known.by_path.end() && (found->second.whole || !whole) && found->second.mark == mark)
+    return found->second.result;
+  return keep(member, known, {mark, whole, read_result(member, whole)});
+}
+
+}  // namespace
+
+void require_own_run(const Member& member, const RunHeader& header) {
+  // Values are compared, not texts: a key that an earlier version did not have is at its default in it.
+  const Scenario scenario = stored_scenario(header, member.path);
+  if (scenario != member.scenario)
+    throw Error(
+        ExitCode::bad_data,
+        fmt::format("{} is a run of another scenario than this member of the ensemble: {}; expected the "
+                    "scenario, the settings and the version that the ensemble began with; give another "
+                    "folder, or remove the run",
+                    member.path, differences(scenario, member.scenario)));
+  const std::string bed = bed_of(header.provenance);
+  if (!bed.empty() && !member.origin.bed.empty() && bed != member.origin.bed)
+    throw Error(ExitCode::bad_data,
+                fmt::format("{} began with another bed than this ensemble: {} (deposition.file) was changed; "
+                            "undo the change, and remove the run",
+                            member.path, visible(scenario.deposition.file)));
+}
+
+bool is_complete(const Member& member) {
+  const RunPresence presence = run_presence(member.path);
+  if (presence == RunPresence::none) return false;
+  require_own_run(member, RunFile::open(member.path).header());
+  return presence == RunPresence::packed;
+}
+
+const MemberResult& read_member(const Member& member, KnownMembers& known) {
+  return read_parts(member, known, false);
+}
+
+const MemberResult& analysed_member(const Member& member, KnownMembers& known) {
+  const MemberResult& read = read_parts(member, known, true);
+  if (!read.numbers.numbers.empty()) return read;
+  const RunView run = analysed_run(member.path, AnalysisParameters(), {});
+  if (!run.file->complete())
+    throw Error(ExitCode::bad_data, member.path + " is just being computed again; wait for its end");
+  return keep(member, known, {mark_of(member.path), true, result_of(member, *run.file, run.analysis)});
+}
+
+}  // namespace talus
