@@ -19,7 +19,6 @@
 #include "ensemble/pool.h"
 #include "io/durable_file.h"
 #include "io/run_store.h"
-#include "io/signature.h"
 #include "runs/analysis_parameters.h"
 
 namespace talus {
@@ -122,9 +121,9 @@ FigureInput read_figure_input(const std::vector<std::string>& paths, const std::
     const std::string averages = (fs::path(path) / "ensemble.h5").string();
     if (is_ensemble(path))
       add_ensemble(reading, path);
-    else if (begins_with(path, hdf5_signature))
+    else if (holds_averages(path))
       add_values(reading, path);
-    else if (begins_with(averages, hdf5_signature))
+    else if (is_there(averages))
       add_values(reading, averages);
     else
       add_run(reading, path);

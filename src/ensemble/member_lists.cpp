@@ -2,20 +2,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/core.h>
 
 #include "analysis/quantities.h"
 #include "core/trigonometry.h"
 #include "ensemble/member_numbers.h"
 #include "ensemble/member_series.h"
 #include "ensemble/plan.h"
-#include "io/plain_file.h"
+#include "io/durable_file.h"
+#include "io/hdf5_reader.h"
+#include "io/hdf5_writer.h"
+#include "io/seal.h"
 
 namespace talus {
 namespace {
 
 constexpr const char* theta_path = "/theta";
-constexpr const char* bins_group = "/bins/";
-constexpr const char* lists_group = "/frames/";
+constexpr const char* bins_group = "/bins";
+constexpr const char* lists_group = "/frames";
 
 bool is_averaged(const Quantity& quantity) { return is_list_of_frame(quantity) && quantity.unit != "rad"; }
 
@@ -30,10 +34,10 @@ void append(NamedList& list, const Quantity& quantity, const std::vector<double>
   for (const double value : values) list.values.push_back(scaled(quantity.unit, value, mean_diameter));
 }
 
-PlainArray array_of(const std::string& group, const NamedList& list) {
-  return {group + list.name, {list.values.size() / list.width, list.width},
-          list.unit,         list.definition,
-          list.values,       {}};
+void add(hdf5::Writer& file, const std::string& path, const std::string& shape, const std::string& unit,
+         const std::string& definition, const std::vector<double>& values) {
+  file.write(DataSetField{path, ElementType::float64, shape, unit, definition}, values);
+  file.set_attribute(path, "definition", definition);
 }
 
 }  // namespace
@@ -83,27 +87,39 @@ void set_lists(const MemberLists& lists, double mean_diameter, Analysis& analysi
 }
 
 void write_lists(const std::string& path, const MemberLists& lists) {
-  std::vector<PlainArray> arrays = {{theta_path, {lists.theta.size()}, "deg", "tilt", lists.theta, {}}};
+  hdf5::Writer file({{'S', 0}}, seal_size);
+  add(file, theta_path, std::to_string(lists.theta.size()), "deg", "tilt", lists.theta);
   for (const NamedList& bins : lists.bins)
-    arrays.push_back({bins_group + bins.name, {bins.width}, bins.unit, bins.definition, bins.values, {}});
-  for (const NamedList& list : lists.lists) arrays.push_back(array_of(lists_group, list));
-  write_plain_file(path, arrays, {});
+    add(file, bins_group + ("/" + bins.name), std::to_string(bins.width), bins.unit, bins.definition,
+        bins.values);
+  for (const NamedList& list : lists.lists)
+    add(file, lists_group + ("/" + list.name),
+        fmt::format("S+{} {}", list.values.size() / list.width, list.width), list.unit, list.definition,
+        list.values);
+  std::vector<std::byte> bytes = file.image();
+  seal(bytes, averages_seal);
+  write_durably(path, bytes);
 }
 
 MemberLists read_lists(const std::string& path) {
+  verify_seal(path, averages_seal);
+  hdf5::Reader file = hdf5::Reader::from_file(path);
   MemberLists found;
-  PlainFile file = read_plain_file(path);
-  for (PlainArray& array : file.arrays)
-    if (array.path == theta_path) found.theta = std::move(array.values);
+  found.theta = file.read<double>(DataSetField{theta_path, ElementType::float64, "T", "deg", {}});
   if (!std::ranges::is_sorted(found.theta)) refuse_table(path);
-  for (PlainArray& array : file.arrays) {
-    const bool is_bins = array.path.starts_with(bins_group);
-    if (!is_bins && !array.path.starts_with(lists_group)) continue;
-    if (array.shape.size() != (is_bins ? 1 : 2) || (!is_bins && array.shape[0] != found.theta.size()))
-      refuse_table(path);
-    const std::string name = array.path.substr(std::string(is_bins ? bins_group : lists_group).size());
-    (is_bins ? found.bins : found.lists)
-        .push_back({name, array.unit, array.definition, array.shape.back(), std::move(array.values)});
+  for (const char* group : {bins_group, lists_group}) {
+    if (!file.has(group)) continue;
+    const bool is_bins = group == std::string_view(bins_group);
+    for (const std::string& item : file.data_sets(group)) {
+      std::vector<double> values = file.again().read<double>(
+          DataSetField{
+              item, ElementType::float64, is_bins ? "W" : fmt::format("{} W", found.theta.size()), {}, {}},
+          hdf5::any_number);
+      const std::size_t width = values.size() / (is_bins ? 1 : std::max<std::size_t>(1, found.theta.size()));
+      (is_bins ? found.bins : found.lists)
+          .push_back({item.substr(std::string_view(group).size() + 1), file.attribute(item, "unit"),
+                      file.attribute(item, "definition"), width, std::move(values)});
+    }
   }
   return found;
 }

@@ -34,8 +34,8 @@ MemberLists member_lists(const Analysis& analysis, double mean_diameter);
 /// passed over. `analysis` has the same frames and thresholds.
 void set_lists(const MemberLists& lists, double mean_diameter, Analysis& analysis);
 
-/// The file beside a run, HDF5, and what is in it. Throw as write_plain_file and read_plain_file do; and
-/// read_lists Error(bad_data) where the file is not what write_lists makes.
+/// The file beside a run, HDF5, and what is in it. Throw as write_durably does, and Error(bad_data) where the
+/// file is not what write_lists makes.
 void write_lists(const std::string& path, const MemberLists& lists);
 MemberLists read_lists(const std::string& path);
 inline constexpr const char* lists_ending = ".lists.h5";

@@ -11,6 +11,7 @@
 #include "io/frames_of_tilt.h"
 #include "io/packed_file.h"
 #include "io/run_records.h"
+#include "io/seal.h"
 
 namespace talus {
 namespace {
@@ -51,14 +52,14 @@ void write_analysis(hdf5::Writer& writer, const Analysis& analysis, std::span<co
 
 Values read_values(hdf5::Reader& reader, const DataSetField& field) {
   if (field.type == ElementType::int32) return reader.read<Index>(field);
-  if (field.type == ElementType::float32) return reader.read<float>(field);
-  return reader.read<double>(field);
+  if (field.type == ElementType::float32) return reader.read<float>(field, hdf5::any_number);
+  return reader.read<double>(field, hdf5::any_number);
 }
 
 /// The tilts of the frames that an analysis has rows for.
 std::vector<double> analysed_tilts(const std::string& path) {
   hdf5::Reader reader = hdf5::Reader::from_file(path);
-  std::vector<double> tilts = reader.read_finite("/frames/tilt");
+  std::vector<double> tilts = reader.read<double>("/frames/tilt");
   std::optional<std::int64_t> last_tilt_step;
   if (const std::string last = std::string("/checkpoint/integers/") + last_tilt_step_name; reader.has(last))
     last_tilt_step = reader.read_scalar<std::int64_t>(last);
@@ -126,7 +127,7 @@ std::optional<Analysis> read_analysis(const std::string& path, std::span<const Q
 
 void store_analysis(const std::string& path, const Analysis& analysis, const std::string& state_hash,
                     std::span<const Quantity> table) {
-  hdf5::Writer writer(sizes_of(analysis), seal_size, bare_bytes(path, state_hash));
+  hdf5::Writer writer(sizes_of(analysis), seal_size, bare_bytes(path, state_hash), path);
   write_analysis(writer, analysis, table);
   std::vector<std::byte> file = writer.image();
   seal(file);

@@ -21,6 +21,7 @@
 #include "io/manifest.h"
 #include "io/packed_file.h"
 #include "io/run_records.h"
+#include "io/seal.h"
 #include "io/writer_lock.h"
 
 namespace talus {
@@ -152,6 +153,7 @@ StoredFile store(const std::string& folder, const std::string& name, std::span<c
 std::vector<std::byte> header_bytes(const RunHeader& header) {
   hdf5::Writer writer(with_branch({{'N', header.statics.radius.size()}}, header));
   write_header(writer, header);
+  writer.write_contents();
   return writer.image();
 }
 
@@ -161,6 +163,7 @@ std::vector<std::byte> checkpoint_bytes(const Checkpoint& checkpoint) {
                        {'C', world.contacts.a.size()},
                        {'P', world.boundary.planes.size()}});
   write_checkpoint(writer, checkpoint);
+  writer.write_contents();
   return writer.image();
 }
 
@@ -177,6 +180,7 @@ std::vector<std::byte> segment_bytes(const Segment& segment, const StoredSegment
   write_observables(writer, segment.observables);
   write_steps(writer, segment.steps);
   write_commands(writer, segment.commands);
+  writer.write_contents();
   return writer.image();
 }
 
