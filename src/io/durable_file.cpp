@@ -27,10 +27,10 @@ std::vector<std::byte> read_file(const std::string& path) {
   return bytes;
 }
 
-void write_durably(const std::string& path, std::span<const std::byte> bytes, const CheckFile& check) {
+void write_durably(const std::string& path, std::span<const std::byte> bytes) {
   OutputFile file(path);
   file.write(bytes);
-  file.commit(check);
+  file.commit();
   sync_name(file.target());
 }
 

@@ -16,6 +16,7 @@
 #include <thread>
 
 #include "core/errors.h"
+#include "core/locked_file.h"
 #include "core/paths.h"
 #include "io/durable_file.h"
 #include "io/manifest.h"
@@ -232,7 +233,7 @@ struct RunStore::State {
 
   std::string name_of_next(const char* kind) const { return fmt::format("{}{:06}{}.h5", kind, serial, mark); }
   void publish(std::string_view made, std::span<const std::byte> bytes, const std::string& target,
-               const CheckFile& check = {}) const;
+               const std::function<void(const std::string& written)>& check = {}) const;
   void publish(const Manifest& next) const;
 
   std::string path;
@@ -253,7 +254,8 @@ struct RunStore::State {
 /// and be stopped before any line; but whoever takes the run over removes the file that is renamed here
 /// before anything else (shut_out_others), so that the rename comes either before that, and counts, or never.
 void RunStore::State::publish(std::string_view made, std::span<const std::byte> bytes,
-                              const std::string& target, const CheckFile& check) const {
+                              const std::string& target,
+                              const std::function<void(const std::string& written)>& check) const {
   OutputFile file(in(folder, fmt::format("{}{}", made, mark)));
   file.write(bytes);
   file.flush();
