@@ -12,7 +12,6 @@
 
 #include "core/child_program.h"
 #include "core/errors.h"
-#include "render/whole_file.h"
 
 namespace talus {
 namespace {
@@ -57,14 +56,23 @@ std::vector<std::string> ffmpeg_arguments(const std::string& path, const std::st
                                           int height, int channels, double fps) {
   if (channels != 1 && channels != 3)
     throw Error(ExitCode::usage, path + ": movies are not transparent; leave the background white");
-  std::vector<std::string> arguments = {"ffmpeg",       "-nostdin",
-                                        "-hide_banner", "-loglevel",
-                                        "error",        "-y",
-                                        "-f",           "rawvideo",
-                                        "-pix_fmt",     channels == 1 ? "gray" : "rgb24",
-                                        "-s",           fmt::format("{}x{}", width, height),
-                                        "-r",           std::to_string(fps),
-                                        "-i",           "pipe:0"};
+  std::vector<std::string> arguments = {"ffmpeg",
+                                        "-nostdin",
+                                        "-hide_banner",
+                                        "-loglevel",
+                                        "error",
+                                        "-y",
+                                        "-xerror",
+                                        "-f",
+                                        "rawvideo",
+                                        "-pix_fmt",
+                                        channels == 1 ? "gray" : "rgb24",
+                                        "-s",
+                                        fmt::format("{}x{}", width, height),
+                                        "-r",
+                                        std::to_string(fps),
+                                        "-i",
+                                        "pipe:0"};
   for (std::string& argument : encoder_arguments(path, channels)) arguments.push_back(std::move(argument));
   // ffmpeg reads "pipe:1.gif" as a protocol and "-x.mp4" as an option, but nothing into what follows "file:".
   arguments.push_back("file:" + output);
@@ -89,9 +97,9 @@ std::string size_text(int width, int height, int channels) {
 }  // namespace
 
 Movie::Movie(const std::string& path, int width, int height, int channels, double fps)
-    : path_(path), width_(width), height_(height), channels_(channels), file_(path) {
+    : path_(path), width_(width), height_(height), channels_(channels), file_(path), made_(path) {
   const std::vector<std::string> arguments =
-      ffmpeg_arguments(path, file_.temporary_path(), width, height, channels, fps);
+      ffmpeg_arguments(path, made_.path(), width, height, channels, fps);
   // A socket pair instead of a pipe: writing to it can be told not to raise SIGPIPE.
   std::array<int, 2> ends{};
   messages_ = std::tmpfile();
@@ -136,13 +144,8 @@ void Movie::add(const Image& image) {
 
 void Movie::finish() {
   if (close_and_wait() != 0) fail();
-  file_.commit([this](const std::string& written) {  // ffmpeg ends well even where it could not write all
-    if (!is_whole_file(written, path_))
-      throw Error(ExitCode::io_error,
-                  path_ +
-                      ": ffmpeg has not written all of the movie; is the disk full, or the size of files "
-                      "limited?");
-  });
+  made_.copy_to(file_);
+  file_.commit();
 }
 
 int Movie::close_and_wait() {
@@ -162,7 +165,8 @@ void Movie::fail() {
   std::string said(text.data(), size);
   while (!said.empty() && said.back() == '\n') said.pop_back();
   throw Error(ExitCode::io_error,
-              fmt::format("{}: ffmpeg gave up{}", path_, said.empty() ? "" : ": " + said));
+              fmt::format("{}: ffmpeg gave up{}", path_,
+                          said.empty() ? "; is the size of files limited?" : ": " + said));
 }
 
 }  // namespace talus

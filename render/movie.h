@@ -35,6 +35,7 @@ class Movie {
   std::string path_;
   int width_, height_, channels_;
   OutputFile file_;
+  MemoryFile made_;
   std::FILE* messages_ = nullptr;
   int pipe_ = -1;
   pid_t ffmpeg_ = -1;

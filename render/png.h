@@ -28,7 +28,4 @@ void write_png(const std::string& path, const Image& image, const PngTexts& text
 /// such keyword.
 std::optional<std::string> png_text(const std::string& path, const std::string& keyword);
 
-/// Whether all of a PNG decodes, with its check sums.
-bool is_whole_png(const std::string& path);
-
 }  // namespace talus

@@ -34,8 +34,9 @@ std::optional<std::string> first_text(png_structp png, png_infop info, const std
   return std::nullopt;
 }
 
-/// The text of a picture that is whole, empty where it has none of this keyword; nothing where it is damaged.
-std::optional<std::optional<std::string>> text_of_whole(const std::string& path, const std::string& keyword) {
+}  // namespace
+
+std::optional<std::string> png_text(const std::string& path, const std::string& keyword) {
   std::error_code none;
   if (!std::filesystem::is_regular_file(path, none)) return std::nullopt;  // reading a pipe would wait
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), std::fclose);
@@ -43,18 +44,10 @@ std::optional<std::optional<std::string>> text_of_whole(const std::string& path,
   std::vector<png_byte> row;
   png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, nullptr, give_up, say_nothing);
   png_infop info = png ? png_create_info_struct(png) : nullptr;
-  std::optional<std::optional<std::string>> text;
+  std::optional<std::string> text;
   if (info && read_all(png, info, file.get(), row)) text = first_text(png, info, keyword);
   png_destroy_read_struct(&png, &info, nullptr);
   return text;
 }
-
-}  // namespace
-
-std::optional<std::string> png_text(const std::string& path, const std::string& keyword) {
-  return text_of_whole(path, keyword).value_or(std::nullopt);
-}
-
-bool is_whole_png(const std::string& path) { return text_of_whole(path, "").has_value(); }
 
 }  // namespace talus

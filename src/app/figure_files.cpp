@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fmt/core.h>
 #include <optional>
+#include <utility>
 
 #include "app/figure_text.h"
 #include "app/gnuplot.h"
@@ -11,10 +12,9 @@
 #include "core/errors.h"
 #include "core/locked_file.h"
 #include "core/output_file.h"
-#include "core/visible_text.h"
+#include "io/durable_file.h"
 #include "render/png.h"
 #include "render/renderer.h"
-#include "render/whole_file.h"
 
 namespace talus {
 namespace {
@@ -22,6 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double dots_per_cm = map_resolution / 2.54;
+constexpr const char* endings[] = {".pdf", ".svg", ".png"};
 
 /// A folder that vanishes with all that is still in it. One that a kill left is replaced.
 struct Workshop {
@@ -43,13 +44,6 @@ struct Workshop {
   std::optional<Descriptor> lock;
 };
 
-void write_text(const fs::path& path, const std::string& text) {
-  const std::string valid = utf8(text);
-  OutputFile file(path.string());
-  file.write(std::as_bytes(std::span(valid)));
-  file.commit();
-}
-
 void draw_maps(const Figure& figure, const fs::path& folder, double width) {
   if (figure.maps.empty()) return;
   Renderer renderer(make_context(std::nullopt));
@@ -58,20 +52,30 @@ void draw_maps(const Figure& figure, const fs::path& folder, double width) {
               renderer.draw(map.view, static_cast<int>(std::lround(map.width * width * dots_per_cm))));
 }
 
-/// gnuplot ends well even where it could not write all.
-void require_whole(const Figure& figure, const fs::path& made, const fs::path& folder) {
-  for (const char* ending : {".pdf", ".svg", ".png"})
-    if (const std::string name = figure.name + ending; !is_whole_file((made / name).string(), name))
-      throw Error(ExitCode::io_error,
-                  (folder / name).string() +
-                      ": gnuplot has not written all of it; is the disk full, or the size of files limited?");
+/// gnuplot draws into memory, as it ends well even where it could not write all.
+void draw(const Figure& figure, const fs::path& folder) {
+  std::vector<std::pair<std::string, MemoryFile>> drawings;
+  for (const char* ending : endings) {
+    const std::string path = (folder / (figure.name + ending)).string();
+    const MemoryFile& made = drawings.emplace_back(path, MemoryFile(path)).second;
+    std::error_code error;
+    fs::create_symlink(made.path(), path, error);
+    if (error) throw creation_error("create", path, error.value());
+  }
+  run_gnuplot(folder.string(), figure.name + ".gp");
+  for (const auto& [path, made] : drawings) {
+    remove_file(path);
+    OutputFile file(path);
+    made.copy_to(file);
+    file.commit();
+  }
 }
 
 }  // namespace
 
 std::vector<std::string> figure_files(const Figure& figure) {
   std::vector<std::string> names;
-  for (const char* ending : {".pdf", ".svg", ".png"}) names.push_back(figure.name + ending);
+  for (const char* ending : endings) names.push_back(figure.name + ending);
   for (const Table& table : figure.tables) names.push_back(file_of(figure, table));
   for (const FigureMap& map : figure.maps) names.push_back(file_of(figure, map));
   for (const char* ending : {".gp", ".json"}) names.push_back(figure.name + ending);
@@ -84,12 +88,12 @@ void write_figure(const Figure& figure, std::span<const RunGroup> groups, const 
   prepare_folder(folder);
   const Workshop workshop(fs::path(folder) / (figure.name + temporary_ending));
   for (const Table& table : figure.tables)
-    write_text(workshop.path / file_of(figure, table), csv_text(table));
-  write_text(workshop.path / (figure.name + ".gp"), gnuplot_text(figure, width));
-  write_text(workshop.path / (figure.name + ".json"), provenance_json(figure, groups, options.command_line));
+    write_text((workshop.path / file_of(figure, table)).string(), csv_text(table));
+  write_text((workshop.path / (figure.name + ".gp")).string(), gnuplot_text(figure, width));
+  write_text((workshop.path / (figure.name + ".json")).string(),
+             provenance_json(figure, groups, options.command_line));
   draw_maps(figure, workshop.path, width);
-  run_gnuplot(workshop.path.string(), figure.name + ".gp");
-  require_whole(figure, workshop.path, folder);
+  draw(figure, workshop.path);
   for (const std::string& name : figure_files(figure))
     give_name((workshop.path / name).string(), (fs::path(folder) / name).string());
 }

@@ -13,7 +13,7 @@
 #include "ensemble/ensemble_manifest.h"
 #include "ensemble/member_reader.h"
 #include "ensemble/member_state.h"
-#include "io/signature.h"
+#include "io/seal.h"
 #include "runs/analysis_parameters.h"
 
 namespace talus {
@@ -89,9 +89,9 @@ FigureInput read_figure_input(const std::vector<std::string>& paths, const std::
     const std::string averages = (fs::path(path) / "ensemble.h5").string();
     if (is_ensemble(path))
       add_ensemble(reading, path);
-    else if (begins_with(path, hdf5_signature))
+    else if (holds_averages(path))
       add_values(reading, path);
-    else if (begins_with(averages, hdf5_signature))
+    else if (is_there(averages))
       add_values(reading, averages);
     else
       add_run(reading, path);

@@ -5,7 +5,7 @@
 
 #include "app/terminal.h"
 #include "core/errors.h"
-#include "io/signature.h"
+#include "io/seal.h"
 
 namespace talus {
 

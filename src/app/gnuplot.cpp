@@ -26,7 +26,8 @@ void run_gnuplot(const std::string& folder, const std::string& script) {
   if (output.status == 0) return;
   const std::string said = output.err.empty() ? output.out : output.err;
   throw Error(ExitCode::io_error,
-              fmt::format("{}: gnuplot gave up{}", script, said.empty() ? std::string() : ": " + said));
+              fmt::format("{}: gnuplot gave up{}", script,
+                          said.empty() ? "; is the size of files limited?" : ": " + said));
 }
 
 }  // namespace talus

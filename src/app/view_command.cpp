@@ -26,6 +26,7 @@
 #include "core/paths.h"
 #include "gui/offscreen.h"
 #include "gui/window.h"
+#include "io/durable_file.h"
 #include "io/run_file.h"
 #include "pictures/map_kind.h"
 #include "render/arrange.h"
@@ -174,9 +175,7 @@ void write_places(const std::string& path, const std::vector<WidgetPlace>& place
     text +=
         fmt::format("{}\t{:.0f} {:.0f} {:.0f} {:.0f}\n", place.name, place.x0, place.y0, place.x1, place.y1);
   if (text == written) return;
-  OutputFile file(path);
-  file.write({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
-  file.commit();
+  write_text(path, text);
   written = text;
 }
 

@@ -58,6 +58,7 @@ void become(const Start& start) {
   prctl(PR_SET_PDEATHSIG, start.end_signal);
   if (::getppid() != start.parent) _exit(1);  // it has ended already
   if (start.own_group) ::setpgid(0, 0);
+  std::signal(SIGXFSZ, SIG_DFL);  // what may not write all does not end well
   sigset_t none;
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);

@@ -3,21 +3,30 @@
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/stat.h>
+#include <sys/vfs.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <cerrno>
 #include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <fmt/core.h>
+#include <string_view>
 #include <system_error>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include "core/errors.h"
+#include "core/paths.h"
 
 namespace talus {
 namespace {
+
+namespace fs = std::filesystem;
 
 /// Others may make and remove a file of the same name while one is being made. Where it never is what was
 /// opened, as on a file system that numbers its files anew at each look, this is where to give up.
@@ -66,6 +75,12 @@ bool is_left(const std::string& path, mode_t kind) {
   return ::lstat(path.c_str(), &status) == 0 && (status.st_mode & S_IFMT) == kind;
 }
 
+/// The same, if it belongs to this user.
+bool is_ours(const std::string& path, mode_t kind) {
+  struct stat status {};
+  return is_left(path, kind) && ::lstat(path.c_str(), &status) == 0 && status.st_uid == ::geteuid();
+}
+
 /// What is there stays: Talus has not made it.
 [[noreturn]] void refuse_foreign(const std::string& path, const char* expected) {
   throw Error(ExitCode::cannot_create,
@@ -102,25 +117,38 @@ std::string take_lock_problem() {
   return std::generic_category().message(error);
 }
 
-std::optional<Descriptor> create_locked(const std::string& path) {
+namespace {
+
+/// A file, or a folder, of which this process holds the lock.
+std::optional<Descriptor> create(const std::string& path, bool is_folder) {
   for (int attempt = 0; attempt < attempts; ++attempt) {
-    Descriptor made(::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
-    if (made.get() < 0 && errno != EEXIST) throw creation_error("create", path, errno);
-    const bool found = made.get() < 0;
-    if (found && !is_left(path, S_IFREG)) {
+    Descriptor made(is_folder ? -1 : ::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+    const bool is_new = is_folder ? ::mkdir(path.c_str(), 0777) == 0 : made.get() >= 0;
+    if (!is_new && errno != EEXIST)
+      throw creation_error(is_folder ? "create the folder" : "create", path, errno);
+    if (!is_new && !is_left(path, is_folder ? S_IFDIR : S_IFREG)) {
       if (errno == ENOENT) continue;  // removed at this very moment
-      refuse_foreign(path, "a temporary file");
+      refuse_foreign(path, is_folder ? "a temporary folder" : "a temporary file");
     }
-    Descriptor file = found ? open_found(path, O_RDWR) : std::move(made);
+    Descriptor file =
+        made.get() >= 0 ? std::move(made) : open_found(path, is_folder ? O_RDONLY | O_DIRECTORY : O_RDWR);
     if (file.get() < 0 && errno == ENOENT) continue;
-    if (file.get() < 0) throw creation_error("create", path, errno);
+    if (file.get() < 0) throw creation_error("open", path, errno);
     if (!take_lock(file, path)) return std::nullopt;
     if (!is_named(path, file)) continue;  // its last holder has renamed or removed it
-    if (!found) return file;
-    if (::unlink(path.c_str()) != 0) throw creation_error("replace", path, errno);
+    if (is_new) return file;
+    std::error_code error;
+    fs::remove_all(path, error);
+    if (error) throw creation_error("replace", path, error.value());
   }
   give_up(path);
 }
+
+}  // namespace
+
+std::optional<Descriptor> create_locked(const std::string& path) { return create(path, false); }
+
+std::optional<Descriptor> create_locked_folder(const std::string& path) { return create(path, true); }
 
 void while_locked(const std::string& path, const std::function<void()>& work) {
   std::optional<Descriptor> file;
@@ -137,25 +165,75 @@ void while_locked(const std::string& path, const std::function<void()>& work) {
   remove();
 }
 
-std::optional<Descriptor> create_locked_folder(const std::string& path) {
-  for (int attempt = 0; attempt < attempts; ++attempt) {
-    const bool made = ::mkdir(path.c_str(), 0777) == 0;
-    if (!made && errno != EEXIST) throw creation_error("create the folder", path, errno);
-    if (!made && !is_left(path, S_IFDIR)) {
-      if (errno == ENOENT) continue;
-      refuse_foreign(path, "a temporary folder");
-    }
-    Descriptor folder = open_found(path, O_RDONLY | O_DIRECTORY);
-    if (folder.get() < 0 && errno == ENOENT) continue;
-    if (folder.get() < 0) throw creation_error("open the folder", path, errno);
-    if (!take_lock(folder, path)) return std::nullopt;
-    if (!is_named(path, folder)) continue;
-    if (made) return folder;
-    std::error_code error;
-    std::filesystem::remove_all(path, error);
-    if (error) throw creation_error("replace the folder", path, error.value());
-  }
-  give_up(path);
+namespace {
+
+/// NAME of NAME.talus.part; empty where a name is no such one.
+std::string name_before_ending(const std::string& name) {
+  const bool is_temporary = name.ends_with(temporary_ending);
+  return is_temporary ? name.substr(0, name.size() - std::string_view(temporary_ending).size()) : "";
+}
+
+/// A folder called NAME.talus.part, without a dot in NAME, is that of a figure where all that it holds are
+/// files called NAME and something more. Others stay as they are.
+void remove_figure_folder(const std::string& path) {
+  const std::string name = name_before_ending(fs::path(path).filename().string());
+  if (name.find('.') != std::string::npos) return;
+  std::error_code unknown;
+  const std::vector<std::string> files = names_in(path, unknown);
+  const auto is_of_figure = [&](const std::string& file) {
+    const std::string own = (fs::path(path) / file).string();  // a link leads into memory
+    return file.starts_with(name) && (is_ours(own, S_IFREG) || is_ours(own, S_IFLNK));
+  };
+  if (!std::ranges::all_of(files, is_of_figure)) return;
+  for (const std::string& file : files) ::unlink((fs::path(path) / file).c_str());
+  ::rmdir(path.c_str());
+}
+
+/// While the lock is shared nobody can take a file for writing, and while it is held by its writer it cannot
+/// be shared. Who is about to lock a file that it has just made finds the lock shared, waits for it, sees
+/// that the name is gone, and makes the file again (create_locked).
+void clear(const std::string& path) {
+  const bool is_file = is_ours(path, S_IFREG);
+  if (!is_file && !is_ours(path, S_IFDIR)) return;
+  const Descriptor left(::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
+  if (left.get() < 0 || ::flock(left.get(), LOCK_SH | LOCK_NB) != 0 || !is_named(path, left)) return;
+  if (is_file)
+    ::unlink(path.c_str());
+  else
+    remove_figure_folder(path);
+}
+
+/// Whether other machines may write to the file system of a folder, to which the locks of this one need not
+/// reach (statfs(2), and what the file systems themselves say).
+bool is_shared_with_other_machines(const std::string& folder) {
+  struct statfs system {};
+  if (::statfs(folder.c_str(), &system) != 0) return true;
+  constexpr std::array<std::uint32_t, 10> network = {
+      0x6969,      // NFS
+      0x517b,      // SMB
+      0xff534d42,  // CIFS
+      0xfe534d42,  // SMB 2
+      0x0bd00bd0,  // Lustre
+      0x47504653,  // GPFS
+      0x00c36400,  // Ceph
+      0x5346414f,  // AFS
+      0x19830326,  // BeeGFS
+      0x65735546,  // FUSE: sshfs and the like
+  };
+  return std::ranges::find(network, static_cast<std::uint32_t>(system.f_type)) != network.end();
+}
+
+}  // namespace
+
+void clear_leftovers(const std::string& folder) {
+  std::error_code unknown;
+  std::vector<std::string> names = names_in(folder, unknown);
+  std::erase_if(names, [](const std::string& name) { return name_before_ending(name).empty(); });
+  if (names.empty() || is_shared_with_other_machines(folder)) return;
+  // One process at a time: of two that share a lock one could remove what a third has made since.
+  const Descriptor place(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (place.get() < 0 || ::flock(place.get(), LOCK_EX | LOCK_NB) != 0) return;
+  for (const std::string& name : names) clear((fs::path(folder) / name).string());
 }
 
 }  // namespace talus

@@ -1,6 +1,7 @@
 #include "core/output_file.h"
 
 #include <fcntl.h>
+#include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -10,7 +11,6 @@
 #include <fmt/core.h>
 
 #include "core/errors.h"
-#include "core/leftovers.h"
 #include "core/locked_file.h"
 
 namespace talus {
@@ -149,21 +149,42 @@ void OutputFile::flush() {
   sync(file_, path_);
   struct stat file {};
   if (::fstat(file_.get(), &file) != 0) throw system_error(ExitCode::io_error, "look at", path_, errno);
-  if (const auto size = static_cast<std::uint64_t>(file.st_size); written_ > 0 && size != written_)
+  if (const auto size = static_cast<std::uint64_t>(file.st_size); size != written_)
     throw Error(ExitCode::io_error,
                 fmt::format("{}: has {} bytes on the disk after {} were written", path_, size, written_));
 }
 
-void OutputFile::commit(const CheckFile& check) {
+void OutputFile::commit() {
   inherit(file_, target_, path_);
   flush();
-  if (check) check(temporary_path_);
   if (!is_named(temporary_path_, file_))
     refuse(path_, ": its temporary file " + temporary_path_ +
                       " was removed or replaced while it was written; nothing was changed");
   if (std::rename(temporary_path_.c_str(), target_.c_str()) != 0)
     throw creation_error("create", path_, errno);
   committed_ = true;
+}
+
+namespace {
+
+void copy(const Descriptor& from, const std::string& name, OutputFile& to) {
+  std::vector<std::byte> part(std::size_t{1} << 20);
+  while (const std::size_t count = read_at_most(from, part, name)) to.write(std::span(part).first(count));
+}
+
+}  // namespace
+
+MemoryFile::MemoryFile(const std::string& name) : name_(name), file_(::memfd_create("talus", MFD_CLOEXEC)) {
+  if (file_.get() < 0) throw system_error(ExitCode::io_error, "make a file in memory for", name, errno);
+}
+
+std::string MemoryFile::path() const { return fmt::format("/proc/{}/fd/{}", ::getpid(), file_.get()); }
+
+void MemoryFile::copy_to(OutputFile& file) const {
+  if (::lseek(file_.get(), 0, SEEK_END) <= 0)
+    throw Error(ExitCode::io_error, name_ + ": nothing was written");
+  ::lseek(file_.get(), 0, SEEK_SET);
+  copy(file_, name_, file);
 }
 
 std::string parent_folder(const std::string& path) {
@@ -185,10 +206,9 @@ void give_name(const std::string& made, const std::string& path) {
   sync(file, path);
   if (std::rename(made.c_str(), target.c_str()) == 0) return;
   if (errno != EXDEV) throw creation_error("create", path, errno);
-  OutputFile copy(path);
-  std::vector<std::byte> part(std::size_t{1} << 20);
-  while (const std::size_t count = read_at_most(file, part, made)) copy.write(std::span(part).first(count));
-  copy.commit();
+  OutputFile other(path);
+  copy(file, made, other);
+  other.commit();
   ::unlink(made.c_str());
 }
 

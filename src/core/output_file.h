@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -30,10 +29,6 @@ std::string output_target(const std::string& path, const OutputRule& rule = {});
 /// system would let write it.
 std::string protection_of(const std::string& path);
 
-/// Looks at a file that has been written and is durable, but has not got its name yet; throws where it is not
-/// whole.
-using CheckFile = std::function<void(const std::string& written)>;
-
 /// A file under the temporary name `TARGET.talus.part` beside its target, which gets its final name by commit
 /// and vanishes otherwise. A temporary file that a kill left is replaced when the same file is written again.
 class OutputFile {
@@ -51,13 +46,12 @@ class OutputFile {
   /// Throws Error(io_error).
   void write(std::span<const std::byte> bytes);
   void write(std::span<const std::uint8_t> bytes) { write(std::as_bytes(bytes)); }
-  /// Makes durable what was written, by this object or under the temporary name by another program, and sees
-  /// that it is there. May be called before commit, which does it in any case. Throws Error(io_error).
+  /// Makes durable what was written, and sees that it is there. May be called before commit, which does it in
+  /// any case. Throws Error(io_error).
   void flush();
-  /// Gives the file its name once `check`, where there is one, has found it whole. A file that it replaces
-  /// hands on its mode and, as far as the system allows, its owner. Throws Error(io_error) and
-  /// Error(cannot_create), and what `check` throws.
-  void commit(const CheckFile& check = {});
+  /// Gives the file its name. A file that it replaces hands on its mode and, as far as the system allows, its
+  /// owner. Throws Error(io_error) and Error(cannot_create).
+  void commit();
 
  private:
   std::string path_;
@@ -66,6 +60,22 @@ class OutputFile {
   Descriptor file_;
   std::uint64_t written_ = 0;  ///< bytes, by write
   bool committed_ = false;
+};
+
+/// A file in memory for another program to write, which may end well even if a disk is full: what it has
+/// written here is whole if it ended well, and then goes through an OutputFile.
+class MemoryFile {
+ public:
+  /// `name` is what messages call it. Throws Error(io_error).
+  explicit MemoryFile(const std::string& name);
+  /// The path by which other processes of this user open it while it lives.
+  std::string path() const;
+  /// Throws Error(io_error) if nothing was written, and as OutputFile::write.
+  void copy_to(OutputFile& file) const;
+
+ private:
+  std::string name_;
+  Descriptor file_;
 };
 
 /// Gives a file that another program made at `made`, which is whole, the name `path`, as OutputFile::commit
@@ -77,9 +87,6 @@ std::string parent_folder(const std::string& path);
 
 /// Makes durable that a file or folder has this name, or has it no longer. Throws Error(io_error).
 void sync_name(const std::string& path);
-
-/// What temporary files and folders are called, after the name of what they become.
-inline constexpr const char* temporary_ending = ".talus.part";
 
 /// Makes a folder with its parents where it is missing, and removes from it what killed processes have left
 /// (clear_leftovers). Throws Error(cannot_create), also where files cannot be made in it.

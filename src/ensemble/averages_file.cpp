@@ -6,7 +6,9 @@
 
 #include "core/hash.h"
 #include "core/text.h"
-#include "io/plain_file.h"
+#include "io/durable_file.h"
+#include "io/hdf5_writer.h"
+#include "io/seal.h"
 
 namespace talus {
 namespace {
@@ -28,118 +30,94 @@ std::array<double, 9> row_of(const Summary& summary) {
           summary.upper_quartile};
 }
 
-/// A file under construction.
-struct Content {
-  std::vector<PlainArray> arrays;
-  std::vector<PlainTexts> texts;
-};
-
-/// Takes the values of the members out of the quantity.
-void add_quantity(Content& content, const std::string& group, AveragedQuantity& quantity) {
-  const std::string path = group + "/" + quantity.name;
-  const std::size_t points = quantity.summaries.size();
-  PlainArray values{path + "/values",
-                    {points == 0 ? 0 : quantity.values.size() / points, points},
-                    quantity.unit,
-                    "of each member, in the order of the seeds, at each point of the grid",
-                    std::move(quantity.values),
-                    {}};
-  PlainArray summary{path + "/summary",
-                     {points, summary_columns.size()},
-                     quantity.unit,
-                     "of the members at each point of the grid, in the columns of the attribute `columns`",
-                     {},
-                     {}};
-  for (const Summary& point : quantity.summaries) {
-    const std::array<double, 9> row = row_of(point);
-    summary.values.insert(summary.values.end(), row.begin(), row.end());
-  }
-  content.arrays.push_back(std::move(values));
-  content.texts.push_back({summary.path, "columns", {summary_columns.begin(), summary_columns.end()}, true});
-  content.arrays.push_back(std::move(summary));
+/// An array of one or two dimensions with the attributes `unit` and `definition`; of two it is compressed in
+/// chunks of rows, as the letter S of a shape asks for.
+template <typename T>
+void add(hdf5::Writer& file, const std::string& path, const std::vector<std::size_t>& shape,
+         const std::string& unit, const std::string& definition, const std::vector<T>& values) {
+  const ElementType type = std::is_same_v<T, double> ? ElementType::float64 : ElementType::uint64;
+  const char* chunks = shape.size() > 1 ? "S+" : "";
+  file.write(DataSetField{path, type, chunks + joined(shape, " "), unit, definition}, values);
+  file.set_attribute(path, "definition", definition);
 }
 
-void add_curves(Content& content, const std::string& group, AveragedCurves& curves, const std::string& angle,
-                const std::string& definition) {
-  content.arrays.push_back(
-      {group + "/" + angle, {curves.angles.size()}, "deg", definition, curves.angles, {}});
-  for (AveragedQuantity& quantity : curves.quantities) add_quantity(content, group, quantity);
+/// Takes the values of the members out of the quantity.
+void add_quantity(hdf5::Writer& file, const std::string& group, AveragedQuantity& quantity) {
+  const std::string path = group + "/" + quantity.name;
+  const std::size_t points = quantity.summaries.size();
+  const std::vector<double> values = std::move(quantity.values);
+  add(file, path + "/values", {points == 0 ? 0 : values.size() / points, points}, quantity.unit,
+      "of each member, in the order of the seeds, at each point of the grid", values);
+  std::vector<double> rows;
+  for (const Summary& point : quantity.summaries) {
+    const std::array<double, 9> row = row_of(point);
+    rows.insert(rows.end(), row.begin(), row.end());
+  }
+  add(file, path + "/summary", {points, summary_columns.size()}, quantity.unit,
+      "of the members at each point of the grid, in the columns of the attribute `columns`", rows);
+  file.set_attribute(path + "/summary", "columns",
+                     std::vector<std::string>(summary_columns.begin(), summary_columns.end()));
+}
+
+void add_curves(hdf5::Writer& file, const std::string& group, AveragedCurves& curves,
+                const std::string& angle, const std::string& definition) {
+  add(file, group + "/" + angle, {curves.angles.size()}, "deg", definition, curves.angles);
+  for (AveragedQuantity& quantity : curves.quantities) add_quantity(file, group, quantity);
 }
 
 /// Lists at the points of a grid of `points` angles, those that no member reached without values.
-void add_lists(Content& content, const std::string& group, const std::vector<AveragedList>& lists,
+void add_lists(hdf5::Writer& file, const std::string& group, const std::vector<AveragedList>& lists,
                std::size_t points) {
   for (const AveragedList& list : lists) {
-    const auto add = [&](const char* name, const std::string& unit, const std::string& definition,
-                         std::vector<double> values, double missing) {
+    const auto add_one = [&](const char* name, const std::string& unit, const std::string& definition,
+                             std::vector<double> values, double missing) {
       values.resize(points * list.width, missing);
-      content.arrays.push_back({fmt::format("{}/{}/{}", group, list.name, name),
-                                {points, list.width},
-                                unit,
-                                definition,
-                                std::move(values),
-                                {}});
+      add(file, fmt::format("{}/{}/{}", group, list.name, name), {points, list.width}, unit, definition,
+          values);
     };
-    add("n", "1", "members behind each number", list.count, 0.0);
-    add("mean", list.unit, "mean over the members of: " + list.definition, list.mean, std::nan(""));
-    add("deviation", list.unit, "standard deviation; that of the mean is deviation / sqrt(n)",
-        deviation_of(list), std::nan(""));
+    add_one("n", "1", "members behind each number", list.count, 0.0);
+    add_one("mean", list.unit, "mean over the members of: " + list.definition, list.mean, std::nan(""));
+    add_one("deviation", list.unit, "standard deviation; that of the mean is deviation / sqrt(n)",
+            deviation_of(list), std::nan(""));
   }
 }
 
-void add_bins(Content& content, const std::string& group, const std::vector<NamedList>& bins) {
-  for (const NamedList& each : bins)
-    content.arrays.push_back(
-        {fmt::format("{}/{}", group, each.name), {each.width}, each.unit, each.definition, each.values, {}});
-}
-
-void add_correlations(Content& content, const std::string& group, const AngleCorrelations& correlations) {
+void add_correlations(hdf5::Writer& file, const std::string& group, const AngleCorrelations& correlations) {
   const std::size_t size = correlations.names.size();
-  PlainArray coefficient{group + "/coefficient",
-                         {size, size},
-                         "1",
-                         "Pearson's coefficient of correlation of two angles over the members that have both",
-                         {},
-                         {}};
-  PlainArray count{group + "/n", {size, size}, "1", "members that have both", {}, {}};
+  std::vector<double> coefficients, counts;
   for (const Correlation& pair : correlations.pairs) {
-    coefficient.values.push_back(pair.coefficient);
-    count.values.push_back(pair.count);
+    coefficients.push_back(pair.coefficient);
+    counts.push_back(pair.count);
   }
-  content.texts.push_back({group, "angles", correlations.names, true});
-  content.arrays.push_back(std::move(coefficient));
-  content.arrays.push_back(std::move(count));
+  if (size > 0) file.set_attribute(group, "angles", correlations.names);
+  add(file, group + "/coefficient", {size, size}, "1",
+      "Pearson's coefficient of correlation of two angles over the members that have both", coefficients);
+  add(file, group + "/n", {size, size}, "1", "members that have both", counts);
 }
 
-void add_variant(Content& content, const std::string& group, NamedAverages& variant) {
+void add_variant(hdf5::Writer& file, const std::string& group, NamedAverages& variant) {
   Averages& averages = variant.averages;
-  content.texts.push_back({group, "name", {variant.name}, false});
-  content.texts.push_back({group, "scenario", {variant.scenario}, false});
-  content.arrays.push_back({group + "/seed",
-                            {averages.seeds.size()},
-                            "1",
-                            "of the members that are done, ascending",
-                            {},
-                            averages.seeds});
-  content.arrays.push_back({group + "/state_hash",
-                            {averages.seeds.size()},
-                            "1",
-                            "of the last state of each member; members.csv has it in hexadecimal digits",
-                            {},
-                            {}});
-  for (const std::string& hash : averages.state_hashes)
-    content.arrays.back().integers.push_back(parse_hash(hash));
-  for (AveragedQuantity& quantity : averages.numbers) add_quantity(content, group + "/numbers", quantity);
-  add_correlations(content, group + "/correlations", averages.correlations);
-  add_curves(content, group + "/over_tilt", averages.over_tilt, "theta", "tilt");
-  add_lists(content, group + "/over_tilt", variant.lists.over_tilt, averages.over_tilt.angles.size());
+  file.set_attribute(group, "name", variant.name);
+  file.set_attribute(group, "scenario", variant.scenario);
+  const std::vector<std::size_t> members = {averages.seeds.size()};
+  std::vector<std::uint64_t> hashes;
+  for (const std::string& hash : averages.state_hashes) hashes.push_back(parse_hash(hash));
+  add(file, group + "/seed", members, "1", "of the members that are done, ascending", averages.seeds);
+  add(file, group + "/state_hash", members, "1",
+      "of the last state of each member; members.csv has it in hexadecimal digits", hashes);
+  for (AveragedQuantity& quantity : averages.numbers) add_quantity(file, group + "/numbers", quantity);
+  add_correlations(file, group + "/correlations", averages.correlations);
+  add_curves(file, group + "/over_tilt", averages.over_tilt, "theta", "tilt");
+  add_lists(file, group + "/over_tilt", variant.lists.over_tilt, averages.over_tilt.angles.size());
   if (!averages.before_failure.quantities.empty()) {
-    add_curves(content, group + "/before_failure", averages.before_failure, "angle_left",
+    add_curves(file, group + "/before_failure", averages.before_failure, "angle_left",
                "theta_c - theta, theta_c that of each member");
-    add_lists(content, group + "/before_failure", variant.lists.before_failure,
+    add_lists(file, group + "/before_failure", variant.lists.before_failure,
               averages.before_failure.angles.size());
   }
-  add_bins(content, group + "/bins", variant.lists.bins);
+  for (const NamedList& bins : variant.lists.bins)
+    add(file, fmt::format("{}/bins/{}", group, bins.name), {bins.width}, bins.unit, bins.definition,
+        bins.values);
 }
 
 std::string csv_number(double value) { return std::isnan(value) ? "" : fmt::format("{:.7g}", value); }
@@ -162,11 +140,13 @@ std::string csv_rows(const std::string& variant, const char* grid, const std::ve
 
 void write_averages(const std::string& path, std::vector<NamedAverages> variants,
                     const std::string& version) {
-  Content content;
-  content.texts.push_back({"/", "version", {version}, false});
+  hdf5::Writer file({{'S', 0}}, seal_size);
+  file.set_attribute("/", "version", version);
   for (std::size_t v = 0; v < variants.size(); ++v)
-    add_variant(content, fmt::format("/variants/{}", v), variants[v]);
-  write_plain_file(path, content.arrays, content.texts);
+    add_variant(file, fmt::format("/variants/{}", v), variants[v]);
+  std::vector<std::byte> bytes = file.image();
+  seal(bytes, averages_seal);
+  write_durably(path, bytes);
 }
 
 std::string averages_csv(const std::vector<NamedAverages>& variants) {

@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/core.h>
-#include <iterator>
 
 #include "analysis/quantities.h"
 #include "core/errors.h"
 #include "core/hash.h"
 #include "core/trigonometry.h"
-#include "io/plain_file.h"
-#include "io/signature.h"
+#include "io/hdf5_reader.h"
+#include "io/seal.h"
 #include "runs/analysis_parameters.h"
 
 namespace talus {
@@ -18,77 +17,59 @@ namespace {
 
 constexpr double same_theta = 1e-6;  // deg
 
-/// What is in the file, and how it is called in messages.
-struct Source {
-  std::string path;
-  PlainFile file;
-};
-
-[[noreturn]] void refuse(const Source& source, const std::string& problem) {
-  throw Error(ExitCode::bad_data,
-              fmt::format("{}: {}; expected a run, or the ensemble.h5 of an ensemble, which talus ensemble "
-                          "average makes again",
-                          source.path, problem));
+/// Doubles of a data set; those that are not known are NaN.
+std::vector<double> numbers_at(hdf5::Reader& file, const std::string& path, const std::string& shape) {
+  std::vector<double> values =
+      file.read<double>(DataSetField{path, ElementType::float64, shape, {}, {}}, hdf5::any_number);
+  if (std::ranges::any_of(values, [](double value) { return std::isinf(value); }))
+    file.refuse(path, "holds an infinite value");
+  return values;
 }
 
-const PlainArray* find_array(const Source& source, const std::string& item) {
-  const auto found = std::ranges::find(source.file.arrays, item, &PlainArray::path);
-  return found == source.file.arrays.end() ? nullptr : &*found;
+std::vector<std::uint64_t> integers_at(hdf5::Reader& file, const std::string& path) {
+  return file.read<std::uint64_t>(DataSetField{path, ElementType::uint64, "S", {}, {}});
 }
 
-const std::vector<std::string>& texts_at(const Source& source, const std::string& item,
-                                         const std::string& name) {
-  for (const PlainTexts& texts : source.file.texts)
-    if (texts.path == item && texts.name == name) return texts.texts;
-  refuse(source, fmt::format("it has no {} of {}", name, item));
+/// Empty where there is no grid.
+std::vector<double> grid_at(hdf5::Reader& file, const std::string& path) {
+  if (!file.has(path)) return {};
+  std::vector<double> grid = file.read<double>(DataSetField{path, ElementType::float64, "P", {}, {}});
+  if (std::ranges::adjacent_find(grid, std::greater_equal<>()) != grid.end())
+    file.refuse(path, "does not ascend");
+  return grid;
 }
 
-std::vector<double> grid_at(const Source& source, const std::string& item) {
-  const PlainArray* const grid = find_array(source, item);
-  if (grid == nullptr) return {};
-  const bool ascending =
-      std::ranges::adjacent_find(grid->values, std::greater_equal<>()) == grid->values.end();
-  if (!ascending || std::ranges::any_of(grid->values, [](double angle) { return !std::isfinite(angle); }))
-    refuse(source, item + " does not ascend");
-  return grid->values;
-}
-
-/// All quantities of a group, each with so many members and points, taken out of the file.
-std::vector<StoredQuantity> quantities_at(Source& source, const std::string& group, std::size_t members,
+/// All quantities of a group, each with so many members and points.
+std::vector<StoredQuantity> quantities_at(hdf5::Reader& file, const std::string& group, std::size_t members,
                                           std::size_t points) {
   constexpr std::string_view ending = "/values";
   std::vector<StoredQuantity> found;
-  for (PlainArray& array : source.file.arrays) {
-    if (!array.path.starts_with(group + "/") || !array.path.ends_with(ending)) continue;
-    if (array.shape != std::vector<std::size_t>{members, points} || array.values.size() != members * points)
-      refuse(source, array.path + " is of another size than its grid and the seeds");
-    if (std::ranges::any_of(array.values, [](double value) { return std::isinf(value); }))
-      refuse(source, array.path + " holds an infinite value");
+  if (!file.has(group)) return found;
+  for (const std::string& path : file.data_sets(group)) {
+    if (!path.ends_with(ending)) continue;
     const std::size_t begin = group.size() + 1;
-    found.push_back({array.path.substr(begin, array.path.size() - ending.size() - begin), array.unit,
-                     std::move(array.values)});
+    found.push_back({path.substr(begin, path.size() - ending.size() - begin), file.attribute(path, "unit"),
+                     numbers_at(file, path, fmt::format("{} {}", members, points))});
   }
   return found;
 }
 
-StoredVariant variant_at(Source& source, const std::string& group) {
+StoredVariant variant_at(hdf5::Reader file, const std::string& group) {
   StoredVariant variant;
-  variant.name = texts_at(source, group, "name").front();
-  variant.scenario = texts_at(source, group, "scenario").front();
-  if (const PlainArray* const seeds = find_array(source, group + "/seed")) variant.seeds = seeds->integers;
+  variant.name = file.attribute(group, "name");
+  variant.scenario = file.attribute(group, "scenario");
+  variant.seeds = integers_at(file, group + "/seed");
+  for (const std::uint64_t hash : integers_at(file, group + "/state_hash"))
+    variant.state_hashes.push_back(hash_text(hash));
   const std::size_t members = variant.seeds.size();
   if (members == 0) return variant;  // none is done yet
-  if (const PlainArray* const hashes = find_array(source, group + "/state_hash"))
-    std::ranges::transform(hashes->integers, std::back_inserter(variant.state_hashes), hash_text);
-  else
-    variant.state_hashes = texts_at(source, group, "state_hash");  // as files had them that came first
-  if (variant.state_hashes.size() != members) refuse(source, group + " has not one hash for each seed");
-  variant.numbers = quantities_at(source, group + "/numbers", members, 1);
-  variant.tilts = grid_at(source, group + "/over_tilt/theta");
-  variant.over_tilt = quantities_at(source, group + "/over_tilt", members, variant.tilts.size());
-  variant.angles_left = grid_at(source, group + "/before_failure/angle_left");
+  variant.numbers = quantities_at(file, group + "/numbers", members, 1);
+  variant.tilts = grid_at(file, group + "/over_tilt/theta");
+  variant.over_tilt = quantities_at(file, group + "/over_tilt", members, variant.tilts.size());
+  hdf5::Reader again = file.again();  // the other grid has as many points as it will
+  variant.angles_left = grid_at(again, group + "/before_failure/angle_left");
   variant.before_failure =
-      quantities_at(source, group + "/before_failure", members, variant.angles_left.size());
+      quantities_at(again, group + "/before_failure", members, variant.angles_left.size());
   return variant;
 }
 
@@ -161,23 +142,15 @@ void set_number_of_frames(const Quantity& quantity, const MemberSeries& series, 
 
 }  // namespace
 
-bool holds_averages(const std::string& path) {
-  if (!begins_with(path, hdf5_signature)) return false;
-  const PlainFile file = read_plain_file(path);
-  return std::ranges::any_of(file.texts,
-                             [](const PlainTexts& texts) { return texts.path.starts_with("/variants"); });
-}
+bool holds_averages(const std::string& path) { return begins_with(path, averages_seal); }
 
 std::vector<StoredVariant> read_averages(const std::string& path) {
-  Source source{path, read_plain_file(path)};
+  verify_seal(path, averages_seal);
+  const hdf5::Reader file = hdf5::Reader::from_file(path);
   std::vector<StoredVariant> variants;
-  const auto is_there = [&](const std::string& group) {
-    return std::ranges::find(source.file.texts, group, &PlainTexts::path) != source.file.texts.end();
-  };
-  for (std::string group = "/variants/0"; is_there(group);
+  for (std::string group = "/variants/0"; variants.empty() || file.has(group);
        group = fmt::format("/variants/{}", variants.size()))
-    variants.push_back(variant_at(source, group));
-  if (variants.empty()) refuse(source, "it has no /variants/0");
+    variants.push_back(variant_at(file.again(), group));
   return variants;
 }
 

@@ -30,11 +30,11 @@ struct StoredVariant {
   std::vector<StoredQuantity> before_failure;
 };
 
-/// Whether it is one of these, sound or not: an HDF5 file with variants, which those of other programs have
-/// not. Throws as read_plain_file does.
+/// Whether it begins as one of these, sound or not.
 bool holds_averages(const std::string& path);
 
-/// Throws as read_plain_file does, and Error(bad_data) where the file is not what write_averages makes.
+/// Throws Error(missing_input) where there is no such file, and Error(bad_data) where it is not what
+/// write_averages makes.
 std::vector<StoredVariant> read_averages(const std::string& path);
 
 /// What the file knows of member m. Its series have the points of both grids at which it has values: with

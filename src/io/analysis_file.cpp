@@ -10,6 +10,7 @@
 #include "io/durable_file.h"
 #include "io/packed_file.h"
 #include "io/run_records.h"
+#include "io/seal.h"
 
 namespace talus {
 namespace {
@@ -50,8 +51,8 @@ void write_analysis(hdf5::Writer& writer, const Analysis& analysis, std::span<co
 
 Values read_values(hdf5::Reader& reader, const DataSetField& field) {
   if (field.type == ElementType::int32) return reader.read<Index>(field);
-  if (field.type == ElementType::float32) return reader.read<float>(field);
-  return reader.read<double>(field);
+  if (field.type == ElementType::float32) return reader.read<float>(field, hdf5::any_number);
+  return reader.read<double>(field, hdf5::any_number);
 }
 
 /// The frames, thresholds and events of a stored analysis, with nothing in them yet.
@@ -133,7 +134,7 @@ std::vector<std::byte> with_analysis(const std::vector<std::byte>& packed, const
     sizes['F'] = readings.front().thresholds;
     sizes['W'] = readings.front().values.size() / readings.front().thresholds;
   }
-  hdf5::Writer writer(std::move(sizes), seal_size, packed);
+  hdf5::Writer writer(std::move(sizes), seal_size, packed, "the packed run");
   write_analysis(writer, analysis, table);
   for (const StoredReading& reading : readings) {
     writer.write_text("/readings/key/" + reading.name, reading.key);

@@ -11,7 +11,7 @@
 #include <fmt/core.h>
 #include <fstream>
 #include <new>
-#include <span>
+#include <optional>
 
 #include "core/descriptor.h"
 #include "core/errors.h"
@@ -69,19 +69,17 @@ Bytes message_of(ExitCode code, Bytes content) {
   return content;
 }
 
-Bytes message_of(ExitCode code, const std::string& text) {
-  const auto bytes = std::as_bytes(std::span(text));
-  return message_of(code, Bytes(bytes.begin(), bytes.end()));
-}
-
-Bytes outcome_of(const std::string& path, const std::function<Bytes()>& work) {
+Bytes outcome_of(const std::string& path, const std::function<Parcels()>& work) {
   const auto too_much = [&path] {
-    return message_of(ExitCode::bad_data, path + ": asks for more memory than a file of its size can need");
+    return message_of(ExitCode::bad_data,
+                      bytes_of(path + ": asks for more memory than a file of its size can need"));
   };
   try {
-    return message_of(ExitCode::done, work());
+    return message_of(ExitCode::done, encode(work()));
   } catch (const Error& error) {
-    return error.code() == ExitCode::out_of_memory ? too_much() : message_of(error.code(), error.what());
+    return error.code() == ExitCode::out_of_memory
+               ? too_much()
+               : message_of(error.code(), bytes_of(std::string(error.what())));
   } catch (const std::bad_alloc&) {
     return too_much();
   }
@@ -143,17 +141,57 @@ int wait_for(pid_t child) {
                                    : "HDF5 fails on it (in a process of its own)"));
 }
 
+/// A count of 64 bits, and so many bytes.
+void append(Bytes& to, std::span<const std::byte> bytes) {
+  const std::uint64_t count = bytes.size();
+  const auto counted = std::as_bytes(std::span(&count, 1));
+  to.insert(to.end(), counted.begin(), counted.end());
+  to.insert(to.end(), bytes.begin(), bytes.end());
+}
+
+/// Takes from the front what was appended; nothing where it is not there.
+std::optional<Bytes> take(std::span<const std::byte>& from) {
+  std::uint64_t count = 0;
+  if (from.size() < sizeof count) return std::nullopt;
+  std::memcpy(&count, from.data(), sizeof count);
+  from = from.subspan(sizeof count);
+  if (count > from.size()) return std::nullopt;
+  const auto bytes = from.first(count);
+  from = from.subspan(count);
+  return Bytes(bytes.begin(), bytes.end());
+}
+
 }  // namespace
 
-Bytes in_child_process(const std::string& path, std::size_t input, const std::function<Bytes()>& work) {
+Bytes encode(const Parcels& parcels) {
+  Bytes bytes;
+  for (const auto& [name, content] : parcels) {
+    append(bytes, std::as_bytes(std::span(name)));
+    append(bytes, content);
+  }
+  return bytes;
+}
+
+Parcels decode(std::span<const std::byte> bytes, const std::string& path) {
+  Parcels parcels;
+  while (!bytes.empty()) {
+    const std::optional<Bytes> name = take(bytes);
+    std::optional<Bytes> content = name ? take(bytes) : std::nullopt;
+    if (!content) throw Error(ExitCode::bad_data, path + ": cannot be read: HDF5 reads nonsense from it");
+    parcels.insert_or_assign(values_of<std::string>(*name), std::move(*content));
+  }
+  return parcels;
+}
+
+Parcels in_child_process(const std::string& path, std::size_t input, const std::function<Parcels()>& work) {
   const Child child = start(path, input, [&](int pipe) { send(pipe, outcome_of(path, work)); });
   Bytes message = read_all(child.pipe, path);
   const int status = wait_for(child.process);
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || message.empty()) refuse(path, status);
   const auto code = static_cast<ExitCode>(message.back());
   message.pop_back();
-  if (code == ExitCode::done) return message;
-  throw Error(code, std::string(reinterpret_cast<const char*>(message.data()), message.size()));
+  if (code == ExitCode::done) return decode(message, path);
+  throw Error(code, values_of<std::string>(message));
 }
 
 }  // namespace talus

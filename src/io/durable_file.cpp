@@ -18,17 +18,19 @@ std::vector<std::byte> read_file(const std::string& path) {
   struct stat status {};
   if (file.get() < 0 || ::fstat(file.get(), &status) != 0)
     throw system_error(ExitCode::missing_input, "open", path, errno);
-  if (!S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode))
-    throw Error(ExitCode::missing_input, path + " is a pipe or a device; expected a file");
+  if (!S_ISREG(status.st_mode))
+    throw Error(
+        ExitCode::missing_input,
+        path + (S_ISDIR(status.st_mode) ? " is a folder" : " is a pipe or a device") + "; expected a file");
   std::vector<std::byte> bytes(static_cast<std::size_t>(status.st_size));
   bytes.resize(read_at_most(file, bytes, path));
   return bytes;
 }
 
-void write_durably(const std::string& path, std::span<const std::byte> bytes, const CheckFile& check) {
+void write_durably(const std::string& path, std::span<const std::byte> bytes) {
   OutputFile file(path);
   file.write(bytes);
-  file.commit(check);
+  file.commit();
   sync_name(file.target());
 }
 

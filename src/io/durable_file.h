@@ -16,8 +16,8 @@ std::vector<std::byte> read_file(const std::string& path);
 std::string read_text(const std::string& path);
 
 /// Writes `bytes` as an OutputFile, commits it, and makes its name durable: a file called `path` is always
-/// whole. Throws as OutputFile does, and what `check` throws.
-void write_durably(const std::string& path, std::span<const std::byte> bytes, const CheckFile& check = {});
+/// whole. Throws as OutputFile does.
+void write_durably(const std::string& path, std::span<const std::byte> bytes);
 
 /// The same of a text, as UTF-8 whatever the bytes of the names in it.
 void write_text(const std::string& path, const std::string& text);

@@ -47,8 +47,9 @@ class Handle {
 
 /// A data set that is open.
 struct DataSet {
-  Handle id;
+  Handle id, type;
   std::vector<hsize_t> dims;
+  std::string path;
 };
 
 /// Keeps HDF5 from printing errors, which we report ourselves, from loading plugins into this process, and
@@ -84,8 +85,17 @@ inline void throw_cause(const std::string& name) {
 /// that name on disk: below /dev/null there can be none.
 inline std::string memory_name(const std::string& name) { return "/dev/null/" + name; }
 
-/// Opens a file in memory; the handle is not valid where HDF5 cannot. HDF5 copies the image and never writes
-/// to the bytes it is given. Throws Error(out_of_memory).
+/// Passes on a file that is open. Throws Error(bad_data) where HDF5 could not open it, and as throw_cause
+/// does.
+inline Handle require_open(Handle file, const std::string& name) {
+  if (file.get() < 0) throw_cause(name);
+  if (file.get() < 0)
+    throw Error(ExitCode::bad_data, name + ": HDF5 cannot open it: it is malformed, or of another format");
+  return file;
+}
+
+/// Opens a file in memory. HDF5 copies the image and never writes to the bytes it is given. Throws
+/// Error(out_of_memory), and as require_open does.
 inline Handle open_image(std::vector<std::byte>& image, const std::string& name, unsigned access_flags) {
   set_library_policy();
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
@@ -93,7 +103,7 @@ inline Handle open_image(std::vector<std::byte>& image, const std::string& name,
       H5Pset_file_image(access.get(), image.data(), image.size()) < 0)
     throw Error(ExitCode::out_of_memory, name + ": no memory to open it");
   const std::string unique = memory_name(fmt::format("{} {}", name, hash_text(hash_bytes(image))));
-  return {H5Fopen(unique.c_str(), access_flags, access.get()), H5Fclose};
+  return require_open({H5Fopen(unique.c_str(), access_flags, access.get()), H5Fclose}, name);
 }
 
 /// What a path leads to.
@@ -149,23 +159,9 @@ hid_t memory_type() {
 
 /// The type in the file, little-endian everywhere. Not for text, whose type depends on its length.
 inline hid_t file_type(ElementType type) {
-  switch (type) {
-    case ElementType::float32:
-      return H5T_IEEE_F32LE;
-    case ElementType::float64:
-      return H5T_IEEE_F64LE;
-    case ElementType::int8:
-      return H5T_STD_I8LE;
-    case ElementType::int32:
-      return H5T_STD_I32LE;
-    case ElementType::int64:
-      return H5T_STD_I64LE;
-    case ElementType::uint64:
-      return H5T_STD_U64LE;
-    case ElementType::text:
-      break;
-  }
-  return -1;
+  const hid_t types[] = {
+      H5T_IEEE_F32LE, H5T_IEEE_F64LE, H5T_STD_I8LE, H5T_STD_I32LE, H5T_STD_I64LE, H5T_STD_U64LE, -1};
+  return types[static_cast<std::size_t>(type)];
 }
 
 }  // namespace talus::hdf5

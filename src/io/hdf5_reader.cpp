@@ -14,12 +14,6 @@
 namespace talus::hdf5 {
 namespace {
 
-Handle open_or_refuse(Handle file, const std::string& name) {
-  if (file.get() < 0) throw_cause(name);
-  if (file.get() < 0) throw Error(ExitCode::bad_data, name + ": HDF5 cannot open it: it is malformed");
-  return file;
-}
-
 hsize_t size_of(const Handle& file) {
   hsize_t size = 0;
   return H5Fget_filesize(file.get(), &size) < 0 ? 0 : size;
@@ -36,14 +30,14 @@ Reader::Reader(Handle file, std::string name, Sizes sizes)
 
 Reader Reader::from_memory(std::vector<std::byte> image, const std::string& name, const Sizes& known) {
   const FileInUse in_use(name);
-  return Reader(open_or_refuse(open_image(image, name, H5F_ACC_RDONLY), name), name, known);
+  return {open_image(image, name, H5F_ACC_RDONLY), name, known};
 }
 
 Reader Reader::from_file(const std::string& path) {
   const FileInUse in_use(path);
   set_library_policy();
   Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
-  return Reader(open_or_refuse(std::move(file), path), path, {});
+  return {require_open(std::move(file), path), path, {}};
 }
 
 void Reader::refuse(const std::string& path, const std::string& problem) const {
@@ -52,8 +46,7 @@ void Reader::refuse(const std::string& path, const std::string& problem) const {
   throw Error(ExitCode::bad_data, fmt::format("{} {}", data_set, problem));
 }
 
-void Reader::check_shape(const DataSetField& field, const std::string& path,
-                         const std::vector<hsize_t>& dims) {
+void Reader::check_shape(const DataSetField& field, const std::vector<hsize_t>& dims) {
   const std::vector<Extent> shape = extents(field);
   bool fits = dims.size() == shape.size();
   for (std::size_t d = 0; fits && d < dims.size(); ++d) {
@@ -70,80 +63,98 @@ void Reader::check_shape(const DataSetField& field, const std::string& path,
   for (const auto& [symbol, size] : sizes_)
     if (field.shape.find(symbol) != std::string::npos)
       expected += fmt::format("{}{} = {}", expected.empty() ? " with " : ", ", symbol, size);
-  refuse(path, fmt::format("has shape {}, expected [{}]{}", shape_text(dims), field.shape, expected));
+  refuse(field.path, fmt::format("has shape {}, expected [{}]{}", shape_text(dims), field.shape, expected));
 }
 
-DataSet Reader::open(const DataSetField& field, const std::string& path) {
-  const FileInUse in_use(name_);
+/// Throws unless there is an object of that path, in this file.
+void Reader::require(const std::string& path) const {
   const Found found = find(file_.get(), path);
   if (found == Found::nothing) refuse(path, "is missing");
   if (found == Found::a_link_elsewhere) refuse(path, "is a link to another place, which is not followed");
-  DataSet set;
-  set.id = Handle(H5Dopen2(file_.get(), path.c_str(), H5P_DEFAULT), H5Dclose);
+}
+
+DataSet Reader::open(const std::string& path) const {
+  const FileInUse in_use(name_);
+  require(path);
+  DataSet set{Handle(H5Dopen2(file_.get(), path.c_str(), H5P_DEFAULT), H5Dclose), {}, {}, path};
   if (set.id.get() < 0) refuse(path, "cannot be opened: it is not a data set");
-  const Handle type(H5Dget_type(set.id.get()), H5Tclose), space(H5Dget_space(set.id.get()), H5Sclose);
-  const ElementType expected = field.type;
-  const bool same = expected == ElementType::text ? is_fixed_text(type.get())
-                                                  : H5Tequal(type.get(), file_type(expected)) > 0;
-  if (!same) refuse(path, fmt::format("is not of the type {}", type_name(expected)));
-  if (expected == ElementType::text && !can_hold(file_size_, H5Tget_size(type.get())))
-    refuse(path, "is longer than the file can hold");
+  set.type = Handle(H5Dget_type(set.id.get()), H5Tclose);
   if (!is_stored_within(set.id.get())) refuse(path, "has its values in another file");
+  const Handle space(H5Dget_space(set.id.get()), H5Sclose);
   const int rank = H5Sget_simple_extent_ndims(space.get());
   if (rank < 0) refuse(path, "has no shape");
   set.dims.resize(static_cast<std::size_t>(rank));
   if (H5Sget_simple_extent_dims(space.get(), set.dims.data(), nullptr) != rank) refuse(path, "has no shape");
-  check_shape(field, path, set.dims);
   return set;
 }
 
-std::size_t Reader::block_size(const DataSet& set, const std::string& path, std::uint64_t first,
-                               std::uint64_t count) const {
+DataSet Reader::open(const DataSetField& field) {
+  DataSet set = open(field.path);
+  const FileInUse in_use(name_);
+  const bool is_text = field.type == ElementType::text;
+  const bool same =
+      is_text ? is_fixed_text(set.type.get()) : H5Tequal(set.type.get(), file_type(field.type)) > 0;
+  if (!same) refuse(field.path, fmt::format("is not of the type {}", type_name(field.type)));
+  if (is_text && !can_hold(file_size_, H5Tget_size(set.type.get())))
+    refuse(field.path, "is longer than the file can hold");
+  check_shape(field, set.dims);
+  return set;
+}
+
+DataSet Reader::open_numbers(const std::string& path, bool of_reals) const {
+  DataSet set = open(path);
+  const H5T_class_t kind = H5Tget_class(set.type.get());
+  if (kind != H5T_INTEGER && !(of_reals && kind == H5T_FLOAT))
+    refuse(path, of_reals ? "does not hold numbers" : "does not hold integers");
+  return set;
+}
+
+std::size_t Reader::block_size(const DataSet& set, std::optional<Rows> rows) const {
   if (set.dims.empty()) return 1;
-  if (count > set.dims[0] || first > set.dims[0] - count)
-    refuse(path, fmt::format("has {} rows; row {} was asked for", set.dims[0], first + count));
+  const Rows block = rows.value_or(Rows{0, set.dims[0]});
+  if (block.count > set.dims[0] || block.first > set.dims[0] - block.count)
+    refuse(set.path,
+           fmt::format("has {} rows; row {} was asked for", set.dims[0], block.first + block.count));
   constexpr hsize_t most = hsize_t{1} << 40;  // more than any file can hold
-  hsize_t size = std::min<hsize_t>(count, most);
+  hsize_t size = std::min<hsize_t>(block.count, most);
   for (std::size_t d = 1; d < set.dims.size(); ++d)
     size = set.dims[d] > most / std::max<hsize_t>(size, 1) ? most : size * set.dims[d];
   if (!can_hold(file_size_, size))
-    refuse(path, fmt::format("of shape {} is larger than the file can hold", shape_text(set.dims)));
+    refuse(set.path, fmt::format("of shape {} is larger than the file can hold", shape_text(set.dims)));
   return size;
 }
 
-void Reader::read_block(const DataSet& set, const std::string& path, std::uint64_t first, std::uint64_t count,
-                        hid_t type, void* values) const {
+void Reader::read_block(const DataSet& set, std::optional<Rows> rows, hid_t type, void* values) const {
   const FileInUse in_use(name_);
-  if (!set.dims.empty() && count == 0) return;
-  const Handle space(H5Dget_space(set.id.get()), H5Sclose);
   std::vector<hsize_t> start(set.dims.size(), 0), block = set.dims;
-  Handle memory(H5Screate(H5S_SCALAR), H5Sclose);
-  if (!block.empty()) {
-    start[0] = first;
-    block[0] = count;
-    memory = Handle(H5Screate_simple(static_cast<int>(block.size()), block.data(), nullptr), H5Sclose);
-    if (H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start.data(), nullptr, block.data(), nullptr) < 0)
-      refuse(path, "cannot be selected");
+  if (rows && !block.empty()) {
+    start[0] = rows->first;
+    block[0] = rows->count;
   }
+  if (std::ranges::count(block, 0u) > 0) return;
+  const Handle space(H5Dget_space(set.id.get()), H5Sclose);
+  const Handle memory(block.empty() ? H5Screate(H5S_SCALAR)
+                                    : H5Screate_simple(static_cast<int>(block.size()), block.data(), nullptr),
+                      H5Sclose);
+  if (!block.empty() &&
+      H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start.data(), nullptr, block.data(), nullptr) < 0)
+    refuse(set.path, "cannot be selected");
   if (H5Dread(set.id.get(), type, memory.get(), space.get(), H5P_DEFAULT, values) < 0)
-    refuse(path, "cannot be read");
+    refuse(set.path, "cannot be read");
 }
 
-void Reader::check(const std::string& path, const std::vector<double>& values, double low,
-                   double high) const {
-  for (std::size_t k = 0; k < values.size(); ++k)
-    if (!(values[k] >= low && values[k] <= high && std::isfinite(values[k])))
-      refuse(path, fmt::format("holds {:.6g} at index {}, expected {}", values[k], k,
-                               std::isinf(high) && std::isinf(low) ? "a finite number"
-                               : std::isinf(high) ? fmt::format("a finite number >= {:.6g}", low)
-                                                  : fmt::format("{:.6g} to {:.6g}", low, high)));
+void Reader::refuse_value(const std::string& path, double value, std::size_t index, Range range) const {
+  refuse(path,
+         fmt::format("holds {:.6g} at index {}, expected {}", value, index,
+                     std::isinf(range.high) && std::isinf(range.low) ? "a finite number"
+                     : std::isinf(range.high) ? fmt::format("a finite number >= {:.6g}", range.low)
+                                              : fmt::format("{:.6g} to {:.6g}", range.low, range.high)));
 }
 
 std::string Reader::read_text(const std::string& path) {
-  const DataSet set = open(path);
-  const Handle type(H5Dget_type(set.id.get()), H5Tclose);
-  std::string text(H5Tget_size(type.get()), '\0');
-  read_block(set, path, 0, 1, type.get(), text.data());
+  const DataSet set = open(field_of(path));
+  std::string text(H5Tget_size(set.type.get()), '\0');
+  read_block(set, {}, set.type.get(), text.data());
   return text.substr(0, text.find('\0'));
 }
 
@@ -163,17 +174,17 @@ std::optional<std::uint64_t> stored_hash(hid_t set) {
 }  // namespace
 
 bool Reader::is_as_written(const std::string& path) {
-  const DataSet set = open(path);
+  const DataSetField field = field_of(path);
+  const DataSet set = open(field);
   const std::optional<std::uint64_t> hash = stored_hash(set.id.get());
   if (!hash) return false;
-  const ElementType element = field_of(path).type;
-  if (element == ElementType::text) {
+  if (field.type == ElementType::text) {
     const std::string text = read_text(path);
     return *hash == piece_hash(path, std::as_bytes(std::span(text)));
   }
-  const hid_t type = file_type(element);
-  std::vector<std::byte> values(block_size(set, path, 0, rows_of(set)) * H5Tget_size(type));
-  read_block(set, path, 0, rows_of(set), type, values.data());
+  const hid_t type = file_type(field.type);
+  std::vector<std::byte> values(block_size(set, {}) * H5Tget_size(type));
+  read_block(set, {}, type, values.data());
   return *hash == piece_hash(path, values);
 }
 
@@ -182,9 +193,35 @@ bool Reader::has(const std::string& path) const {
   return find(file_.get(), path) != Found::nothing;
 }
 
-std::uint64_t Reader::row_count(const std::string& path) { return rows_of(open(path)); }
+std::uint64_t Reader::row_count(const std::string& path) {
+  const DataSet set = open(field_of(path));
+  return set.dims.empty() ? 1 : set.dims[0];
+}
 
-std::vector<std::string> Reader::names(const std::string& group) {
+std::vector<std::string> Reader::data_sets(const std::string& group) const {
+  std::vector<std::string> paths;
+  for (const std::string& name : names(group)) paths.push_back(fmt::format("{}/{}", group, name));
+  for (const std::string& name : names(group, H5O_TYPE_GROUP))
+    for (std::string& path : data_sets(fmt::format("{}/{}", group, name))) paths.push_back(std::move(path));
+  return paths;
+}
+
+std::string Reader::attribute(const std::string& path, const char* name) const {
+  const FileInUse in_use(name_);
+  require(path);
+  const Handle object(H5Oopen(file_.get(), path.c_str(), H5P_DEFAULT), H5Oclose);
+  const Handle attribute(H5Aopen(object.get(), name, H5P_DEFAULT), H5Aclose);
+  const Handle type(H5Aget_type(attribute.get()), H5Tclose), space(H5Aget_space(attribute.get()), H5Sclose);
+  if (!is_fixed_text(type.get()) || H5Sget_simple_extent_npoints(space.get()) != 1 ||
+      !can_hold(file_size_, H5Tget_size(type.get())))
+    refuse(path, fmt::format("has no attribute {} that is a text", name));
+  std::string text(H5Tget_size(type.get()), '\0');
+  if (H5Aread(attribute.get(), type.get(), text.data()) < 0)
+    refuse(path, fmt::format("has an attribute {} that cannot be read", name));
+  return text.substr(0, text.find('\0'));
+}
+
+std::vector<std::string> Reader::names(const std::string& group, H5O_type_t kind) const {
   const FileInUse in_use(name_);
   if (find(file_.get(), group) != Found::an_object) refuse(group, "(a group) is missing");
   const Handle id(H5Gopen2(file_.get(), group.c_str(), H5P_DEFAULT), H5Gclose);
@@ -200,7 +237,7 @@ std::vector<std::string> Reader::names(const std::string& group) {
         H5Lget_info(id.get(), name.data(), &link, H5P_DEFAULT) < 0 || link.type != H5L_TYPE_HARD ||
         H5Oget_info_by_name(id.get(), name.data(), &object, H5P_DEFAULT) < 0)
       refuse(group, "(a group) cannot be listed");
-    if (object.type == H5O_TYPE_DATASET) names.emplace_back(name.data());
+    if (object.type == kind) names.emplace_back(name.data());
   }
   return names;
 }

@@ -132,22 +132,11 @@ Writer::Writer(Sizes sizes, std::size_t user_block, Storage storage)
              H5Fclose);
 }
 
-Writer::Writer(Sizes sizes, std::size_t user_block, const std::vector<std::byte>& image)
-    : sizes_(std::move(sizes)), user_block_(user_block), has_contents_(true) {
-  set_library_policy();
-  const Handle access = properties(H5P_FILE_ACCESS);
-  checked(H5Pset_fapl_core(access.get(), growth, false), "choose memory");
-  // HDF5 copies the image and never writes to the buffer it is given.
-  void* bytes = const_cast<std::byte*>(image.data());
-  checked(H5Pset_file_image(access.get(), bytes, image.size()), "take a file");
-  file_ = Handle(checked(H5Fopen(memory_name("extended").c_str(), H5F_ACC_RDWR, access.get()), "open a file"),
-                 H5Fclose);
-}
+Writer::Writer(Sizes sizes, std::size_t user_block, std::vector<std::byte> image, const std::string& name)
+    : sizes_(std::move(sizes)), user_block_(user_block), file_(open_image(image, name, H5F_ACC_RDWR)) {}
 
-void Writer::create(const std::string& path) { create(field_of(path), path); }
-
-void Writer::create(const DataSetField& field, const std::string& path) {
-  create_group(parent_of(path));
+void Writer::create(const DataSetField& field) {
+  create_group(parent_of(field.path));
   DataSet set;
   const std::vector<std::uint64_t> shape = dimensions(field, sizes_);
   set.dims.assign(shape.begin(), shape.end());
@@ -156,18 +145,19 @@ void Writer::create(const DataSetField& field, const std::string& path) {
   const Handle space = space_of(set.dims);
   const Handle creation = creation_properties(field.type, chunk);
   const Handle access = access_properties(field.type, chunk);
-  set.id = Handle(checked(H5Dcreate2(file_.get(), path.c_str(), file_type(field.type), space.get(),
+  set.id = Handle(checked(H5Dcreate2(file_.get(), field.path.c_str(), file_type(field.type), space.get(),
                                      H5P_DEFAULT, creation.get(), access.get()),
-                          "create " + path),
+                          "create " + field.path),
                   H5Dclose);
   attach_text(set.id.get(), "unit", field.unit);
-  contents_.append(path).append("\n");
-  open_.insert_or_assign(path, std::move(set));
+  contents_.append(field.path).append("\n");
+  open_.insert_or_assign(field.path, std::move(set));
 }
 
-void Writer::write_block(const std::string& path, std::uint64_t first_row, std::size_t count, hid_t type,
-                         const void* data) {
-  const DataSet& set = open_.at(path);
+void Writer::write_rows(const DataSetField& field, std::uint64_t first_row,
+                        std::span<const std::byte> values) {
+  const DataSet& set = open_.at(field.path);
+  const std::size_t count = values.size() / size_of(field.type);
   std::vector<hsize_t> block = set.dims, start(set.dims.size(), 0);
   std::size_t row = 1;
   for (std::size_t d = 1; d < block.size(); ++d) row *= block[d];
@@ -178,28 +168,23 @@ void Writer::write_block(const std::string& path, std::uint64_t first_row, std::
   const std::size_t expected = block.empty() ? 1 : block[0] * row;
   if (count != expected || (!block.empty() && start[0] + block[0] > set.dims[0]))
     throw Error(ExitCode::internal,
-                fmt::format("{} values from row {} do not fit into {}", count, first_row, path));
+                fmt::format("{} values from row {} do not fit into {}", count, first_row, field.path));
   if (count == 0) return;
   const Handle space = space_of(set.dims), memory = space_of(block);
   if (!block.empty())
     checked(H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start.data(), nullptr, block.data(), nullptr),
-            "select rows of " + path);
-  checked(H5Dwrite(set.id.get(), type, memory.get(), space.get(), H5P_DEFAULT, data), "write " + path);
+            "select rows of " + field.path);
+  checked(
+      H5Dwrite(set.id.get(), file_type(field.type), memory.get(), space.get(), H5P_DEFAULT, values.data()),
+      "write " + field.path);
 }
 
-void Writer::write_bytes(const DataSetField& field, const std::string& path,
-                         std::span<const std::byte> values, hid_t type) {
-  create(field, path);
+void Writer::write_bytes(const DataSetField& field, std::span<const std::byte> values, hid_t type) {
+  create(field);
   if (H5Tequal(type, file_type(field.type)) <= 0)
-    throw Error(ExitCode::internal, "values of another type than that of " + path);
-  write_block(path, 0, values.size() / H5Tget_size(type), type, values.data());
-  attach_hash(open_.at(path).id.get(), piece_hash(path, values));
-}
-
-void Writer::write_row_bytes(const std::string& path, std::uint64_t first_row,
-                             std::span<const std::byte> values) {
-  const hid_t type = file_type(field_of(path).type);
-  write_block(path, first_row, values.size() / H5Tget_size(type), type, values.data());
+    throw Error(ExitCode::internal, "values of another type than that of " + field.path);
+  write_rows(field, 0, values);
+  attach_hash(open_.at(field.path).id.get(), piece_hash(field.path, values));
 }
 
 Handle Writer::put_text(const std::string& path, const std::string& text, const std::string& unit) {
@@ -214,11 +199,11 @@ Handle Writer::put_text(const std::string& path, const std::string& text, const 
   return set;
 }
 
-void Writer::write_text(const std::string& path, const std::string& bytes) {
+void Writer::write_text(const DataSetField& field, const std::string& bytes) {
   const std::string text = utf8(bytes);
-  const Handle set = put_text(path, text, field_of(path).unit);
-  attach_hash(set.get(), piece_hash(path, std::as_bytes(std::span(text))));
-  contents_.append(path).append("\n");
+  const Handle set = put_text(field.path, text, field.unit);
+  attach_hash(set.get(), piece_hash(field.path, std::as_bytes(std::span(text))));
+  contents_.append(field.path).append("\n");
 }
 
 void Writer::write_help(const std::string& path, const std::string& text) {
@@ -244,37 +229,39 @@ void Writer::link(const std::string& path, const std::string& second_path) {
 
 void Writer::set_attribute(const std::string& path, const char* name,
                            const std::vector<std::int32_t>& values) {
-  create_group(path);
-  const Handle object(checked(H5Oopen(file_.get(), path.c_str(), H5P_DEFAULT), "open " + path), H5Oclose);
   std::vector<hsize_t> dims;
   if (values.size() > 1) dims.push_back(values.size());
-  attach(object.get(), name, H5T_STD_I32LE, dims, values.data());
+  attach(object_at(path).get(), name, H5T_STD_I32LE, dims, values.data());
 }
 
 void Writer::set_attribute(const std::string& path, const char* name, const std::vector<std::string>& texts) {
-  create_group(path);
-  const Handle object(checked(H5Oopen(file_.get(), path.c_str(), H5P_DEFAULT), "open " + path), H5Oclose);
   std::size_t length = 1;
   for (const std::string& text : texts) length = std::max(length, text.size());
   std::string padded;
   for (const std::string& text : texts) padded += text + std::string(length - text.size(), '\0');
-  attach(object.get(), name, text_type(length).get(), {texts.size()}, padded.data());
+  attach(object_at(path).get(), name, text_type(length).get(), {texts.size()}, padded.data());
 }
 
 void Writer::set_attribute(const std::string& path, const char* name, const std::string& text) {
+  attach_text(object_at(path).get(), name, text);
+}
+
+Handle Writer::object_at(const std::string& path) {
   create_group(path);
-  const Handle object(checked(H5Oopen(file_.get(), path.c_str(), H5P_DEFAULT), "open " + path), H5Oclose);
-  attach_text(object.get(), name, text);
+  return {checked(H5Oopen(file_.get(), path.c_str(), H5P_DEFAULT), "open " + path), H5Oclose};
+}
+
+void Writer::remove(const std::string& path) {
+  if (find(file_.get(), path) != Found::nothing)
+    checked(H5Ldelete(file_.get(), path.c_str(), H5P_DEFAULT), "remove " + path);
 }
 
 void Writer::write_contents() {
-  if (std::exchange(has_contents_, true)) return;
   checked(H5Fflush(file_.get(), H5F_SCOPE_LOCAL), "bring values into a file");
   write_text("/contents", contents_);
 }
 
 std::vector<std::byte> Writer::image() {
-  write_contents();
   checked(H5Fflush(file_.get(), H5F_SCOPE_LOCAL), "complete a file");
   const ssize_t size = checked(H5Fget_file_image(file_.get(), nullptr, 0), "measure a file");
   std::vector<std::byte> bytes(user_block_ + static_cast<std::size_t>(size));

@@ -13,18 +13,20 @@ namespace {
 constexpr std::int8_t free_species = 0;
 constexpr std::int8_t floor_species = 1;
 
+constexpr const char* edges = "/particles/grains/box/edges";
+constexpr Range diameters = {1e-9, 1e9};
+
 /// Lengths must be those of one bed: grids are made from their ratios to the diameter d, m.
-template <typename Statics, typename Fields>
-void for_each_field(Statics& statics, double d, Fields fields) {
+template <typename Statics, typename Direction>
+void for_each_field(Statics& statics, double d, Direction direction) {
+  Fields fields{direction};
   fields.array("/particles/grains/radius", statics.radius, Range{1e-3 * d, 1e3 * d});
   fields.array("/particles/grains/mass", statics.mass, not_negative);
   fields.scalar("/parameters/periodic", statics.periodic);
-  fields.scalar("/parameters/mean_diameter", statics.mean_diameter, Range{1e-9, 1e9});
+  fields.scalar("/parameters/mean_diameter", statics.mean_diameter, diameters);
   fields.scalar("/parameters/gravity", statics.gravity, not_negative);
   fields.scalar("/parameters/friction", statics.friction, not_negative);
 }
-
-constexpr const char* edges = "/particles/grains/box/edges";
 
 void write_statics(hdf5::Writer& writer, const RunStatics& statics) {
   const std::size_t count = statics.radius.size();
@@ -32,19 +34,16 @@ void write_statics(hdf5::Writer& writer, const RunStatics& statics) {
   std::vector<std::int8_t> species(count, floor_species);
   for (std::size_t i = 0; i < count; ++i) ids[i] = static_cast<Index>(i);
   std::fill_n(species.begin(), statics.free_count, free_species);
-  FieldWriter fields(writer);
-  fields.two(edges, statics.length, statics.depth);
-  fields.array("/particles/grains/id", ids);
-  fields.array("/particles/grains/species", species);
-  for_each_field(statics, statics.mean_diameter, fields);
+  writer.write(edges, std::vector{statics.length, statics.depth});
+  writer.write("/particles/grains/id", ids);
+  writer.write("/particles/grains/species", species);
+  for_each_field(statics, statics.mean_diameter, ToFile{writer});
 }
 
 Index free_grains(hdf5::Reader& reader) {
   const std::string path = "/particles/grains/species";
-  const auto species = reader.read<std::int8_t>(path);
+  const auto species = reader.read<std::int8_t>(path, Range{free_species, floor_species});
   const auto floor_begin = std::ranges::find(species, floor_species);
-  if (std::any_of(species.begin(), floor_begin, [](std::int8_t kind) { return kind != free_species; }))
-    reader.refuse(path, "holds a value other than 0 and 1");
   if (std::any_of(floor_begin, species.end(), [](std::int8_t kind) { return kind != floor_species; }))
     reader.refuse(path, "has a free grain after a floor grain");
   if (floor_begin == species.begin()) reader.refuse(path, "has no free grain");
@@ -54,11 +53,11 @@ Index free_grains(hdf5::Reader& reader) {
 RunStatics read_statics(hdf5::Reader& reader) {
   RunStatics statics;
   statics.free_count = free_grains(reader);
-  FieldReader fields(reader);
-  fields.scalar("/parameters/mean_diameter", statics.mean_diameter, Range{1e-9, 1e9});
-  const double d = statics.mean_diameter;
-  fields.two(edges, statics.length, statics.depth, Range{0.1 * d, 1e6 * d});
-  for_each_field(statics, d, fields);
+  const double d = reader.read_scalar<double>("/parameters/mean_diameter", diameters);
+  const std::vector<double> lengths = reader.read<double>(edges, Range{0.1 * d, 1e6 * d});
+  statics.length = lengths.at(0);
+  statics.depth = lengths.at(1);
+  for_each_field(statics, d, FromFile{reader});
   return statics;
 }
 
@@ -95,8 +94,8 @@ void check_branch(const hdf5::Reader& reader, const World& start, const RunStati
     must(is_inverse(of.inverse_inertia[i], of.inertia[i], free), "inverse_inertia");
   }
   const double farthest = farthest_place(statics);
-  reader.check("/branch/x", of.x, -farthest, farthest);
-  reader.check("/branch/y", of.y, -farthest, farthest);
+  reader.check("/branch/x", of.x, {-farthest, farthest});
+  reader.check("/branch/y", of.y, {-farthest, farthest});
 }
 
 }  // namespace

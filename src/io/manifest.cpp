@@ -9,7 +9,7 @@
 #include "core/paths.h"
 #include "core/text_stream.h"
 #include "io/durable_file.h"
-#include "io/packed_file.h"
+#include "io/seal.h"
 
 namespace talus {
 namespace {

@@ -8,9 +8,8 @@
 #include "core/errors.h"
 #include "core/paths.h"
 #include "core/trigonometry.h"
-#include "io/packed_file.h"
 #include "io/run_file.h"
-#include "io/signature.h"
+#include "io/seal.h"
 
 namespace talus {
 namespace {
@@ -53,9 +52,14 @@ std::string first_run_in(const std::string& folder) {
   if (path.ends_with(".toml"))
     throw Error(ExitCode::bad_data,
                 fmt::format("{} but, by its name, a scenario; talus run {} computes its run", what, path));
+  if (begins_with(path, averages_seal))
+    throw Error(ExitCode::bad_data, what + " but the averages of an ensemble; talus figures draws them");
   if (begins_with(path, hdf5_signature))
-    throw Error(ExitCode::bad_data,
-                fmt::format("{} but an HDF5 file of another kind; talus solve takes contact problems", what));
+    throw Error(
+        ExitCode::bad_data,
+        what +
+            " but an HDF5 file of another kind; talus solve takes contact problems, and talus ensemble "
+            "average makes an ensemble.h5 of an earlier version again");
   throw Error(ExitCode::bad_data, what + "; expected one that talus run, view or replay has written");
 }
 
@@ -75,6 +79,14 @@ void refuse_no_run(const std::string& path) {
   if (fs::is_directory(path, unknown)) refuse_folder(path);
   throw Error(ExitCode::missing_input,
               fmt::format("{}: no such run; expected a run file, or a folder {}", path, folder));
+}
+
+void refuse_no_averages(const std::string& path) {
+  throw Error(
+      ExitCode::bad_data,
+      path +
+          ": is not the ensemble.h5 of an ensemble (it does not begin with 'talus averages file 1'), or "
+          "one of an earlier version of Talus; make it again with: talus ensemble average FOLDER");
 }
 
 void refuse_no_scenario(const std::string& path) {

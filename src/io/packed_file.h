@@ -1,35 +1,15 @@
 #pragma once
-/// The packed file of a finished run: its seal, its H5MD metadata, its bytes. Private to this room.
+/// The packed file of a finished run: what it holds, its H5MD metadata, its bytes. Private to this room.
 
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <span>
 #include <string>
 #include <vector>
 
 #include "io/run_file.h"
 
 namespace talus {
-
-/// Bytes before the HDF5 part (its "user block"): a text with the size and the hash of the file. With it
-/// damage anywhere is found before HDF5 sees the file, which malformed data can crash.
-inline constexpr std::size_t seal_size = 512;
-
-/// Fills the first seal_size bytes with the seal of the rest.
-void seal(std::vector<std::byte>& file);
-
-/// The size that the seal of a file gives it; 0 where it has none.
-std::uint64_t sealed_size(std::span<const std::byte> file);
-
-/// The hash of the seal of a packed file, which holds that of all that follows: other files, other hashes.
-std::uint64_t seal_hash(std::span<const std::byte> file);
-/// The same of the file at `path`, of which no more than the seal is read. Throws Error(missing_input).
-std::uint64_t seal_hash_of(const std::string& path);
-
-/// Reads the whole file at `path` once. Throws Error(missing_input) where it cannot be read and
-/// Error(bad_data) where its seal is missing or wrong.
-void verify_seal(const std::string& path);
 
 /// All that a packed file holds of a run; frames are asked for one after another.
 struct RunContent {

@@ -1,7 +1,8 @@
 #pragma once
 /// One table of fields for both directions: a record names its data sets once, in the order of the file, and
-/// the table is given a FieldWriter or a FieldReader. Private to this room.
+/// the table is given Fields that write or read. Private to this room.
 
+#include <functional>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -12,125 +13,133 @@
 
 namespace talus {
 
-/// Records of several numbers per item: { {x0, y0}, {x1, y1}, ... } in one array, and one component of it
-/// back.
-template <typename T>
-std::vector<T> interleaved(const std::vector<T>& x, const std::vector<T>& y) {
-  std::vector<T> pairs(2 * x.size());
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    pairs[2 * i] = x[i];
-    pairs[2 * i + 1] = y[i];
-  }
-  return pairs;
-}
-template <typename T>
-std::vector<T> component(const std::vector<T>& records, std::size_t width, std::size_t which) {
-  std::vector<T> values(records.size() / width);
-  for (std::size_t i = 0; i < values.size(); ++i) values[i] = records[i * width + which];
-  return values;
-}
+using hdf5::Range;
+inline constexpr Range not_negative = {.low = 0.0};
 
-/// What the doubles of a data set can be; all of them are finite.
-struct Range {
-  double low = -hdf5::Reader::infinity, high = hdf5::Reader::infinity;
-};
-inline constexpr Range not_negative = {0.0, hdf5::Reader::infinity};
+/// Data sets that are written whole.
+struct ToFile {
+  hdf5::Writer& writer;
+  static constexpr bool reads = false;
 
-/// The type in which a value is stored: truths and kinds as int8.
-template <typename T>
-using Stored = std::conditional_t<std::is_enum_v<T> || std::is_same_v<T, bool>, std::int8_t, T>;
-
-class FieldWriter {
- public:
-  explicit FieldWriter(hdf5::Writer& writer) : writer_(writer) {}
-
+  static bool has(const std::string&, bool is_there) { return is_there; }
   template <typename T>
-  void scalar(const std::string& path, const T& value, Range = {}) {
-    writer_.write_scalar(path, static_cast<Stored<T>>(value));
+  void put(const std::string& path, const std::vector<T>& values) {
+    writer.write(path, values);
   }
-  void two(const std::string& path, double first, double second, Range = {}) {
-    writer_.write(path, std::vector{first, second});
-  }
-  template <typename T>
-  void array(const std::string& path, const std::vector<T>& values, Range = {}) {
-    writer_.write(path, values);
-  }
-  /// An array that is there only where it holds something.
-  void array_if_any(const std::string& path, const std::vector<double>& values) {
-    if (!values.empty()) writer_.write(path, values);
-  }
-  /// Two arrays as one of pairs.
-  template <typename T>
-  void pairs(const std::string& path, const std::vector<T>& x, const std::vector<T>& y, Range = {}) {
-    writer_.write(path, interleaved(x, y));
-  }
-  /// One member of each row.
-  template <typename Row, typename T>
-  void column(const std::string& path, const std::vector<Row>& rows, T Row::*member, Range = {}) {
-    std::vector<Stored<T>> values;
-    for (const Row& row : rows) values.push_back(static_cast<Stored<T>>(row.*member));
-    writer_.write(path, values);
-  }
-  template <typename Row>
-  void column(const std::string& path, const std::vector<Row>& rows, Vec2 Row::*member, Range = {}) {
-    std::vector<double> values;
-    for (const Row& row : rows) values.insert(values.end(), {(row.*member).x, (row.*member).y});
-    writer_.write(path, values);
-  }
-
- private:
-  hdf5::Writer& writer_;
 };
 
-class FieldReader {
- public:
-  explicit FieldReader(hdf5::Reader& reader) : reader_(reader) {}
+/// Data sets that are read whole.
+struct FromFile {
+  hdf5::Reader& reader;
+  static constexpr bool reads = true;
+
+  bool has(const std::string& path, bool) const { return reader.has(path); }
+  template <typename T>
+  std::vector<T> get(const std::string& path, Range range) {
+    return reader.read<T>(path, range);
+  }
+};
+
+/// A value is stored as one number, truths and kinds as int8, or as several of them, one after another.
+template <typename T>
+constexpr std::size_t part_count = std::is_same_v<T, Tensor2> ? 4
+                                   : std::is_same_v<T, Vec2>  ? 2
+                                                              : 1;
+template <typename T>
+auto& part(T& value, std::size_t p) {
+  if constexpr (part_count<std::remove_const_t<T>> == 1)
+    return value;
+  else if constexpr (part_count<std::remove_const_t<T>> == 2)
+    return p == 0 ? value.x : value.y;
+  else
+    return p < 2 ? (p == 0 ? value.xx : value.xy) : (p == 2 ? value.yx : value.yy);
+}
+template <typename T>
+using NumberOf = std::remove_cvref_t<decltype(part(std::declval<T&>(), 0))>;
+template <typename T>
+using Stored = std::conditional_t<std::is_enum_v<NumberOf<T>> || std::is_same_v<NumberOf<T>, bool>,
+                                  std::int8_t, NumberOf<T>>;
+
+/// The shapes of data sets, described once for both directions. A range is what values that are read can be.
+template <typename Direction>
+struct Fields {
+  Direction direction;
 
   template <typename T>
   void scalar(const std::string& path, T& value, Range range = {}) {
-    value = static_cast<T>(values<Stored<T>>(path, range).at(0));
+    exchange<Stored<T>>(
+        path, 1, range, [](auto) {}, [&](std::size_t) -> T& { return value; });
   }
-  void two(const std::string& path, double& first, double& second, Range range = {}) {
-    const std::vector<double> both = values<double>(path, range);
-    first = both.at(0);
-    second = both.at(1);
+  /// One member of each row, or what a function makes of it.
+  template <typename Rows, typename Member>
+  void column(const std::string& path, Rows& rows, const Member& member, Range range = {}) {
+    using Value = std::remove_cvref_t<std::invoke_result_t<Member, decltype(rows[0])>>;
+    constexpr std::size_t parts = part_count<Value>;
+    exchange<Stored<Value>>(
+        path, parts * rows.size(), range, [&](auto count) { rows.resize(count / parts); },
+        [&](std::size_t k) -> auto& { return part(std::invoke(member, rows[k / parts]), k % parts); });
   }
-  template <typename T>
-  void array(const std::string& path, std::vector<T>& to, Range range = {}) {
-    to = values<T>(path, range);
+  template <typename Array>
+  void array(const std::string& path, Array& values, Range range = {}) {
+    column(path, values, std::identity(), range);
   }
-  void array_if_any(const std::string& path, std::vector<double>& to) {
-    if (reader_.has(path)) to = values<double>(path, {});
+  /// An array that is there only where it holds something.
+  template <typename Array>
+  void array_if_any(const std::string& path, Array& values, Range range = {}) {
+    if (direction.has(path, !values.empty())) array(path, values, range);
   }
-  template <typename T>
-  void pairs(const std::string& path, std::vector<T>& x, std::vector<T>& y, Range range = {}) {
-    const std::vector<T> both = values<T>(path, range);
-    x = component(both, 2, 0);
-    y = component(both, 2, 1);
+  /// Two arrays as one of pairs.
+  template <typename X, typename Y>
+  void pairs(const std::string& path, X& x, Y& y, Range range = {}) {
+    exchange<Stored<typename X::value_type>>(
+        path, 2 * x.size(), range,
+        [&](auto count) {
+          x.resize(count / 2);
+          y.resize(count / 2);
+        },
+        [&](std::size_t k) -> auto& { return (k % 2 == 0 ? x : y)[k / 2]; });
   }
-  template <typename Row, typename T>
-  void column(const std::string& path, std::vector<Row>& rows, T Row::*member, Range range = {}) {
-    const auto stored = values<Stored<T>>(path, range);
-    rows.resize(stored.size());
-    for (std::size_t k = 0; k < rows.size(); ++k) rows[k].*member = static_cast<T>(stored[k]);
+
+  template <typename Text>
+  void text(const std::string& path, Text& value) {
+    if constexpr (Direction::reads)
+      value = direction.reader.read_text(path);
+    else
+      direction.writer.write_text(path, value);
   }
-  template <typename Row>
-  void column(const std::string& path, std::vector<Row>& rows, Vec2 Row::*member, Range range = {}) {
-    const std::vector<double> stored = values<double>(path, range);
-    rows.resize(stored.size() / 2);
-    for (std::size_t k = 0; k < rows.size(); ++k) rows[k].*member = {stored[2 * k], stored[2 * k + 1]};
+  /// A group of values, or of texts, whose names the record chooses.
+  template <typename Named>
+  void named(const std::string& group, Named& values) {
+    if constexpr (Direction::reads)
+      for (const std::string& name : direction.reader.names(group))
+        values.emplace_back(name, typename Named::value_type::second_type());
+    else
+      direction.writer.create_group(group);
+    for (auto& [name, value] : values)
+      if constexpr (std::is_same_v<typename Named::value_type::second_type, std::string>)
+        text(group + "/" + name, value);
+      else
+        scalar(group + "/" + name, value, hdf5::any_number);
   }
 
  private:
-  template <typename T>
-  std::vector<T> values(const std::string& path, Range range) {
-    if constexpr (std::is_same_v<T, double>)
-      return reader_.read_finite(path, range.low, range.high);
-    else
-      return reader_.read<T>(path);
+  /// The values of a data set: `at(k)` is where the one at index k belongs, after `resize(count)` in a record
+  /// that is read.
+  template <typename T, typename Resize, typename At>
+  void exchange(const std::string& path, std::size_t count, Range range, const Resize& resize, const At& at) {
+    if constexpr (Direction::reads) {
+      const std::vector<T> values = direction.template get<T>(path, range);
+      resize(values.size());
+      for (std::size_t k = 0; k < values.size(); ++k)
+        at(k) = static_cast<std::remove_cvref_t<decltype(at(k))>>(values[k]);
+    } else {
+      std::vector<T> values(count);
+      for (std::size_t k = 0; k < count; ++k) values[k] = static_cast<T>(at(k));
+      direction.put(path, values);
+    }
   }
-
-  hdf5::Reader& reader_;
 };
+template <typename Direction>
+Fields(Direction) -> Fields<Direction>;
 
 }  // namespace talus

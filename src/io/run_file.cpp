@@ -10,8 +10,8 @@
 #include "io/frames_of_tilt.h"
 #include "io/manifest.h"
 #include "io/mistaken_path.h"
-#include "io/packed_file.h"
 #include "io/run_records.h"
+#include "io/seal.h"
 
 namespace talus {
 namespace {
@@ -180,8 +180,8 @@ struct RunFile::State {
     for (std::size_t s = 0; s < segments.size(); ++s) {
       hdf5::Reader& from = segment(s);
       if (packed_since) throw Error(ExitCode::missing_input, folder + ": was packed at this moment");
-      append(all_tilts, from.read_finite("/frames/tilt"));
-      append(all_times, from.read_finite("/frames/time"));
+      append(all_tilts, from.read<double>("/frames/tilt"));
+      append(all_times, from.read<double>("/frames/time"));
       append(all_steps, from.read<std::int64_t>("/frames/step"));
     }
     last_tilt_step = find_value(checkpoint.integers, last_tilt_step_name);
@@ -310,7 +310,8 @@ hdf5::Reader RunFile::packed_reader() const { return state_->reader->again(); }
 
 bool RunFile::is_as_written(const Frame& frame, std::size_t k) const {
   const State::FramePlace place = state_->place_of(k);
-  return place.reader.read_rows<std::uint64_t>("/frames/hash", place.row, 1).front() == frame_hash(frame);
+  return place.reader.read<std::uint64_t>("/frames/hash", {}, hdf5::Rows{place.row, 1}).front() ==
+         frame_hash(frame);
 }
 
 std::vector<std::string> RunFile::changed_data_sets() const {

@@ -7,19 +7,19 @@
 #include <fmt/core.h>
 #include <optional>
 #include <set>
-#include <span>
 #include <utility>
 
 #include "core/errors.h"
 #include "core/paths.h"
+#include "core/text_stream.h"
 #include "core/trigonometry.h"
-#include "io/byte_code.h"
 #include "io/child_process.h"
 #include "io/durable_file.h"
 #include "io/manifest.h"
 #include "io/mistaken_path.h"
 #include "io/packed_file.h"
 #include "io/run_records.h"
+#include "io/seal.h"
 #include "io/writer_lock.h"
 
 namespace talus {
@@ -205,7 +205,7 @@ class Salvager {
     std::string line = count == 1 ? fmt::format("{}frame {}", prefix_, first)
                                   : fmt::format("{}frames {} to {}", prefix_, first, first + count - 1);
     try {
-      const double tilt = reader.read_finite_rows("/frames/tilt", first, 1)[0];
+      const double tilt = reader.read<double>("/frames/tilt", {}, hdf5::Rows{first, 1})[0];
       line += fmt::format(", {} {:.3f} deg", count == 1 ? "at" : "from", degrees(tilt));
     } catch (const Error&) {  // that is lost too
     }
@@ -260,23 +260,17 @@ class Salvager {
   std::vector<std::pair<std::size_t, std::size_t>> places_;  ///< part and row of each frame that is kept
 };
 
-Bytes encode(const Salvage& salvage) {
-  Bytes bytes;
-  append_counted(bytes, salvage.file);
-  append_number(bytes, salvage.kept.size());
-  for (const Lines* lines : {&salvage.kept, &salvage.lost})
-    for (const std::string& line : *lines) append_counted(bytes, line);
-  return bytes;
+std::string text_of(const Lines& lines) {
+  std::string text;
+  for (const std::string& line : lines) text.append(line).append("\n");
+  return text;
 }
 
-Salvage decode(std::span<const std::byte> bytes) {
-  ByteSource source(bytes);
-  Salvage salvage;
-  salvage.file = source.counted<Bytes>();
-  const std::uint64_t kept = source.number();
-  while (!source.at_end())
-    (salvage.kept.size() < kept ? salvage.kept : salvage.lost).push_back(source.counted<std::string>());
-  return salvage;
+Lines lines_of(const Bytes& bytes) {
+  Lines lines;
+  std::istringstream text = text_stream(values_of<std::string>(bytes));
+  for (std::string line; std::getline(text, line);) lines.push_back(line);
+  return lines;
 }
 
 Salvage salvage_run(const std::string& run) {
@@ -284,8 +278,13 @@ Salvage salvage_run(const std::string& run) {
   std::vector<Part> parts = parts_of(run, lost);
   std::size_t size = 0;
   for (const Part& part : parts) size += part.bytes.size();
-  return decode(in_child_process(
-      run, size, [&] { return encode(Salvager(run, std::move(lost)).salvage(std::move(parts))); }));
+  Parcels found = in_child_process(run, size, [&] {
+    Salvage made = Salvager(run, std::move(lost)).salvage(std::move(parts));
+    return Parcels{{"file", std::move(made.file)},
+                   {"kept", bytes_of(text_of(made.kept))},
+                   {"lost", bytes_of(text_of(made.lost))}};
+  });
+  return {std::move(found["file"]), lines_of(found["kept"]), lines_of(found["lost"])};
 }
 
 /// Whether a run opens, so that all of its bytes agree with the hash of the file, and what it holds with its

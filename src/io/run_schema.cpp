@@ -11,6 +11,13 @@ namespace {
 
 using enum ElementType;
 
+/// In the order of the types.
+constexpr struct {
+  std::string_view name;
+  std::size_t size;  ///< bytes
+} types[] = {{"float32", 4}, {"float64", 8}, {"int8", 1}, {"int32", 4},
+             {"int64", 8},   {"uint64", 8},  {"text", 1}};
+
 std::vector<DataSetField> header_fields() {
   return {
       {"/contents", text, "", "1", "paths of the data sets of this table that the file holds, one a line"},
@@ -206,41 +213,9 @@ std::vector<DataSetField> make_schema() {
 
 }  // namespace
 
-std::string_view type_name(ElementType type) {
-  switch (type) {
-    case float32:
-      return "float32";
-    case float64:
-      return "float64";
-    case int8:
-      return "int8";
-    case int32:
-      return "int32";
-    case int64:
-      return "int64";
-    case uint64:
-      return "uint64";
-    case text:
-      break;
-  }
-  return "text";
-}
+std::string_view type_name(ElementType type) { return types[static_cast<std::size_t>(type)].name; }
 
-std::size_t size_of(ElementType type) {
-  switch (type) {
-    case float32:
-    case int32:
-      return 4;
-    case float64:
-    case int64:
-    case uint64:
-      return 8;
-    case int8:
-    case text:
-      break;
-  }
-  return 1;
-}
+std::size_t size_of(ElementType type) { return types[static_cast<std::size_t>(type)].size; }
 
 const std::vector<DataSetField>& run_schema() {
   static const std::vector<DataSetField> schema = make_schema();
@@ -252,7 +227,7 @@ bool is_by_frame(const DataSetField& field) {
   return has_rows && !field.path.starts_with("/analysis/");
 }
 
-const DataSetField& field_of(const std::string& path) {
+DataSetField field_of(const std::string& path) {
   const std::string family = path.substr(0, path.rfind('/')) + "/*";
   const DataSetField* found = nullptr;
   const auto look_at = [&](const DataSetField& field) {
@@ -262,7 +237,9 @@ const DataSetField& field_of(const std::string& path) {
   static const std::vector<DataSetField> of_analyses = analysis_schema();
   for (const DataSetField& field : of_analyses) look_at(field);
   if (found == nullptr) throw Error(ExitCode::internal, "the schema of run files has no data set " + path);
-  return *found;
+  DataSetField field = *found;
+  field.path = path;
+  return field;
 }
 
 std::vector<Extent> extents(const DataSetField& field) {

@@ -33,8 +33,9 @@ const std::vector<DataSetField>& run_schema();
 /// and not by one of its own.
 bool is_by_frame(const DataSetField& field);
 
-/// The row of a data set, of a run or of its analysis. Throws Error(internal) where no table has it.
-const DataSetField& field_of(const std::string& path);
+/// The row of a data set, of a run or of its analysis, with this path. Throws Error(internal) where no table
+/// has it.
+DataSetField field_of(const std::string& path);
 
 /// One dimension of a shape: the size of its letter (0 without one) plus a number.
 struct Extent {

@@ -16,12 +16,14 @@
 #include <thread>
 
 #include "core/errors.h"
+#include "core/locked_file.h"
 #include "core/paths.h"
 #include "io/analysis_file.h"
 #include "io/durable_file.h"
 #include "io/manifest.h"
 #include "io/packed_file.h"
 #include "io/run_records.h"
+#include "io/seal.h"
 #include "io/writer_lock.h"
 
 namespace talus {
@@ -153,6 +155,7 @@ StoredFile store(const std::string& folder, const std::string& name, std::span<c
 std::vector<std::byte> header_bytes(const RunHeader& header) {
   hdf5::Writer writer(with_branch({{'N', header.statics.radius.size()}}, header));
   write_header(writer, header);
+  writer.write_contents();
   return writer.image();
 }
 
@@ -162,6 +165,7 @@ std::vector<std::byte> checkpoint_bytes(const Checkpoint& checkpoint) {
                        {'C', world.contacts.a.size()},
                        {'P', world.boundary.planes.size()}});
   write_checkpoint(writer, checkpoint);
+  writer.write_contents();
   return writer.image();
 }
 
@@ -180,6 +184,7 @@ std::vector<std::byte> segment_bytes(const Segment& segment, const StoredSegment
   write_steps(writer, segment.steps);
   write_commands(writer, segment.commands);
   write_trials(writer, segment.trials);
+  writer.write_contents();
   return writer.image();
 }
 
@@ -231,7 +236,7 @@ struct RunStore::State {
 
   std::string name_of_next(const char* kind) const { return fmt::format("{}{:06}{}.h5", kind, serial, mark); }
   void publish(std::string_view made, std::span<const std::byte> bytes, const std::string& target,
-               const CheckFile& check = {}) const;
+               const std::function<void(const std::string& written)>& check = {}) const;
   void publish(const Manifest& next) const;
 
   std::string path;
@@ -252,7 +257,8 @@ struct RunStore::State {
 /// and be stopped before any line; but whoever takes the run over removes the file that is renamed here
 /// before anything else (shut_out_others), so that the rename comes either before that, and counts, or never.
 void RunStore::State::publish(std::string_view made, std::span<const std::byte> bytes,
-                              const std::string& target, const CheckFile& check) const {
+                              const std::string& target,
+                              const std::function<void(const std::string& written)>& check) const {
   OutputFile file(in(folder, fmt::format("{}{}", made, mark)));
   file.write(bytes);
   file.flush();

@@ -1,56 +1,75 @@
+#include <algorithm>
+
+#include "io/record_fields.h"
 #include "io/run_records.h"
 
 namespace talus {
 namespace {
 
-template <typename Fields, typename Row>
-void write_series(hdf5::Writer& writer, const std::string& group, const Fields& fields,
-                  const std::vector<Row>& rows) {
-  std::vector<double> column(rows.size());
-  for (std::size_t f = 0; f < fields.size(); ++f) {
-    for (std::size_t i = 0; i < rows.size(); ++i) column[i] = rows[i][f];
-    writer.write(group + std::string(fields[f].name), column);
+template <typename Columns, typename Rows, typename Direction>
+void for_each_column(const std::string& group, const Columns& columns, Rows& rows, Direction direction) {
+  Fields fields{direction};
+  for (std::size_t f = 0; f < columns.size(); ++f) {
+    const std::string name(columns[f].name);
+    const bool counts = name == "step" || name == "time" || name == "tilt" || name == "phase";
+    const auto value = [f](auto& row) -> auto& { return row[f]; };
+    fields.column(group + name, rows, value, counts ? Range{} : hdf5::any_number);
   }
 }
 
-template <typename Row, typename Fields>
-std::vector<Row> read_series(hdf5::Reader& reader, const std::string& group, const Fields& fields) {
-  std::vector<Row> rows;
-  for (std::size_t f = 0; f < fields.size(); ++f) {
-    const std::string name(fields[f].name);
-    const bool counts = name == "step" || name == "time" || name == "tilt" || name == "phase";
-    const auto column = counts ? reader.read_finite(group + name) : reader.read<double>(group + name);
-    rows.resize(column.size());
-    for (std::size_t i = 0; i < column.size(); ++i) rows[i][f] = column[i];
-  }
-  return rows;
+template <typename Commands, typename Direction>
+void for_each_command_column(Commands& commands, Direction direction) {
+  Fields fields{direction};
+  fields.column("/commands/step", commands, &Command::step, not_negative);
+  fields.column("/commands/kind", commands, &Command::kind, Range{0.0, command_kind_count - 1.0});
+  fields.column("/commands/grain", commands, &Command::grain);
+  fields.column("/commands/x", commands, &Command::x);
+  fields.column("/commands/y", commands, &Command::y);
 }
 
 }  // namespace
 
 void write_observables(hdf5::Writer& writer, const std::vector<ObservableRow>& rows) {
-  write_series(writer, "/observables/", observable_fields, rows);
+  for_each_column("/observables/", observable_fields, rows, ToFile{writer});
 }
 
 void write_steps(hdf5::Writer& writer, const std::vector<StepRow>& rows) {
-  write_series(writer, "/steps/", step_fields, rows);
+  for_each_column("/steps/", step_fields, rows, ToFile{writer});
 }
 
 void write_trials(hdf5::Writer& writer, const std::vector<TrialRow>& rows) {
-  if (!rows.empty()) write_series(writer, "/trials/", trial_fields, rows);
+  if (!rows.empty()) for_each_column("/trials/", trial_fields, rows, ToFile{writer});
 }
 
 std::vector<TrialRow> read_trials(hdf5::Reader& reader) {
-  if (!reader.has("/trials")) return {};
-  return read_series<TrialRow>(reader, "/trials/", trial_fields);
+  std::vector<TrialRow> rows;
+  if (reader.has("/trials")) for_each_column("/trials/", trial_fields, rows, FromFile{reader});
+  return rows;
 }
 
 std::vector<ObservableRow> read_observables(hdf5::Reader& reader) {
-  return read_series<ObservableRow>(reader, "/observables/", observable_fields);
+  std::vector<ObservableRow> rows;
+  for_each_column("/observables/", observable_fields, rows, FromFile{reader});
+  return rows;
 }
 
 std::vector<StepRow> read_steps(hdf5::Reader& reader) {
-  return read_series<StepRow>(reader, "/steps/", step_fields);
+  std::vector<StepRow> rows;
+  for_each_column("/steps/", step_fields, rows, FromFile{reader});
+  return rows;
+}
+
+void write_commands(hdf5::Writer& writer, const std::vector<Command>& commands) {
+  if (!commands.empty()) for_each_command_column(commands, ToFile{writer});
+}
+
+std::vector<Command> read_commands(hdf5::Reader& reader) {
+  std::vector<Command> commands;
+  if (!reader.has("/commands")) return commands;
+  for_each_command_column(commands, FromFile{reader});
+  if (!std::ranges::is_sorted(commands, {}, &Command::step))
+    reader.refuse("/commands/step", "does not ascend");
+  return commands;
 }
 
 }  // namespace talus

@@ -7,10 +7,9 @@
 #include <vector>
 
 #include "core/types.h"
+#include "io/child_process.h"
 
 namespace talus {
-
-struct ForeignFile;
 
 /// What a problem file holds. Vectors of unknowns are (n, t) of contact 0, (n, t) of contact 1, ...
 struct FclibProblem {
@@ -37,7 +36,7 @@ void write_fclib(const std::string& path, const FclibProblem& problem, const std
 FclibProblem read_fclib(const std::string& path);
 
 /// The problem in the arrays of a file called `path`; throws as read_fclib does.
-FclibProblem checked_problem(const std::string& path, const ForeignFile& found);
+FclibProblem checked_problem(const std::string& path, const Parcels& found);
 
 /// Writes a copy of the problem file `from` to `to`, with r and u as its /solution, in place of one that it
 /// has. `to` appears whole or not at all, and may be `from`.

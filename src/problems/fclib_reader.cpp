@@ -3,7 +3,9 @@
 #include <limits>
 
 #include "core/errors.h"
-#include "io/foreign_file.h"
+#include "io/child_process.h"
+#include "io/durable_file.h"
+#include "io/hdf5_reader.h"
 #include "problems/fclib_file.h"
 #include "problems/fclib_schema.h"
 
@@ -13,27 +15,27 @@ namespace {
 /// A problem file of any program, as far as it is known to be one of numbers.
 class FclibFile {
  public:
-  FclibFile(std::string path, ForeignFile found) : path_(std::move(path)), found_(std::move(found)) {}
+  FclibFile(std::string path, const Parcels& found) : path_(std::move(path)), found_(found) {}
 
   /// Whether a group or data set is there.
-  bool has(const std::string& path) const {
-    return found_.groups.contains(path) || found_.reals.contains(path) || found_.integers.contains(path);
-  }
+  bool has(const std::string& path) const { return found_.contains(path); }
 
   /// All values of a data set of numbers, whatever its shape.
   template <typename T>
-  const std::vector<T>& read(const std::string& path) const {
-    const auto& arrays = of<T>();
-    const auto values = arrays.find(path);
-    if (values == arrays.end()) refuse(path, "is missing");
-    if constexpr (std::is_same_v<T, double>) check_finite(path, values->second);
-    return values->second;
+  std::vector<T> read(const std::string& path) const {
+    const auto found = found_.find(path);
+    if (found == found_.end()) refuse(path, "is missing");
+    auto values = values_of<std::vector<T>>(found->second);
+    for (std::size_t k = 0; k < values.size(); ++k)
+      if (!std::isfinite(values[k]))
+        refuse(path, fmt::format("holds a value that is not finite, at index {}", k));
+    return values;
   }
 
   /// The same, of a size that is known; `why` says whose size it is.
   template <typename T>
-  const std::vector<T>& read(const std::string& path, std::size_t size, const std::string& why) const {
-    const std::vector<T>& values = read<T>(path);
+  std::vector<T> read(const std::string& path, std::size_t size, const std::string& why) const {
+    std::vector<T> values = read<T>(path);
     if (values.size() != size)
       refuse(path, fmt::format("has {} values, expected {}, {}", values.size(), size, why));
     return values;
@@ -46,32 +48,21 @@ class FclibFile {
   }
 
  private:
-  template <typename T>
-  const std::map<std::string, std::vector<T>>& of() const {
-    if constexpr (std::is_same_v<T, double>)
-      return found_.reals;
-    else
-      return found_.integers;
-  }
-
-  void check_finite(const std::string& path, const std::vector<double>& values) const {
-    for (std::size_t k = 0; k < values.size(); ++k)
-      if (!std::isfinite(values[k]))
-        refuse(path, fmt::format("holds a value that is not finite, at index {}", k));
-  }
-
   std::string path_;
-  ForeignFile found_;
+  const Parcels& found_;
 };
 
-/// The groups and data sets that a problem is read from.
-std::vector<DataSetField> problem_fields() {
-  std::vector<DataSetField> fields;
+/// The groups and data sets that a problem is read from, as far as they are there.
+Parcels arrays_in(hdf5::Reader reader) {
+  Parcels found;
   for (const char* group : {"/fclib_local", "/fclib_local/V", "/fclib_local/R", "/talus", "/talus/run"})
-    fields.push_back({group, ElementType::text, {}, {}, {}});
+    if (reader.has(group)) found[group];
   for (const DataSetField& field : fclib_schema())
-    if (field.type != ElementType::text && !field.path.starts_with("/solution/")) fields.push_back(field);
-  return fields;
+    if (field.type != ElementType::text && !field.path.starts_with("/solution/") && reader.has(field.path))
+      found[field.path] = field.type == ElementType::int32
+                              ? bytes_of(reader.read_numbers<Index>(field.path))
+                              : bytes_of(reader.read_numbers<double>(field.path));
+  return found;
 }
 
 void check_kind(const FclibFile& file, const std::string& path) {
@@ -101,7 +92,7 @@ void check_index(const FclibFile& file, const std::string& path, const std::vect
 /// Lines of compressed rows or columns: the line of each entry.
 std::vector<Index> line_of_entries(const FclibFile& file, std::size_t lines, std::size_t entries) {
   const std::string path = "/fclib_local/W/p";
-  const auto& begin = file.read<Index>(path, lines + 1, "the rows of W and one");
+  const auto begin = file.read<Index>(path, lines + 1, "the rows of W and one");
   if (begin[0] != 0 || static_cast<std::size_t>(begin[lines]) != entries)
     file.refuse(path, fmt::format("goes from {} to {}, expected 0 to {}, the entries of W", begin[0],
                                   begin[lines], entries));
@@ -192,7 +183,7 @@ void read_additions(const FclibFile& file, FclibProblem& problem) {
 
 }  // namespace
 
-FclibProblem checked_problem(const std::string& path, const ForeignFile& found) {
+FclibProblem checked_problem(const std::string& path, const Parcels& found) {
   const FclibFile file(path, found);
   check_kind(file, path);
   FclibProblem problem;
@@ -204,7 +195,9 @@ FclibProblem checked_problem(const std::string& path, const ForeignFile& found) 
 }
 
 FclibProblem read_fclib(const std::string& path) {
-  return checked_problem(path, read_foreign(path, problem_fields()));
+  std::vector<std::byte> bytes = read_file(path);
+  const auto work = [&] { return arrays_in(hdf5::Reader::from_memory(std::move(bytes), path)); };
+  return checked_problem(path, in_child_process(path, bytes.size(), work));
 }
 
 }  // namespace talus

@@ -51,7 +51,7 @@ void use_apart(const std::string& path) {
   const std::string read = fs::exists(path) ? path : test::path_beginning(folder, "header_");
   in_child_process(path, fs::file_size(read), [&path] {
     use_branch(path);
-    return Bytes();
+    return Parcels();
   });
 }
 

@@ -10,7 +10,7 @@
 
 #include "core/hash.h"
 #include "io/hdf5_handle.h"
-#include "io/packed_file.h"
+#include "io/seal.h"
 
 namespace talus::hostile {
 namespace {
@@ -163,9 +163,11 @@ void spoil_one(hid_t file, const Spoil& spoil) {
   }
 }
 
-bool is_run_file(const Bytes& file) {
-  constexpr std::string_view mark = "talus run file";
-  return file.size() > seal_size && std::memcmp(file.data(), mark.data(), mark.size()) == 0;
+/// The kind of seal that a file has; empty where it has none.
+std::string_view kind_of_seal(const Bytes& file) {
+  for (const std::string_view kind : {run_seal, averages_seal})
+    if (file.size() > seal_size && std::memcmp(file.data(), kind.data(), kind.size()) == 0) return kind;
+  return {};
 }
 
 /// What HDF5 gives back is without the seal before it.
@@ -224,11 +226,12 @@ Bytes spoilt(const Bytes& file, std::span<const Spoil> spoils) {
   Bytes bytes = file;
   const Handle open = hdf5::open_image(bytes, "spoilt", H5F_ACC_RDWR);
   for (const Spoil& spoil : spoils) spoil_one(open.get(), spoil);
-  return is_run_file(file) ? sealed(image_of(open.get(), seal_size)) : image_of(open.get(), 0);
+  const std::string_view kind = kind_of_seal(file);
+  return kind.empty() ? image_of(open.get(), 0) : sealed(image_of(open.get(), seal_size), kind);
 }
 
-Bytes sealed(Bytes file) {
-  seal(file);
+Bytes sealed(Bytes file, std::string_view kind) {
+  seal(file, kind);
   return file;
 }
 

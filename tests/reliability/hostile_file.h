@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/random.h"
+#include "io/seal.h"
 
 namespace talus::hostile {
 
@@ -58,8 +59,8 @@ std::uint64_t values_hash(const Bytes& file);
 /// The file with harm done; with its seal made right again where it has one.
 Bytes spoilt(const Bytes& file, std::span<const Spoil> spoils);
 
-/// The bytes with the seal of a run file over them.
-Bytes sealed(Bytes file);
+/// The bytes with a seal over them.
+Bytes sealed(Bytes file, std::string_view kind = run_seal);
 
 Bytes read_bytes(const std::string& path);
 void write_bytes(const std::string& path, std::span<const std::byte> bytes);

@@ -5,11 +5,9 @@
 #include <algorithm>
 #include <cstdio>
 #include <optional>
-#include <span>
 
 #include "core/errors.h"
 #include "core/random.h"
-#include "io/foreign_file.h"
 #include "problems/fclib_file.h"
 #include "reliability/hostile_run.h"
 #include "reliability/hostile_test.h"
@@ -101,27 +99,6 @@ TEST_F(HostileProblem, a_solution_is_added_to_a_flipped_file_or_not) {
     }
     std::filesystem::remove(to);
   }
-}
-
-TEST(ForeignFile, cut_short_on_its_way_is_refused) {
-  ForeignFile file;
-  file.groups = {"/g"};
-  file.reals["/g/x"] = {1.0, 2.0};
-  file.integers["/g/k"] = {3};
-  const std::vector<std::byte> bytes = encode(file);
-  EXPECT_EQ(decode(bytes, "p.h5").reals, file.reals);
-  EXPECT_EQ(decode(bytes, "p.h5").integers, file.integers);
-  EXPECT_EQ(decode(bytes, "p.h5").groups, file.groups);
-  int whole = 0;
-  for (std::size_t size = 0; size <= bytes.size(); ++size) {
-    try {
-      decode(std::span(bytes).first(size), "p.h5");
-      ++whole;
-    } catch (const Error& error) {
-      EXPECT_EQ(error.code(), ExitCode::bad_data);
-    }
-  }
-  EXPECT_EQ(whole, 4) << "at the ends of records only";
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ void open_run(const std::string& path) { RunFile::open(path); }
 void use_apart(const std::string& path) {
   in_child_process(path, fs::file_size(path), [&path] {
     use_run(path);
-    return Bytes();
+    return Parcels();
   });
 }
 

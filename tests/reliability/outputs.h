@@ -18,7 +18,6 @@
 
 #include "io/run_file.h"
 #include "reliability/whole_run.h"
-#include "render/whole_file.h"
 #include "support/runs.h"
 
 namespace talus::test {
@@ -52,6 +51,17 @@ struct Writer {
 inline bool decodes(const fs::path& movie) {
   const std::string words = "ffmpeg -nostdin -v error -xerror -i 'file:" + movie.string() + "' -f null -";
   return std::system(words.c_str()) == 0;
+}
+
+/// Whether a file ends as its format says. What is written through memory is never torn anywhere else.
+inline bool has_its_end(const fs::path& file) {
+  const std::string ending = file.extension().string(), bytes = content(file);
+  if (ending == ".png") return bytes.ends_with("IEND\xAE\x42\x60\x82");
+  if (ending == ".gif") return bytes.ends_with(";");
+  if (ending == ".pdf") return bytes.ends_with("%%EOF\n");
+  if (ending == ".svg")
+    return bytes.find("</svg>", bytes.size() < 16 ? 0 : bytes.size() - 16) != std::string::npos;
+  return (ending != ".mp4" && ending != ".webm") || decodes(file);
 }
 
 inline Words with_output(Words words, const std::string& output) {
@@ -135,8 +145,7 @@ class Outputs : public testing::Test {
       if (entry->is_directory()) continue;
       EXPECT_GT(fs::file_size(file), 0u) << file;
       if (name[0] == 'r' && name.ends_with(".h5")) digest(file);
-      const std::set<std::string> checked = {".png", ".mp4", ".webm", ".gif", ".pdf", ".svg"};
-      EXPECT_TRUE(!checked.contains(file.extension()) || is_whole_file(file, name)) << file;
+      EXPECT_TRUE(has_its_end(file)) << file;
     }
   }
 

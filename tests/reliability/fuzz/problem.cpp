@@ -5,7 +5,7 @@
 #include <span>
 
 #include "core/errors.h"
-#include "io/foreign_file.h"
+#include "io/child_process.h"
 #include "problems/fclib_file.h"
 #include "reliability/hostile_run.h"
 
@@ -13,7 +13,7 @@ using namespace talus;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {
-    const ForeignFile file = decode(std::as_bytes(std::span(data, size)), "p.h5");
+    const Parcels file = decode(std::as_bytes(std::span(data, size)), "p.h5");
     hostile::use_problem(stored_problem("p.h5", checked_problem("p.h5", file)));
   } catch (const Error& error) {
     if (error.code() != ExitCode::bad_data) std::abort();

@@ -1,5 +1,3 @@
-#include "core/leftovers.h"
-
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/file.h>

@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fmt/core.h>
 #include <fstream>
+#include <iterator>
 
 #include "core/descriptor.h"
 #include "core/errors.h"
@@ -122,18 +124,17 @@ TEST(OutputTarget, is_no_input_under_any_name) {
   EXPECT_EQ(code_of(folder.path("run/new"), rule), ExitCode::done);
 }
 
-TEST(OutputFile, gets_its_name_when_it_was_found_whole) {
+TEST(MemoryFile, holds_what_another_program_writes) {
   const test::TemporaryFolder folder;
   const std::string path = folder.path("file");
+  const MemoryFile made(path);
   OutputFile file(path);
-  file.write(text);
-  const auto refuse = [](const std::string&) { throw Error(ExitCode::io_error, "not whole"); };
-  EXPECT_THROW(file.commit(refuse), Error);
-  EXPECT_FALSE(fs::exists(path));
-  std::string seen;
-  file.commit([&seen](const std::string& written) { seen = written; });
-  EXPECT_EQ(seen, path + temporary_ending);
-  EXPECT_TRUE(fs::exists(path));
+  EXPECT_THROW(made.copy_to(file), Error) << "nothing was written";
+  ASSERT_EQ(std::system(("echo 12 > " + made.path() + "; echo 34 >> " + made.path()).c_str()), 0);
+  made.copy_to(file);
+  file.commit();
+  std::ifstream written(path);
+  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(written), {}), "12\n34\n");
 }
 
 TEST(OutputFile, is_not_whole_where_bytes_are_missing) {

@@ -10,7 +10,8 @@
 #include "core/trigonometry.h"
 #include "ensemble/averages_file.h"
 #include "io/durable_file.h"
-#include "io/plain_file.h"
+#include "io/hdf5_writer.h"
+#include "io/seal.h"
 #include "support/blank_analysis.h"
 #include "support/exit_code.h"
 #include "support/temporary_folder.h"
@@ -94,29 +95,37 @@ TEST(ReadAverages, of_slopes_that_stand_has_no_angle_left) {
   EXPECT_EQ(member_of(variant, 0).series.theta, (std::vector{0.0, 1.0, 2.0}));
 }
 
+/// A file of one variant with two seeds and values of theta_c.
+template <typename T>
+void write_angles(const std::string& path, ElementType type, const char* shape,
+                  const std::vector<T>& values) {
+  hdf5::Writer file({}, seal_size);
+  file.set_attribute("/variants/0", "name", "");
+  file.set_attribute("/variants/0", "scenario", "");
+  for (const char* name : {"/variants/0/seed", "/variants/0/state_hash"})
+    file.write(DataSetField{name, ElementType::uint64, "2", "1", ""}, std::vector<std::uint64_t>{1, 2});
+  file.write(DataSetField{"/variants/0/numbers/theta_c/values", type, shape, "deg", ""}, values);
+  std::vector<std::byte> bytes = file.image();
+  seal(bytes, averages_seal);
+  write_durably(path, bytes);
+}
+
 TEST(ReadAverages, refuses_other_files) {
   const test::TemporaryFolder folder;
   write_text(folder.path("text"), "talus run file 1\n");
   EXPECT_FALSE(holds_averages(folder.path("text")));
-  write_plain_file(folder.path("other.h5"), {{"/x", {2}, "1", "", {1.0, 2.0}, {}}}, {});
-  EXPECT_FALSE(holds_averages(folder.path("other.h5")));
   EXPECT_FALSE(holds_averages(folder.path("none")));
-  EXPECT_EQ(test::exit_code_of([&] { read_averages(folder.path("other.h5")); }), ExitCode::bad_data);
-  write_plain_file(folder.path("short.h5"),
-                   {{"/variants/0/seed", {2}, "1", "", {}, {1, 2}},
-                    {"/variants/0/numbers/theta_c/values", {1, 1}, "deg", "", {1.0}, {}}},
-                   {{"/variants/0", "name", {""}, false},
-                    {"/variants/0", "scenario", {""}, false},
-                    {"/variants/0", "state_hash", {"a", "b"}, true}});
-  EXPECT_EQ(test::exit_code_of([&] { read_averages(folder.path("short.h5")); }), ExitCode::bad_data)
-      << "a member without its number";
-  write_plain_file(folder.path("whole.h5"),
-                   {{"/variants/0/seed", {2}, "1", "", {}, {1, 2}},
-                    {"/variants/0/state_hash", {2}, "1", "", {}, {1, 2}},
-                    {"/variants/0/numbers/theta_c/values", {2, 1}, "deg", "", {}, {19, 20}}},
-                   {{"/variants/0", "name", {""}, false}, {"/variants/0", "scenario", {""}, false}});
-  EXPECT_EQ(test::exit_code_of([&] { read_averages(folder.path("whole.h5")); }), ExitCode::bad_data)
-      << "numbers of another kind";
+  EXPECT_EQ(test::exit_code_of([&] { read_averages(folder.path("text")); }), ExitCode::bad_data);
+  const std::string path = folder.path("made.h5");
+  const std::vector<double> both = {19.0, 20.0};
+  write_angles(path, ElementType::float64, "2 1", both);
+  EXPECT_TRUE(holds_averages(path));
+  EXPECT_EQ(read_averages(path).at(0).numbers.at(0).values, both);
+  const auto code = [&path] { return test::exit_code_of([&] { read_averages(path); }); };
+  write_angles(path, ElementType::float64, "1 1", std::vector<double>{19.0});
+  EXPECT_EQ(code(), ExitCode::bad_data) << "a member without its number";
+  write_angles(path, ElementType::uint64, "2 1", std::vector<std::uint64_t>{19, 20});
+  EXPECT_EQ(code(), ExitCode::bad_data) << "numbers of another kind";
 }
 
 TEST(ReadAverages, refuses_an_infinite_value) {

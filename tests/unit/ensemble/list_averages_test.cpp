@@ -10,7 +10,7 @@
 #include "analysis/quantities.h"
 #include "core/trigonometry.h"
 #include "ensemble/averages_file.h"
-#include "io/plain_file.h"
+#include "io/hdf5_reader.h"
 #include "support/blank_analysis.h"
 #include "support/exit_code.h"
 #include "support/temporary_folder.h"
@@ -78,16 +78,16 @@ TEST(ListAverages, stand_in_the_file_with_their_bins) {
   Averages numbers;
   numbers.over_tilt.angles = {0.0, 1.0, 2.0, 3.0, 4.0};
   write_averages(folder.path("e.h5"), {{"", "seed = 1\n", numbers, averages_of_two()}}, "0.1.0");
-  const PlainFile file = read_plain_file(folder.path("e.h5"));
-  const auto called = [&](const std::string& path) {
-    return *std::ranges::find(file.arrays, "/variants/0/" + path, &PlainArray::path);
+  hdf5::Reader file = hdf5::Reader::from_file(folder.path("e.h5"));
+  const auto values = [&](const std::string& path, const char* shape) {
+    const DataSetField field{"/variants/0/" + path, ElementType::float64, shape, "", ""};
+    return file.read<double>(field, hdf5::any_number);
   };
-  EXPECT_EQ(called("bins/gamma/edge").values, (std::vector{0.0, 0.5, 1.0}));
-  EXPECT_EQ(called("over_tilt/gamma/density/mean").shape, (std::vector<std::size_t>{5, 2}));
-  EXPECT_DOUBLE_EQ(called("over_tilt/gamma/density/mean").values[1], 20.0);
-  EXPECT_EQ(called("over_tilt/gamma/density/n").values[4 * 2], 0.0) << "no member reached 4 deg";
-  EXPECT_TRUE(std::isnan(called("over_tilt/gamma/density/mean").values[4 * 2]));
-  EXPECT_NEAR(called("over_tilt/gamma/density/deviation").values[0], std::sqrt(2.0), 1e-12);
+  EXPECT_EQ(values("bins/gamma/edge", "3"), (std::vector{0.0, 0.5, 1.0}));
+  EXPECT_DOUBLE_EQ(values("over_tilt/gamma/density/mean", "5 2")[1], 20.0);
+  EXPECT_EQ(values("over_tilt/gamma/density/n", "5 2")[4 * 2], 0.0) << "no member reached 4 deg";
+  EXPECT_TRUE(std::isnan(values("over_tilt/gamma/density/mean", "5 2")[4 * 2]));
+  EXPECT_NEAR(values("over_tilt/gamma/density/deviation", "5 2")[0], std::sqrt(2.0), 1e-12);
 }
 
 /// Every list of the table of quantities has numbers of its own.

@@ -22,17 +22,17 @@ namespace {
 TEST(ChildProcess, holds_no_file_of_its_parent) {
   const Descriptor file(::fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 100));
   ASSERT_GE(file.get(), 100);
-  const std::vector<std::byte> open = in_child_process("work", 0, [&] {
-    return std::vector<std::byte>{::fcntl(file.get(), F_GETFD) < 0 ? std::byte{0} : std::byte{1}};
+  const Parcels open = in_child_process("work", 0, [&] {
+    return Parcels{{"open", {::fcntl(file.get(), F_GETFD) < 0 ? std::byte{0} : std::byte{1}}}};
   });
-  EXPECT_EQ(open, std::vector{std::byte{0}});
+  EXPECT_EQ(open.at("open"), std::vector{std::byte{0}});
 }
 
 /// What a child does, and how that ends.
 std::string end_of(const std::function<std::vector<std::byte>()>& work) {
   try {
-    const auto bytes = in_child_process("p.h5", 0, work);
-    return "returned " + std::to_string(bytes.size());
+    Parcels found = in_child_process("p.h5", 0, [&] { return Parcels{{"bytes", work()}}; });
+    return "returned " + std::to_string(found["bytes"].size());
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::bad_data);
     return error.what();
@@ -54,6 +54,24 @@ TEST(ChildProcess, has_only_so_much_memory) {
   if (sanitizes_addresses) GTEST_SKIP() << "memory is not limited";
   std::size_t most = std::size_t{4} << 30;
   EXPECT_NE(end_of([&] { return std::vector<std::byte>(most); }).find("more memory"), std::string::npos);
+}
+
+TEST(Parcels, cut_short_on_their_way_are_refused) {
+  const std::vector<double> reals = {1.0, 2.0};
+  const Parcels parcels = {{"/g", {}}, {"/g/x", bytes_of(reals)}, {"/g/k", bytes_of(std::vector<int>{3})}};
+  const std::vector<std::byte> bytes = encode(parcels);
+  EXPECT_EQ(decode(bytes, "p.h5"), parcels);
+  EXPECT_EQ(values_of<std::vector<double>>(parcels.at("/g/x")), reals);
+  int whole = 0;
+  for (std::size_t size = 0; size <= bytes.size(); ++size) {
+    try {
+      decode(std::span(bytes).first(size), "p.h5");
+      ++whole;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::bad_data);
+    }
+  }
+  EXPECT_EQ(whole, 4) << "at the ends of parcels only";
 }
 
 }  // namespace

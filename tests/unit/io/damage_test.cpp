@@ -116,9 +116,10 @@ TEST(Damage, shapes_and_types_are_checked_against_the_schema) {
   }
   hdf5::Reader reader = hdf5::Reader::from_memory(image, "made.h5", {});
   EXPECT_EQ(reader.read<double>("/checkpoint/x"), (std::vector<double>{1, 2, 3}));
-  EXPECT_THROW(reader.read<double>("/checkpoint/y"), Error);                        // missing
-  EXPECT_THROW(reader.read_rows<double>("/particles/grains/radius", 2, 2), Error);  // too many rows
-  EXPECT_THROW(reader.read_text("/parameters/scenario_given"), Error);              // missing
+  EXPECT_THROW(reader.read<double>("/checkpoint/y"), Error);  // missing
+  EXPECT_THROW(reader.read<double>("/particles/grains/radius", {}, hdf5::Rows{2, 2}),
+               Error);                                                  // too many rows
+  EXPECT_THROW(reader.read_text("/parameters/scenario_given"), Error);  // missing
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "io/packed_file.h"
+#include "io/seal.h"
 #include "unit/io/example_run.h"
 
 namespace talus::example {
