@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Builds the benchmarks and writes every result to bench/results/: bench/run.sh [PART...]
-# Parts: solver, scale, siconos, siconos_si, siconos_dense, paper, dem, crowded, frames, ensemble, store, render, view; all of them with no argument.
+# Parts: solver, scale, siconos, siconos_si, siconos_dense, paper, dem, crowded, frames, ensemble, store, render, view, analysis; all of them with no argument.
 set -euo pipefail
 
 cd -- "$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")/.."
@@ -178,13 +178,24 @@ view() {
   keep view.md
 }
 
+analysis() {
+  local run=$build/analysis.h5
+  "$build/talus" run assets/scenarios/paper-pbc.toml -o "$run" --overwrite --quiet
+  {
+    heading "What the parts of an analysis cost for a frame of the paper's bed" "$build/analysis_bench $run"
+    "$build/analysis_bench" "$run"
+  } >"$results/analysis.md.part"
+  rm -f -- "$run"
+  keep analysis.md
+}
+
 parts=("$@")
-((${#parts[@]} > 0)) || parts=(solver scale siconos siconos_si siconos_dense paper dem crowded frames ensemble store render view)
+((${#parts[@]} > 0)) || parts=(solver scale siconos siconos_si siconos_dense paper dem crowded frames ensemble store render view analysis)
 build
 mkdir -p "$results"
 for part in "${parts[@]}"; do
   case $part in
-    solver | scale | siconos | siconos_si | siconos_dense | paper | dem | crowded | frames | ensemble | store | render | view) "$part" ;;
+    solver | scale | siconos | siconos_si | siconos_dense | paper | dem | crowded | frames | ensemble | store | render | view | analysis) "$part" ;;
     *) printf 'bench/run.sh: error: no part "%s"; they are listed at the top of this file\n' "$part" >&2 && exit 64 ;;
   esac
   printf '%s: done after %d s\n' "$part" "$SECONDS"

@@ -111,9 +111,11 @@ void CoarseFields::add_contacts(const BedFrame& bed) {
 template <typename What, typename Visit>
 void CoarseFields::near(const Sources<What>& sources, double x, double y, const Visit& visit) const {
   if (sources.what.empty()) return;
+  const double farthest = cutoff_ * cutoff_ * (1.0 + 1e-12);
   const auto meet = [&](Index k) {
     Vector2 d(sources.x[k] - x, sources.y[k] - y);
     d.x() += nearest_image(d.x(), period_) * period_;
+    if (d.squaredNorm() > farthest) return;  // without the root, of most
     const double distance = d.norm();
     if (distance < cutoff_) visit(sources.what[k], d, distance);
   };

@@ -13,7 +13,6 @@
 #include "analysis/pair_correlation.h"
 #include "analysis/rigid_clusters.h"
 #include "analysis/texture.h"
-#include "analysis/topology.h"
 #include "analysis/weak_contacts.h"
 #include "core/trigonometry.h"
 
@@ -216,7 +215,6 @@ FrameRecord analyse_frame(const BedFrame& bed, const AnalysisParameters& paramet
   take_gamma(bed, parameters.bins, record);
   take_directions(bed.frame, parameters.bins, record);
   take_contacts(bed, parameters.bins, record);
-  take_topology(bed, analysis.network_threshold, record);
   take_weak_contacts(bed, analysis.mobilisation_edge, record);
   take_correlations(bed, parameters.bins, record);
   take_local_solid_fraction(bed, record);

@@ -34,11 +34,11 @@ class CellCutter {
   explicit CellCutter(const BedFrame& bed)
       : bed_(bed),
         period_(period_of(bed.statics)),
-        farthest_(largest_power * bed.statics.mean_diameter * bed.statics.mean_diameter),
-        cells_(sort_into_cells(bed.frame.x, bed.frame.y, 2.0 * reach(largest_radius()), period_)) {}
+        reach_(reaches(bed.statics)),
+        cells_(sort_into_cells(bed.frame.x, bed.frame.y, 2.0 * std::ranges::max(reach_), period_)) {}
 
   GrainCell cell(Index i) {
-    const double half = reach(radius(i));
+    const double half = reach_[i];
     polygon_ = {{-half, -half}, {half, -half}, {half, half}, {-half, half}};
     for (Index ring = 0; ring <= 1; ++ring)
       visit_ring(cells_, column_of(cells_, bed_.frame.x[i]), row_of(cells_, bed_.frame.y[i]), ring,
@@ -48,6 +48,7 @@ class CellCutter {
     const double limit = half * half * (1.0 + 1e-12);
     cell.is_open =
         std::ranges::any_of(polygon_, [&](const Vector2& corner) { return corner.squaredNorm() > limit; });
+    cell.corners.reserve(polygon_.size());
     for (const Vector2& corner : polygon_)
       cell.corners.push_back({bed_.frame.x[i] + corner.x(), bed_.frame.y[i] + corner.y()});
     return cell;
@@ -55,17 +56,23 @@ class CellCutter {
 
  private:
   double radius(Index i) const { return bed_.statics.radius[i]; }
-  double largest_radius() const { return std::ranges::max(bed_.statics.radius); }
-  /// How far from the centre of a grain the largest power is; two grains whose circles of this radius do not
-  /// meet do not cut each other's cells within them.
-  double reach(double radius) const { return std::sqrt(radius * radius + farthest_); }
+  /// How far from the centre of each grain the largest power is; two grains whose circles of these radii do
+  /// not meet do not cut each other's cells within them.
+  static std::vector<double> reaches(const RunStatics& statics) {
+    const double farthest = largest_power * statics.mean_diameter * statics.mean_diameter;
+    std::vector<double> reaches;
+    for (const double radius : statics.radius) reaches.push_back(std::sqrt(radius * radius + farthest));
+    return reaches;
+  }
 
   void cut_by_grain(Index i, Index j) {
     if (i == j) return;
     Vector2 d(bed_.frame.x[j] - bed_.frame.x[i], bed_.frame.y[j] - bed_.frame.y[i]);
     d.x() += nearest_image(d.x(), period_) * period_;
-    const double distance = d.norm();
-    if (!(distance > 0.0) || distance >= reach(radius(i)) + reach(radius(j))) return;
+    const double together = reach_[i] + reach_[j], square = d.squaredNorm();
+    if (square > together * together * (1.0 + 1e-12)) return;  // without the root, of most
+    const double distance = std::sqrt(square);
+    if (!(distance > 0.0) || distance >= together) return;
     const double height =
         (distance * distance + radius(i) * radius(i) - radius(j) * radius(j)) / (2.0 * distance);  // (T30)
     clip(polygon_, d / distance, height, scratch_);
@@ -81,7 +88,8 @@ class CellCutter {
   }
 
   BedFrame bed_;
-  double period_, farthest_;
+  double period_;
+  std::vector<double> reach_;  ///< m, of each grain
   Cells cells_;
   Polygon polygon_, scratch_;
 };

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <map>
 #include <tuple>
 #include <utility>
@@ -111,43 +113,72 @@ SortedRows sort_into_rows(const Points& points, double reach, double period) {
   return sorted;
 }
 
-/// Sums over pairs in bins of their distance. The last bin takes the pairs that are too far apart.
-struct PairSums {
-  PairSums(double farthest, double bin_width, int bins)
-      : reach(farthest),
-        width(bin_width),
-        products(static_cast<std::size_t>(bins) + 1, 0.0),
-        pairs(products.size(), 0.0) {}
+/// Sums over pairs in bins of their distance. Single precision tells the bin of nearly all pairs, for four at
+/// a time; double precision is asked only where that is nearer to the end of a bin than it may be wrong.
+class PairSums {
+ public:
+  struct Sum {
+    double products = 0.0, pairs = 0.0;
+  };
 
-  double reach, width;  ///< m
-  std::vector<double> products, pairs;
-};
+  PairSums(const SortedRows& rows, double reach, double width, int bins)
+      : rows_(rows), reach_(reach), width_(width), bins_(bins), sums_(static_cast<std::size_t>(bins) + 1) {
+    x_.assign(rows.x.begin(), rows.x.end());
+    y_.assign(rows.y.begin(), rows.y.end());
+    for (std::vector<float>* places : {&x_, &y_}) places->resize(places->size() + lanes);
+    double farthest = 0.0;
+    for (std::size_t i = 0; i < rows.x.size(); ++i)
+      farthest = std::max(farthest, std::fabs(rows.x[i]) + std::fabs(rows.y[i]));
+    // Where the reach ends within a bin, all pairs are asked.
+    if (reach > bins * width * (1.0 - 1e-9))
+      error_ = static_cast<float>(4.0 * std::numeric_limits<float>::epsilon() * (farthest / width + bins));
+  }
 
-/// Counts the pairs of a point with a block of points in. In pieces, as the compiler takes several distances
-/// at a time where their bins go to a small array first.
-void add_block(const SortedRows& rows, std::size_t i, std::size_t first, std::size_t last, PairSums& sums) {
-  constexpr std::size_t piece = 64;
-  std::array<int, piece> bin{};
-  const double x = rows.x[i], y = rows.y[i], deviation = rows.deviation[i];
-  const double square_of_reach = sums.reach * sums.reach, width = sums.width;
-  const auto beyond = static_cast<int>(sums.pairs.size()) - 1;
-  const double last_bin = beyond - 1;
-  for (; first < last; first += piece) {
-    const std::size_t count = std::min(piece, last - first);
-    const double* const other_x = rows.x.data() + first;
-    const double* const other_y = rows.y.data() + first;
-    for (std::size_t k = 0; k < count; ++k) {
-      const double dx = other_x[k] - x, dy = other_y[k] - y, square = dx * dx + dy * dy;
-      const auto inside = static_cast<int>(std::min(std::sqrt(square) / width, last_bin));
-      bin[k] = square < square_of_reach ? inside : beyond;
-    }
-    for (std::size_t k = 0; k < count; ++k) {
-      const auto b = static_cast<std::size_t>(bin[k]);
-      sums.products[b] += deviation * rows.deviation[first + k];
-      sums.pairs[b] += 1.0;
+  /// Counts the pairs of a point with a block of points in.
+  void add_block(std::size_t i, std::size_t first, std::size_t last) {
+    constexpr std::size_t piece = 64;
+    std::array<std::int32_t, piece> bin{};
+    const float x = x_[i], y = y_[i], in_bins = static_cast<float>(1.0 / width_), error = error_;
+    const float beyond = static_cast<float>(bins_) + 0.5F;
+    const double deviation = rows_.deviation[i];
+    for (; first < last; first += piece) {
+      const std::size_t count = std::min(piece, last - first);
+      const float* const other_x = x_.data() + first;
+      const float* const other_y = y_.data() + first;
+      for (std::size_t k = 0; k < (count + lanes - 1) / lanes * lanes; ++k) {
+        const float dx = other_x[k] - x, dy = other_y[k] - y;
+        const float place = std::min(std::sqrt(dx * dx + dy * dy) * in_bins, beyond);
+        const auto whole = static_cast<std::int32_t>(place);
+        const float part = place - static_cast<float>(whole);
+        bin[k] = part < error || part > 1.0F - error ? not_sure : whole;
+      }
+      for (std::size_t k = 0; k < count; ++k) {
+        const std::size_t at = bin[k] >= 0 ? static_cast<std::size_t>(bin[k]) : exact_bin(i, first + k);
+        sums_[at].products += deviation * rows_.deviation[first + k];
+        sums_[at].pairs += 1.0;
+      }
     }
   }
-}
+
+  const Sum& of(std::size_t bin) const { return sums_[bin]; }
+
+ private:
+  static constexpr std::size_t lanes = 4;
+  static constexpr std::int32_t not_sure = -1;
+
+  std::size_t exact_bin(std::size_t i, std::size_t j) const {
+    const double dx = rows_.x[j] - rows_.x[i], dy = rows_.y[j] - rows_.y[i], square = dx * dx + dy * dy;
+    if (square >= reach_ * reach_) return sums_.size() - 1;
+    return static_cast<std::size_t>(std::min(std::sqrt(square) / width_, bins_ - 1.0));
+  }
+
+  const SortedRows& rows_;
+  double reach_, width_;  ///< m
+  int bins_;
+  float error_ = 1.0F;        ///< that a distance in single precision has at most, in bins
+  std::vector<float> x_, y_;  ///< of the rows, and a few beyond their end
+  std::vector<Sum> sums_;     ///< of the bins, and of all pairs that are too far apart
+};
 
 /// Counts the pairs of the points of a row with those of another one at or above it, or within it.
 void add_pairs(const SortedRows& rows, std::size_t row, std::size_t above, double reach, PairSums& sums) {
@@ -160,7 +191,7 @@ void add_pairs(const SortedRows& rows, std::size_t row, std::size_t above, doubl
   for (std::size_t i = from.own_first; i < from.own_last; ++i) {
     while (first < to.last && rows.x[first] < rows.x[i] - across) ++first;
     while (last < to.last && rows.x[last] <= rows.x[i] + across) ++last;
-    add_block(rows, i, above == row ? i + 1 : first, last, sums);
+    sums.add_block(i, above == row ? i + 1 : first, last);
   }
 }
 
@@ -171,17 +202,18 @@ PairCorrelation pair_correlation(const std::vector<double>& x, const std::vector
   const Points points = points_with_value(x, y, value);
   const double reach = period > 0.0 ? std::min(largest, 0.5 * period) : largest;
   const SortedRows rows = sort_into_rows(points, reach, period);
-  PairSums sums(reach, largest / bins, bins);
+  PairSums sums(rows, reach, largest / bins, bins);
   const auto steps = static_cast<std::size_t>(std::ceil(reach / rows.height)) + 1;
   for (std::size_t row = 0; row < rows.rows.size(); ++row)
     for (std::size_t other = row; other < std::min(row + steps, rows.rows.size()); ++other)
       add_pairs(rows, row, other, reach, sums);
   PairCorrelation result;
   for (std::size_t bin = 0; bin < static_cast<std::size_t>(bins); ++bin) {
-    const bool any = sums.pairs[bin] > 0.0 && points.variance > 0.0;
+    const auto [products, pairs] = sums.of(bin);
+    const bool any = pairs > 0.0 && points.variance > 0.0;
     result.r.push_back((static_cast<double>(bin) + 0.5) * largest / bins);
-    result.value.push_back(any ? sums.products[bin] / (sums.pairs[bin] * points.variance) : not_known);
-    result.pairs.push_back(sums.pairs[bin]);
+    result.value.push_back(any ? products / (pairs * points.variance) : not_known);
+    result.pairs.push_back(pairs);
   }
   return result;
 }

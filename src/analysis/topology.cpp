@@ -1,7 +1,11 @@
 #include "analysis/topology.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
+#include <iterator>
+#include <utility>
 
 #include "analysis/disjoint_sets.h"
 #include "core/trigonometry.h"
@@ -9,7 +13,7 @@
 namespace talus {
 namespace {
 
-constexpr int slices = 16;
+constexpr std::size_t slices = 16;
 
 /// Contacts between free grains, the largest normal force first.
 std::vector<Index> contacts_by_force(const BedFrame& bed) {
@@ -56,16 +60,51 @@ class GrowingGraph {
   std::vector<double> birth_;  ///< of roots
 };
 
-/// Where the points of one diagram, and those of another on the diagonal, lie on a line; in their order.
-std::vector<double> projections(std::span<const Lifetime> points, std::span<const Lifetime> on_diagonal,
-                                double line_x, double line_y) {
-  std::vector<double> places;
-  places.reserve(points.size() + on_diagonal.size());
-  for (const Lifetime& point : points) places.push_back(line_x * point.birth + line_y * point.death);
-  for (const Lifetime& point : on_diagonal)
-    places.push_back(0.5 * (line_x + line_y) * (point.birth + point.death));
-  std::ranges::sort(places);
-  return places;
+/// Where the points of a diagram lie on the lines of all directions, and where their projections onto the
+/// diagonal do; in ascending order.
+struct Projections {
+  std::array<std::vector<double>, slices> points, on_diagonal;
+};
+
+/// In ascending order; loops come in descending order already.
+void sort_ascending(std::vector<double>& places) {
+  if (std::ranges::is_sorted(places, std::greater()))
+    std::ranges::reverse(places);
+  else
+    std::ranges::sort(places);
+}
+
+Projections project(std::span<const Lifetime> lifetimes) {
+  std::vector<double> sums;
+  for (const Lifetime& point : lifetimes) sums.push_back(point.birth + point.death);
+  sort_ascending(sums);
+  Projections projections;
+  for (std::size_t slice = 0; slice < slices; ++slice) {
+    const double direction = pi * (static_cast<double>(slice) / slices - 0.5);
+    const double x = cosine(direction), y = sine(direction);
+    std::vector<double>&points = projections.points[slice], &on_diagonal = projections.on_diagonal[slice];
+    points.reserve(lifetimes.size());
+    for (const Lifetime& point : lifetimes) points.push_back(x * point.birth + y * point.death);
+    sort_ascending(points);
+    on_diagonal.reserve(lifetimes.size());
+    for (const double sum : sums) on_diagonal.push_back(0.5 * (x + y) * sum);
+    sort_ascending(on_diagonal);
+  }
+  return projections;
+}
+
+/// That of sliced_distance.
+double distance(const Projections& one, const Projections& other) {
+  double sum = 0.0;
+  std::vector<double> mine, its;
+  for (std::size_t slice = 0; slice < slices; ++slice) {
+    mine.clear();
+    its.clear();
+    std::ranges::merge(one.points[slice], other.on_diagonal[slice], std::back_inserter(mine));
+    std::ranges::merge(other.points[slice], one.on_diagonal[slice], std::back_inserter(its));
+    for (std::size_t k = 0; k < mine.size(); ++k) sum += std::abs(mine[k] - its[k]);
+  }
+  return sum / slices;
 }
 
 }  // namespace
@@ -102,33 +141,29 @@ double total_persistence(std::span<const Lifetime> lifetimes) {
 }
 
 double sliced_distance(std::span<const Lifetime> one, std::span<const Lifetime> other) {
-  double sum = 0.0;
-  for (int slice = 0; slice < slices; ++slice) {
-    const double direction = pi * (static_cast<double>(slice) / slices - 0.5);
-    const double x = cosine(direction), y = sine(direction);
-    const std::vector<double> mine = projections(one, other, x, y), its = projections(other, one, x, y);
-    for (std::size_t k = 0; k < mine.size(); ++k) sum += std::abs(mine[k] - its[k]);
-  }
-  return sum / slices;
+  return distance(project(one), project(other));
 }
 
-void take_topology(const BedFrame& bed, std::span<const double> thresholds, FrameRecord& record) {
-  const PersistenceDiagram diagram = force_persistence(bed, record.mean_normal_force);
+void take_topology(const PersistenceDiagram& diagram, Index free_count, std::span<const double> thresholds,
+                   FrameRecord& record) {
   for (const double threshold : thresholds) {
     const GraphCount count = count_at(diagram, threshold);
     record.network_components.push_back(count.components);
     record.network_loops.push_back(count.loops);
   }
-  record.component_persistence = total_persistence(diagram.components) / bed.statics.free_count;
-  record.loop_persistence = total_persistence(diagram.loops) / bed.statics.free_count;
+  record.component_persistence = total_persistence(diagram.components) / free_count;
+  record.loop_persistence = total_persistence(diagram.loops) / free_count;
 }
 
 void take_network_changes(const std::vector<PersistenceDiagram>& diagrams, Index free_count,
                           std::vector<FrameRecord>& frames) {
-  for (std::size_t k = 1; k < frames.size(); ++k)
-    frames[k].network_change = {
-        sliced_distance(diagrams[k - 1].components, diagrams[k].components) / free_count,
-        sliced_distance(diagrams[k - 1].loops, diagrams[k].loops) / free_count};
+  std::array<Projections, 2> before, now;
+  for (std::size_t k = 0; k < frames.size(); ++k, std::swap(before, now)) {
+    now = {project(diagrams[k].components), project(diagrams[k].loops)};
+    if (k == 0) continue;
+    for (std::size_t s = 0; s < now.size(); ++s)
+      frames[k].network_change[s] = distance(before[s], now[s]) / free_count;
+  }
 }
 
 }  // namespace talus

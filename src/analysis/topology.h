@@ -44,9 +44,10 @@ double total_persistence(std::span<const Lifetime> lifetimes);
 /// mean over the directions.
 double sliced_distance(std::span<const Lifetime> one, std::span<const Lifetime> other);
 
-/// Thresholds over the mean normal force of all contacts. Sets members of a record, which are defined in the
-/// table of quantities.
-void take_topology(const BedFrame& bed, std::span<const double> thresholds, FrameRecord& record);
+/// `diagram` and `thresholds` over the mean normal force of all contacts. Sets members of a record, which are
+/// defined in the table of quantities.
+void take_topology(const PersistenceDiagram& diagram, Index free_count, std::span<const double> thresholds,
+                   FrameRecord& record);
 
 /// What changes from frame to frame: `diagrams` are those of the frames, in units of their mean normal
 /// forces. Sets a member of their records.

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fmt/core.h>
+#include <mutex>
 #include <optional>
 #include <utility>
 
@@ -45,7 +46,9 @@ struct Workshop {
 };
 
 void draw_maps(const Figure& figure, const fs::path& folder, double width) {
+  static std::mutex drawing;  // the memory of one picture at a time
   if (figure.maps.empty()) return;
+  const std::lock_guard one_at_a_time(drawing);
   Renderer renderer(make_context(std::nullopt));
   for (const FigureMap& map : figure.maps)
     write_png((folder / file_of(figure, map)).string(),

@@ -5,7 +5,9 @@
 #include <cstdio>
 #include <filesystem>
 #include <fmt/core.h>
+#include <future>
 #include <memory>
+#include <mutex>
 
 #include "app/choices.h"
 #include "app/command_line.h"
@@ -102,6 +104,36 @@ std::vector<Figure> make_figures(const std::vector<FigureRecipe>& recipes, std::
   return figures;
 }
 
+/// Side by side: gnuplot takes most of the time, and it draws a figure on one processor.
+void write_figures(const std::vector<Figure>& figures, std::span<const RunGroup> groups,
+                   const FiguresArguments& arguments) {
+  const CountDone progress = count_shown("figures", arguments.quiet);
+  progress(0, figures.size());
+  std::mutex counting;
+  std::size_t next = 0, done = 0;
+  const auto work = [&] {
+    std::unique_lock lock(counting);
+    while (next < figures.size()) {
+      const Figure& figure = figures[next++];
+      lock.unlock();
+      try {
+        stop_if_asked();
+        write_figure(figure, groups, arguments.folder, {arguments.columns, command_line()});
+      } catch (...) {
+        lock.lock();
+        next = figures.size();  // no others are begun
+        throw;
+      }
+      lock.lock();
+      progress(++done, figures.size());
+    }
+  };
+  std::vector<std::future<void>> others;
+  for (int t = 1; t < arguments.analysis.threads; ++t) others.push_back(std::async(std::launch::async, work));
+  work();
+  for (std::future<void>& other : others) other.get();
+}
+
 void make(const FiguresArguments& arguments) {
   const std::vector<FigureRecipe> recipes = chosen_recipes(arguments.only);
   parse_analysis_settings(arguments.settings);  // before anything is read
@@ -115,13 +147,7 @@ void make(const FiguresArguments& arguments) {
   const OutputRule rule{arguments.overwrite, input.files};
   for (const Figure& figure : figures)
     for (const std::string& file : figure_files(figure)) output_target((folder / file).string(), rule);
-  const CountDone progress = count_shown("figures", arguments.quiet);
-  progress(0, figures.size());
-  for (std::size_t k = 0; k < figures.size(); ++k) {
-    stop_if_asked();
-    write_figure(figures[k], groups, arguments.folder, {arguments.columns, command_line()});
-    progress(k + 1, figures.size());
-  }
+  write_figures(figures, groups, arguments);
   for (const Figure& figure : figures) print("%-34s %s\n", figure.name.c_str(), figure.title.c_str());
   print("%zu figure%s in %s: .pdf, .svg, .png; data in .csv, provenance in .json, script in .gp\n",
         figures.size(), figures.size() == 1 ? "" : "s", arguments.folder.c_str());
@@ -164,7 +190,7 @@ void add_figures_command(CLI::App& app) {
       ->allow_extra_args(false);
   command
       ->add_option("--threads", arguments->analysis.threads,
-                   "Frames analysed side by side; the result does not depend on it")
+                   "Frames analysed, and figures drawn, side by side; the result does not depend on it")
       ->capture_default_str()
       ->check(in_range(1, 256));
   command->add_flag("--overwrite", arguments->overwrite, "Replace files that exist");

@@ -49,9 +49,11 @@ void analyse_frames(const RunFile& run, const AnalysisParameters& parameters, in
       const Frame before = std::exchange(last, places_of(frame));
       lock.unlock();
       const BedFrame bed = {frame, run.header().statics};
-      analysis.frames[k] = analyse_frame(bed, parameters, analysis);
-      networks[k] = force_persistence(bed, analysis.frames[k].mean_normal_force);
-      if (k > 0) take_deformation(before, bed, analysis.frames[k]);
+      FrameRecord& record = analysis.frames[k];
+      record = analyse_frame(bed, parameters, analysis);
+      networks[k] = force_persistence(bed, record.mean_normal_force);
+      take_topology(networks[k], bed.statics.free_count, analysis.network_threshold, record);
+      if (k > 0) take_deformation(before, bed, record);
       lock.lock();
       ++done;
       if (progress) progress(done);

@@ -66,8 +66,7 @@ TEST(Topology, a_row_around_the_period_is_a_loop) {
 TEST(Topology, thresholds_are_of_the_mean_force) {
   const Packing packing = two_triangles();
   FrameRecord record;
-  record.mean_normal_force = 2.0;
-  take_topology(packing, std::vector<double>{0.5, 0.75, 2.0}, record);
+  take_topology(force_persistence(packing, 2.0), 7, std::vector<double>{0.5, 0.75, 2.0}, record);
   EXPECT_EQ(record.network_components, (std::vector<double>{1.0, 2.0, 2.0}));
   EXPECT_EQ(record.network_loops, (std::vector<double>{2.0, 2.0, 0.0}));
 }

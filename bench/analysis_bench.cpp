@@ -1,0 +1,110 @@
+/// What the parts of an analysis cost for a frame, in processor time of one thread: the mean over frames
+/// spread evenly through a run that has been analysed, the least of some rounds. A row of a Markdown table
+/// each.
+
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "analysis/coarse_fields.h"
+#include "analysis/frame_analysis.h"
+#include "analysis/local_deformation.h"
+#include "analysis/local_solid_fraction.h"
+#include "analysis/pair_correlation.h"
+#include "analysis/rigid_clusters.h"
+#include "analysis/topology.h"
+#include "core/errors.h"
+#include "io/run_file.h"
+#include "processor_time.h"
+#include "program.h"
+
+namespace talus::bench {
+namespace {
+
+constexpr std::size_t sampled = 8;
+constexpr int rounds = 5;
+
+struct Sample {
+  Frame stored, frame, before;  ///< `frame` with the gamma of neighbourhoods
+  PersistenceDiagram network, network_before;
+  FrameRecord record;
+};
+
+Sample sample_of(const RunFile& run, const AnalysisParameters& parameters, std::size_t k) {
+  const RunStatics& statics = run.header().statics;
+  Sample sample;
+  sample.stored = run.frame(k);
+  sample.frame = with_analysed_gamma(sample.stored, statics, parameters);
+  sample.before = run.frame(k - 1);
+  sample.network = force_persistence({sample.frame, statics}, 1.0);
+  sample.network_before = force_persistence({sample.before, statics}, 1.0);
+  return sample;
+}
+
+int measure(int argc, char** argv) {
+  if (argc != 2) throw Error(ExitCode::usage, "expected the path of a run");
+  const RunFile run = RunFile::open(argv[1]);
+  const RunStatics& statics = run.header().statics;
+  const AnalysisParameters parameters;
+  const double theta_c = find_value(run.checkpoint().results, "theta_c").value_or(0.35);
+  const Analysis analysis = begin_analysis(statics, parameters, theta_c);
+  std::vector<std::size_t> numbers;
+  std::vector<Sample> samples;
+  for (std::size_t s = 1; s <= sampled; ++s) {
+    numbers.push_back(s * (run.frame_count() - 1) / sampled);
+    samples.push_back(sample_of(run, parameters, numbers.back()));
+  }
+  const double largest = analysis.correlation_distance.back() + analysis.correlation_distance.front();
+  const auto row = [&](const char* part, const std::function<void(Sample&, std::size_t)>& work) {
+    double least = std::numeric_limits<double>::infinity();
+    for (int round = 0; round < rounds; ++round) {
+      const double begin = processor_seconds();
+      for (std::size_t s = 0; s < samples.size(); ++s) work(samples[s], numbers[s]);
+      least = std::fmin(least, processor_seconds() - begin);
+    }
+    std::printf("| %s | %.2f |\n", part, 1e3 * least / static_cast<double>(samples.size()));
+    std::fflush(stdout);
+  };
+  std::printf("| part | ms a frame |\n|---|--:|\n");
+  row("frame read", [&](Sample&, std::size_t k) { (void)run.frame(k); });
+  row("gamma of neighbourhoods",
+      [&](Sample& of, std::size_t) { (void)with_analysed_gamma(of.stored, statics, parameters); });
+  row("thresholds: l_c, clusters, directed paths", [&](Sample& of, std::size_t) {
+    (void)analyse_thresholds({of.frame, statics}, parameters, analysis, 1.0);
+  });
+  row("correlations of forces, gamma and mean stress", [&](Sample& of, std::size_t) {
+    (void)force_correlation({of.frame, statics}, largest, parameters.bins);
+    (void)stress_ratio_correlation({of.frame, statics}, largest, parameters.bins);
+    (void)mean_stress_correlation({of.frame, statics}, largest, parameters.bins);
+  });
+  row("local solid fraction", [&](Sample& of, std::size_t) {
+    take_local_solid_fraction({of.frame, statics}, of.record);
+  });
+  row("granular temperature", [&](Sample& of, std::size_t) {
+    take_granular_temperature({of.frame, statics}, of.record);
+  });
+  row("local deformation", [&](Sample& of, std::size_t) {
+    take_deformation(of.before, {of.frame, statics}, of.record);
+  });
+  row("rigid clusters", [&](Sample& of, std::size_t) {
+    take_rigid_clusters({of.frame, statics}, of.record);
+  });
+  row("persistence", [&](Sample& of, std::size_t) { (void)force_persistence({of.frame, statics}, 1.0); });
+  row("change of the network", [&](Sample& of, std::size_t) {
+    std::vector<FrameRecord> records(2);
+    take_network_changes({of.network_before, of.network}, statics.free_count, records);
+  });
+  row("all of a frame but reading and what it is compared with", [&](Sample& of, std::size_t) {
+    (void)analyse_frame({with_analysed_gamma(of.stored, statics, parameters), statics}, parameters, analysis);
+  });
+  return 0;
+}
+
+}  // namespace
+}  // namespace talus::bench
+
+int main(int argc, char** argv) {
+  return talus::bench::run_program("analysis_bench", talus::bench::measure, argc, argv);
+}
