@@ -8,12 +8,12 @@
 #include "app/output_files.h"
 #include "app/terminal.h"
 #include "core/errors.h"
+#include "core/paths.h"
 #include "core/visible_text.h"
 #include "ensemble/averages_reader.h"
 #include "ensemble/ensemble_manifest.h"
 #include "ensemble/member_reader.h"
 #include "ensemble/member_state.h"
-#include "io/seal.h"
 #include "runs/analysis_parameters.h"
 
 namespace talus {
