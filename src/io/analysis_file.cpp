@@ -121,7 +121,8 @@ std::vector<StoredReading> read_readings(const RunFile& run) {
   for (const std::string& name : reader.names("/readings/key")) {
     const std::string value = "/readings/value/" + name;
     readings.push_back({name, reader.read_text("/readings/key/" + name), reader.row_count(value),
-                        reader.read<double>(value), reader.read<std::int8_t>("/readings/at_most/" + name)});
+                        reader.read<double>(value, hdf5::any_number),
+                        reader.read<std::int8_t>("/readings/at_most/" + name)});
   }
   return readings;
 }

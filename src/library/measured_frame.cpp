@@ -8,6 +8,7 @@
 
 #include "analysis/frame_analysis.h"
 #include "analysis/quantities.h"
+#include "analysis/topology.h"
 #include "core/errors.h"
 #include "core/nearest_word.h"
 #include "core/trigonometry.h"
@@ -68,6 +69,8 @@ const FrameRecord& MeasuredFrame::record() {
   if (record_) return *record_;
   const Analysis analysis = begin_analysis(input_.statics, input_.parameters, theta_c());
   record_ = analyse_frame({judged(), input_.statics}, input_.parameters, analysis);
+  take_topology(force_persistence({judged(), input_.statics}, record_->mean_normal_force),
+                input_.statics.free_count, analysis.network_threshold, *record_);
   if (input_.row) {
     record_->volume_strain = at(*input_.row, Observable::volume_strain);
     record_->centre_of_mass_strain = at(*input_.row, Observable::centre_of_mass_strain);

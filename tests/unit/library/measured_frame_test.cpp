@@ -34,8 +34,7 @@ TEST(MeasuredFrame, of_a_file_has_the_numbers_of_its_analysis) {
   MeasuredFrame frame = measured_frame(folder.path("run.h5"), k, {"gamma_c=0.3"});
   int compared = 0;
   for (const Quantity& quantity : quantities()) {
-    if (!is_number_of_frame(quantity) || quantity.name.starts_with("deformation/") ||
-        quantity.name.starts_with("topology/"))
+    if (!is_number_of_frame(quantity) || quantity.name.starts_with("deformation/"))
       continue;  // of two frames
     for (std::size_t f = 0; f < (needs_threshold(quantity) ? 2u : 1u); ++f) {
       const std::string name = f == 0 ? quantity.name : quantity.name + "[1]";
