@@ -93,6 +93,26 @@ TEST(GrainQuantitiesOfARun, are_judged_as_the_analysis_does) {
   EXPECT_GT(overloaded, 0);
 }
 
+/// Grain 39 is lifted by a metre, which is D, between the frames at 5 and at 10 deg.
+TEST(GrainQuantitiesOfARun, are_measured_since_the_frame_that_the_map_goes_by) {
+  const test::TemporaryFolder folder;
+  example::write_bed_run(folder.path("run.h5"), 20.0);
+  ViewModel model = example::opened(folder.path("run.h5"));
+  model.go_to(2);
+  const auto distance = [&] { return model.grain_values(grain_number("distance"))[39]; };
+  EXPECT_NEAR(distance(), 0.2, 1e-6) << "per degree since the frame before";
+  model.state.since = radians(0.0);
+  EXPECT_NEAR(distance(), 1.0, 1e-6) << "in all";
+  model.state.map.layers = {MapKind::displacement};
+  model.first().map(2.0);
+  EXPECT_EQ(model.first().values().values[39], distance()) << "as the map has it";
+  model.state.selecting.condition = "distance > 0.5";
+  model.select_by_condition();
+  EXPECT_EQ(model.selected_grains(), std::vector<Index>{39});
+  model.go_to(1);
+  EXPECT_EQ(distance(), 0.0);
+}
+
 TEST(GrainQuantitiesOfPages, docs_list_those_that_no_export_has) {
   std::ifstream file(test::source_folder() + "/docs/view.md");
   const std::string page{std::istreambuf_iterator<char>(file), {}};
