@@ -8,7 +8,8 @@
 
 int main(int count, char** arguments) {
   try {
-    if (count < 3) throw talus::Error(talus::ExitCode::usage, "usage: branches SCENARIO.toml TILT [KEY=VALUE...]");
+    if (count < 3)
+      throw talus::Error(talus::ExitCode::usage, "usage: branches SCENARIO.toml TILT [KEY=VALUE...]");
     talus::Simulation bed(talus::read_scenario(arguments[1], {arguments + 3, arguments + count}));
     bed.deposit();
     bed.tilt_to(std::atof(arguments[2]));

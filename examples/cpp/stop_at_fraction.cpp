@@ -7,7 +7,8 @@
 
 int main(int count, char** arguments) {
   try {
-    if (count < 2) throw talus::Error(talus::ExitCode::usage, "usage: stop_at_fraction SCENARIO.toml [KEY=VALUE...]");
+    if (count < 2)
+      throw talus::Error(talus::ExitCode::usage, "usage: stop_at_fraction SCENARIO.toml [KEY=VALUE...]");
     talus::Simulation sim(talus::read_scenario(arguments[1], {arguments + 2, arguments + count}));
     sim.record("held.h5", true);
     sim.deposit();
