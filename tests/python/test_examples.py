@@ -17,7 +17,7 @@ pytest.importorskip("talus._core", reason="the extension is not built: pybind11-
 
 EXAMPLES = ROOT / "examples/python"
 PAGE = (ROOT / "docs/python.md").read_text()
-QUICK = ["deposition.rate=2", "deposition.rest_velocity=0.1"]
+QUICK = ["deposition.rate=2", "deposition.rest_velocity=0.1", "output.frame_every=10"]
 
 
 @pytest.fixture
@@ -48,8 +48,9 @@ def test_a_bed_is_held_where_half_of_it_is_overloaded(run_example, capsys):
     assert names["time"][-1] - names["time"][0] == pytest.approx(names["HOLD"])
     assert names["speed"][-10:].max() < 1e-4 < names["speed"].max(), "it is at rest"
     assert f"{sim.tilt:.2f} deg: " in capsys.readouterr().out
+    sim.commit()
     recorded = talus.open("held.h5")
-    assert not recorded.complete and np.degrees(recorded.frames[-1].tilt) == pytest.approx(sim.tilt)
+    assert not recorded.complete and recorded.steps["step"][-1] == sim.step_count
 
 
 def test_the_controller_keeps_a_slope_at_the_edge(run_example, capsys):
