@@ -375,6 +375,9 @@ PYBIND11_MODULE(_core, module) {
   bind_state(type);
   bind_arrays(type);
   bind_measures(type);
+  type.def("_save", [](Driven& driven, const std::string& path, bool overwrite) {
+    driven.use([&](Simulation& simulation) { simulation.save(path, overwrite); });
+  });
   type.def("_record", [](Driven& driven, const std::string& path, bool overwrite) {
     driven.use([&](Simulation& simulation) { simulation.record(path, overwrite); });
   });

@@ -433,6 +433,10 @@ class Simulation:
         later one that branches off from the state as it is."""
         self._core._record(_path(path), overwrite)
 
+    def save(self, path: str | os.PathLike[str], *, overwrite: bool = False) -> None:
+        """Writes the state as it is as a run of its own, from which resume goes on."""
+        self._core._save(_path(path), overwrite)
+
     @property
     def recorded(self) -> bool:
         """Whether it is being recorded."""

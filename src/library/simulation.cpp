@@ -243,6 +243,10 @@ void Simulation::record(const std::string& path, bool overwrite) {
   state.recorder->commit();
 }
 
+void Simulation::save(const std::string& path, bool overwrite) const {
+  Simulation(*this).record(path, overwrite);
+}
+
 bool Simulation::recorded() const { return state_->recorder.has_value(); }
 
 void Simulation::commit() {

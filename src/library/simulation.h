@@ -102,6 +102,8 @@ class Simulation {
   /// if it is recorded already.
   void record(const std::string& path, bool overwrite = false);
   bool recorded() const;
+  /// Writes the state as it is as a run of its own, which can be resumed. Throws as record does.
+  void save(const std::string& path, bool overwrite = false) const;
   /// Makes all that was recorded durable. It is done at each frame, at the end, and when the simulation goes.
   void commit();
 

@@ -108,6 +108,24 @@ TEST(Simulation, is_repeated_from_its_file_with_its_commands) {
   EXPECT_EQ(replayed(RunFile::open(folder.path("run.h5"))), sim.state_hash());
 }
 
+TEST(Simulation, that_is_saved_goes_on_from_there_as_often_as_it_is_resumed) {
+  const test::TemporaryFolder folder;
+  Simulation sim(test::small_tilted_bed(3.0));
+  sim.deposit();
+  sim.set_friction(0.3);
+  sim.save(folder.path("saved.h5"));
+  const std::string state = sim.state_hash();
+  EXPECT_FALSE(sim.recorded());
+  EXPECT_EQ(test::exit_code_of([&] { sim.save(folder.path("saved.h5")); }), ExitCode::cannot_create);
+  sim.finish();
+  Simulation later = Simulation::resume(folder.path("saved.h5"));
+  EXPECT_EQ(later.state_hash(), state);
+  EXPECT_EQ(later.friction(), 0.3);
+  later.finish();
+  EXPECT_EQ(later.state_hash(), sim.state_hash());
+  EXPECT_EQ(later.theta_c(), sim.theta_c());
+}
+
 TEST(Simulation, that_is_recorded_later_is_a_branch_which_can_be_repeated) {
   const test::TemporaryFolder folder;
   Simulation sim(poured_bed());
