@@ -71,7 +71,8 @@ TEST_P(SimulationOfChance, has_the_same_bits) {
     else
       sim.commit();
   }
-  EXPECT_EQ(sim.state_hash(), end_of(scenario));
+  static const std::string expected = end_of(scenario);
+  EXPECT_EQ(sim.state_hash(), expected);
   EXPECT_TRUE(!recorded || RunFile::open(folder.path("run.h5")).complete());
 }
 
