@@ -403,6 +403,16 @@ class Simulation:
         return self._core.length
 
     @property
+    def periodic(self) -> bool:
+        """Whether x has the period L; otherwise the bed lies between walls."""
+        return self._core.periodic
+
+    @property
+    def gravity(self) -> float:
+        """g, m/s^2."""
+        return self._core.gravity
+
+    @property
     def scenario(self) -> str:
         """The scenario with every key, as TOML."""
         return self._core.scenario

@@ -21,12 +21,15 @@ std::string text_of(const std::string& path) {
   return text.str();
 }
 
-/// The lines of a page that are set as commands.
+/// The lines of a page that are set as commands; code between fences has none.
 std::vector<std::string> commands(const std::string& page = "README.md") {
   std::istringstream text(text_of(page));
   std::vector<std::string> found;
-  for (std::string line; std::getline(text, line);)
-    if (line.rfind("    ", 0) == 0) found.push_back(line.substr(4));
+  bool fenced = false;
+  for (std::string line; std::getline(text, line);) {
+    fenced = fenced != (line.find("```") != std::string::npos);
+    if (!fenced && line.rfind("    ", 0) == 0) found.push_back(line.substr(4));
+  }
   return found;
 }
 
