@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Builds the benchmarks and writes every result to bench/results/: bench/run.sh [PART...]
-# Parts: solver, scale, siconos, siconos_si, siconos_dense, paper, dem, crowded, frames, ensemble, store, render, view, analysis; all of them with no argument.
+# Parts: solver, scale, siconos, siconos_si, siconos_dense, paper, dem, crowded, frames, ensemble, store, render, python, view, analysis; all of them with no argument.
 set -euo pipefail
 
 cd -- "$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")/.."
@@ -165,6 +165,14 @@ store() {
   keep store.md
 }
 
+python() {
+  {
+    heading "Runs driven from Python" "bench/python_bench.py $build/talus"
+    PYTHONPATH=$build/python /usr/bin/python3 bench/python_bench.py "$build/talus"
+  } >"$results/python.md.part"
+  keep python.md
+}
+
 view() {
   local run=$build/view.h5
   "$build/talus" run assets/scenarios/paper-pbc.toml -o "$run" --overwrite --quiet
@@ -190,12 +198,12 @@ analysis() {
 }
 
 parts=("$@")
-((${#parts[@]} > 0)) || parts=(solver scale siconos siconos_si siconos_dense paper dem crowded frames ensemble store render view analysis)
+((${#parts[@]} > 0)) || parts=(solver scale siconos siconos_si siconos_dense paper dem crowded frames ensemble store render python view analysis)
 build
 mkdir -p "$results"
 for part in "${parts[@]}"; do
   case $part in
-    solver | scale | siconos | siconos_si | siconos_dense | paper | dem | crowded | frames | ensemble | store | render | view | analysis) "$part" ;;
+    solver | scale | siconos | siconos_si | siconos_dense | paper | dem | crowded | frames | ensemble | store | render | python | view | analysis) "$part" ;;
     *) printf 'bench/run.sh: error: no part "%s"; they are listed at the top of this file\n' "$part" >&2 && exit 64 ;;
   esac
   printf '%s: done after %d s\n' "$part" "$SECONDS"

@@ -1,13 +1,19 @@
 /// The extension module talus._core: Simulation for Python, thin. python/talus/simulation.py is what users
 /// see.
 
+#include <pthread.h>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
+#include <stdlib.h>
 
+#include <array>
 #include <atomic>
 #include <chrono>
+#include <cstring>
+#include <optional>
 #include <thread>
+#include <utility>
 
 #include "core/errors.h"
 #include "library/talus.h"
@@ -21,6 +27,31 @@ namespace {
 /// Steps that are under way in threads that do not hold the interpreter: they must end before it does.
 std::atomic<int> steps_under_way = 0;
 std::atomic<bool> interpreter_ends = false;
+std::atomic<int> draws_under_way = 0;
+/// In a child of fork, if another thread of its parent was drawing: the locks of Mesa stay as they were then.
+bool cannot_draw = false;
+
+/// For children of fork, which have none of the other threads. Mesa draws without threads of its own, for
+/// which a child would wait when it draws, or ends.
+void survive_forks() {
+  ::setenv("LP_NUM_THREADS", "0", 0);
+  ::pthread_atfork(nullptr, nullptr, [] {
+    cannot_draw = cannot_draw || draws_under_way > 0;
+    steps_under_way = draws_under_way = 0;
+  });
+}
+
+/// Counts something while it lasts.
+class Count {
+ public:
+  explicit Count(std::atomic<int>& of) : of_(of) { ++of_; }
+  ~Count() { --of_; }
+  Count(const Count&) = delete;
+  Count& operator=(const Count&) = delete;
+
+ private:
+  std::atomic<int>& of_;
+};
 
 /// A simulation and who uses it. While a thread steps it, no other may use it, and what is called by the step
 /// itself may only look at it.
@@ -55,11 +86,14 @@ class Driven {
       if (!tick.is_none()) tick();
       return false;
     });
-    const py::gil_scoped_release let_go;
-    const struct Count {
-      Count() { ++steps_under_way; }
-      ~Count() { --steps_under_way; }
-    } count;
+    // A thread without the interpreter when that ends could never go on: it is waited for, and from then on
+    // none lets go of it.
+    std::optional<Count> count;
+    std::optional<py::gil_scoped_release> let_go;
+    if (!interpreter_ends) {
+      count.emplace(steps_under_way);
+      let_go.emplace();
+    }
     return work(simulation_);
   }
   template <typename Work>
@@ -169,10 +203,23 @@ void translate(std::exception_ptr thrown) {
     if (thrown) std::rethrow_exception(thrown);
   } catch (const Error& error) {
     const py::object type = py::module_::import("talus.errors").attr("Error");
-    const py::object raised = type(error.what());
+    const char* const text = error.what();  // which may quote the name of a file, of any bytes
+    const py::object raised = type(py::reinterpret_steal<py::object>(
+        PyUnicode_DecodeUTF8(text, static_cast<py::ssize_t>(std::strlen(text)), "backslashreplace")));
     raised.attr("exit_code") = static_cast<int>(error.code());
     PyErr_SetObject(type.ptr(), raised.ptr());
   }
+}
+
+/// What is drawn by a simulation or a frame.
+template <typename Draw>
+py::array drawn(Draw&& draw) {
+  if (cannot_draw)
+    throw Error(ExitCode::unavailable,
+                "this process was forked while another thread was drawing, and cannot draw: start it by the "
+                "method \"spawn\" of multiprocessing");
+  const Count count(draws_under_way);
+  return pixels(draw());
 }
 
 /// Waits for steps that other threads are in, since they end in the interpreter.
@@ -209,8 +256,11 @@ void bind_stepping(py::class_<Driven, Holder>& type) {
 }
 
 void bind_commands(py::class_<Driven, Holder>& type) {
-  type.def("_push", [](Driven& driven, Index grain, double x, double y) {
-    driven.use([&](Simulation& simulation) { simulation.push(grain, {x, y}); });
+  type.def("_push", [](Driven& driven, const std::vector<Index>& grains,
+                       const std::vector<std::array<double, 2>>& velocities) {
+    std::vector<Vec2> by;
+    for (const auto& [x, y] : velocities) by.push_back({x, y});
+    driven.use([&](Simulation& simulation) { simulation.push(grains, by); });
   });
   type.def("_drop", [](Driven& driven, Index grains, double x, double height) {
     driven.use([&](Simulation& simulation) { simulation.drop(grains, x, height); });
@@ -312,7 +362,8 @@ void bind_measures(py::class_<Driven, Holder>& type) {
     driven.use([&](Simulation& simulation) { simulation.set_analysis(settings); });
   });
   type.def("_draw", [](Driven& driven, const std::string& map, const MapOptions& options) {
-    return pixels(driven.use([&](Simulation& simulation) { return simulation.draw(map, options); }));
+    return drawn(
+        [&] { return driven.use([&](Simulation& simulation) { return simulation.draw(map, options); }); });
   });
 }
 
@@ -347,7 +398,7 @@ void bind_frames(py::module_& module) {
                          static_cast<std::size_t>(frame.input().frame.contacts.count()));
            })
       .def("_draw", [](const MeasuredFrame& frame, const std::string& map, const MapOptions& options) {
-        return pixels(frame.draw(map, options));
+        return drawn([&] { return frame.draw(map, options); });
       });
 }
 
@@ -356,6 +407,7 @@ void bind_frames(py::module_& module) {
 
 PYBIND11_MODULE(_core, module) {
   using namespace talus;
+  survive_forks();
   py::register_exception_translator(translate);
   py::class_<Driven, Holder> type(module, "Simulation");
   type.def(py::init([](const std::string& path, const std::vector<std::string>& settings) {
@@ -375,6 +427,9 @@ PYBIND11_MODULE(_core, module) {
   bind_state(type);
   bind_arrays(type);
   bind_measures(type);
+  type.def("_save", [](Driven& driven, const std::string& path, bool overwrite) {
+    driven.use([&](Simulation& simulation) { simulation.save(path, overwrite); });
+  });
   type.def("_record", [](Driven& driven, const std::string& path, bool overwrite) {
     driven.use([&](Simulation& simulation) { simulation.record(path, overwrite); });
   });

@@ -61,9 +61,9 @@ class Frame:
 
     @cached_property
     def _measured(self) -> Any:
-        from talus.simulation import _extension
+        from talus.simulation import _extension, _path
 
-        return _extension().MeasuredFrame(str(self.run.path), self.index)
+        return _extension().MeasuredFrame(_path(self.run.path), self.index)
 
     def __getitem__(self, name: str) -> float:
         """A number of the frame: a quantity of docs/analysis.md, "overloaded/fraction", or an observable."""

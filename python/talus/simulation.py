@@ -28,12 +28,26 @@ def _extension() -> Any:
     return _core
 
 
-def _path(path: Any) -> str:
-    """A path as a text. Throws WrongType where it is none."""
-    text = os.fsdecode(path) if isinstance(path, str | bytes | os.PathLike) else ""
-    if not text:
+def _path(path: Any) -> bytes:
+    """A path as its bytes. Throws WrongType where it is none."""
+    try:
+        name = os.fsencode(path)
+    except (TypeError, UnicodeError):
+        name = b""
+    if not name or b"\0" in name:
         raise WrongType(f"{short(path)}: expected the path of a file")
-    return text
+    return name
+
+
+def _seconds(value: Any, what: str) -> float:
+    """A time. Throws WrongType where it is none."""
+    try:
+        seconds = np.nan if isinstance(value, str | bytes) else float(value)
+    except (TypeError, ValueError, OverflowError):
+        seconds = np.nan
+    if np.isnan(seconds):
+        raise WrongType(f"{what} = {short(value)}: expected a number of seconds")
+    return seconds
 
 
 def _toml(value: Any, key: str) -> str:
@@ -79,7 +93,7 @@ class Image(np.ndarray):
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes it as a PNG."""
-        with open(path, "wb") as file:
+        with open(_path(path), "wb") as file:
             file.write(self._repr_png_())
 
 
@@ -220,7 +234,7 @@ class Simulation:
                  progress: bool | None = None, **settings: Any) -> None:
         core = _extension()
         if scenario is None or isinstance(scenario, Mapping):
-            self._begin(core.Simulation("", _settings(scenario or {}, settings)), progress)
+            self._begin(core.Simulation(b"", _settings(scenario or {}, settings)), progress)
         else:
             self._begin(core.Simulation(_path(scenario), _settings(settings)), progress)
         if threads != 1:
@@ -254,7 +268,7 @@ class Simulation:
         tick = self._tick()
         try:
             if not method(*goal, tick):
-                raise KeyboardInterrupt
+                raise SystemExit  # the interpreter ends
         except TypeError as error:
             raise WrongType(f"expected a number: {error}".splitlines()[0]) from None
         finally:
@@ -286,28 +300,29 @@ class Simulation:
             else:
                 self._steps(self._core._run, seconds)
             return
-        end = np.inf if seconds is None else self.time + seconds
+        end = np.inf if seconds is None else self.time + _seconds(seconds, "run: seconds")
+        pause = 0.0 if every is None else _seconds(every, "run: every")
         while not until() and not self.done and self.time < end * (1 - 1e-12):
-            if every is None:
-                self._steps(self._core._step, 1)
-            else:
-                self._steps(self._core._run, min(every, end - self.time))
+            begin = self.time
+            self._steps(self._core._step, 1)  # also where `every` is less than a step
+            if pause > 0 and not self.done:
+                self._steps(self._core._run, min(begin + pause, end) - self.time)
 
     # Commands.
 
     def push(self, grain: int | Any, velocity: Any) -> None:
-        """Adds (v_x, v_y), m/s, to the velocity of a free grain, or of each of several: (2,), or one row for each."""
+        """Adds (v_x, v_y), m/s, to the velocity of a free grain, or of each of several: (2,), or one row for each. All are
+        pushed, or none if one of them cannot be."""
         grains = np.atleast_1d(np.asarray(grain))
         if grains.dtype.kind not in "iu" or grains.ndim != 1:
             raise WrongType(f"push({short(grain)}): expected the id of a grain, or a list of ids")
         try:
             values = np.broadcast_to(np.asarray(velocity, dtype=float), (len(grains), 2))
-        except (TypeError, ValueError):
+        except (TypeError, ValueError, OverflowError):
             raise WrongValue(f"push: velocity {short(velocity)}: expected (v_x, v_y), or one of these for each grain") from None
-        for i, (x, y) in zip(grains.tolist(), values.tolist(), strict=True):
-            if not -2**31 <= i < 2**31:
-                raise WrongValue(f"push: there is no grain {i}")
-            self._core._push(i, x, y)
+        if len(grains) and not -2**31 <= grains.min() <= grains.max() < 2**31:
+            raise WrongValue(f"push: there is no grain {grains.max()}")
+        self._core._push(grains.tolist(), values.tolist())
 
     def drop(self, grains: int, x: float, height: float) -> None:
         """Lifts so many grains from the free surface and lets them fall at x (m), from a height (m) above it."""
@@ -442,6 +457,10 @@ class Simulation:
         """Records what happens from now on as a run, which `talus replay` repeats: an ordinary one before the first step, and
         later one that branches off from the state as it is."""
         self._core._record(_path(path), overwrite)
+
+    def save(self, path: str | os.PathLike[str], *, overwrite: bool = False) -> None:
+        """Writes the state as it is as a run of its own, from which resume goes on."""
+        self._core._save(_path(path), overwrite)
 
     @property
     def recorded(self) -> bool:

@@ -1,6 +1,7 @@
 #include "io/writer_lock.h"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <array>
@@ -52,6 +53,10 @@ WriterLock::WriterLock(const std::string& folder)
     : folder_(folder),
       path_((std::filesystem::path(folder) / WriterLock::file_name).string()),
       file_(lock(folder, path_)) {}
+
+WriterLock::~WriterLock() {
+  if (file_.get() >= 0) ::flock(file_.get(), LOCK_UN);
+}
 
 bool WriterLock::is_held() const { return is_named(path_, file_); }
 

@@ -18,6 +18,11 @@ class WriterLock {
   /// lock file cannot be made.
   explicit WriterLock(const std::string& folder);
 
+  /// Ends the lock in children of fork as well, which have the open file.
+  ~WriterLock();
+  WriterLock(WriterLock&&) = default;
+  WriterLock& operator=(WriterLock&&) = default;
+
   /// Throws Error(cannot_create) where the folder is no longer the one that was locked: somebody has removed
   /// it, and another process may have made a new one.
   void require() const;

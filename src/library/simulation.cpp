@@ -1,8 +1,12 @@
 #include "library/simulation.h"
 
+#include <unistd.h>
+
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <fmt/core.h>
+#include <limits>
 #include <utility>
 
 #include "core/errors.h"
@@ -27,25 +31,45 @@ void require_finite(double value, const char* what) {
 
 }  // namespace
 
+Simulation::State::State(Session from)
+    : session(std::move(from)),
+      statics(run_statics(session.scenario(), session.world())),
+      process(::getpid()) {}
+
+bool Simulation::State::is_own() const { return process == ::getpid(); }
+
+void Simulation::State::require_own() const {
+  if (!is_own())
+    throw Error(
+        ExitCode::usage,
+        "the simulation belongs to the process that this one was forked from, with its threads and its "
+        "recording: copy() makes one of this process");
+}
+
 void Simulation::State::advance() {
   measured.reset();
   is_new = false;
   const Phase before = session.phase();
-  if (recorder) {
+  if (recorder)
     recorder->advance();
-    recorder->commit_if_due();
-  } else {
+  else
     session.advance();
-    session.clear_segment();
-  }
   if (before == Phase::deposition && session.phase() == Phase::tilt)
     begin = make_frame(session.world(), session.law());
-  if (session.phase() == Phase::done && store) {
-    recorder->commit();
-    store->pack();
-    recorder.reset();
-    store.reset();
-  }
+  if (!recorder)
+    session.clear_segment();
+  else if (session.phase() == Phase::done)
+    commit();
+  else
+    recorder->commit_if_due();
+}
+
+void Simulation::State::commit() {
+  recorder->commit();
+  if (session.phase() != Phase::done) return;
+  store->pack();
+  recorder.reset();
+  store.reset();
 }
 
 MeasuredFrame& Simulation::State::measure() {
@@ -96,15 +120,18 @@ Simulation& Simulation::operator=(Simulation other) noexcept {
 }
 
 Simulation::~Simulation() {
+  // Of a child of fork: the threads are not there to be waited for, and the recording is not its own.
+  if (state_ && !state_->is_own()) static_cast<void>(state_.release());
   if (!state_ || !state_->recorder) return;
   try {
-    state_->recorder->commit();
+    state_->commit();
   } catch (const std::exception&) {  // what was committed before is whole; commit() says what is wrong
   }
 }
 
 bool Simulation::advance_until(const std::function<bool(const Session&)>& reached) {
   State& state = *state_;
+  state.require_own();
   if (done())
     throw Error(ExitCode::usage,
                 fmt::format("the run is over, at a tilt of {:.3f} deg: it has no further step", tilt()));
@@ -115,6 +142,7 @@ bool Simulation::advance_until(const std::function<bool(const Session&)>& reache
     if (!state.interrupts || now - asked < interrupt_interval) continue;
     asked = now;
     if (state.interrupts()) return false;
+    state.require_own();  // it may have forked
   }
   return true;
 }
@@ -122,7 +150,7 @@ bool Simulation::advance_until(const std::function<bool(const Session&)>& reache
 bool Simulation::step(std::int64_t count) {
   if (count < 0)
     throw Error(ExitCode::usage, fmt::format("step({}): expected a count of steps, 0 or more", count));
-  const std::int64_t last = world().step + count;
+  const std::int64_t last = world().step + std::min(count, std::numeric_limits<std::int64_t>::max() / 2);
   return advance_until([last](const Session& session) { return session.world().step >= last; });
 }
 
@@ -165,20 +193,27 @@ void Simulation::interrupt_if(std::function<bool()> interrupts) {
 }
 
 void Simulation::use_threads(int threads) {
+  state_->require_own();
   if (threads < 1 || threads > 256)
     throw Error(ExitCode::usage, fmt::format("{} threads: expected 1 to 256", threads));
   state_->session.use_threads(threads);
 }
 
 void Simulation::apply(const Command& command) {
+  state_->require_own();
   state_->session.apply(command);
   state_->measured.reset();
   state_->is_new = false;
   if (!state_->recorder) state_->session.clear_segment();
 }
 
-void Simulation::push(Index grain, Vec2 velocity) {
-  apply({0, CommandKind::push, grain, velocity.x, velocity.y});
+void Simulation::push(Index grain, Vec2 velocity) { push(std::vector{grain}, std::vector{velocity}); }
+void Simulation::push(const std::vector<Index>& grains, const std::vector<Vec2>& velocities) {
+  const auto command = [&](std::size_t k) {
+    return Command{0, CommandKind::push, grains[k], velocities.at(k).x, velocities.at(k).y};
+  };
+  for (std::size_t k = 0; k < grains.size(); ++k) check_command(command(k), scenario(), world());
+  for (std::size_t k = 0; k < grains.size(); ++k) apply(command(k));
 }
 void Simulation::drop(Index grains, double x, double height) {
   apply({0, CommandKind::drop, grains, x, height});
@@ -223,6 +258,7 @@ Image Simulation::draw(const std::string& map, MapOptions options) {
 
 void Simulation::record(const std::string& path, bool overwrite) {
   State& state = *state_;
+  state.require_own();
   if (state.recorder) throw Error(ExitCode::usage, "the simulation is being recorded already");
   if (done()) throw Error(ExitCode::usage, "the run is over: there is nothing more to record");
   if (!state.is_new && phase() == Phase::deposition)
@@ -240,13 +276,24 @@ void Simulation::record(const std::string& path, bool overwrite) {
       RunStore::create(path, run_header(state.session, with_bed(origin, state.session)), overwrite));
   state.recorder.emplace(state.session, *state.store);
   if (!state.is_new) state.session.record_start();
-  state.recorder->commit();
+  try {
+    state.recorder->commit();
+  } catch (...) {  // there is no such run
+    state.recorder.reset();
+    state.store.reset();
+    throw;
+  }
+}
+
+void Simulation::save(const std::string& path, bool overwrite) const {
+  Simulation(*this).record(path, overwrite);
 }
 
 bool Simulation::recorded() const { return state_->recorder.has_value(); }
 
 void Simulation::commit() {
-  if (state_->recorder) state_->recorder->commit();
+  state_->require_own();
+  if (state_->recorder) state_->commit();
 }
 
 }  // namespace talus

@@ -23,7 +23,8 @@ namespace talus {
 
 class Session;
 
-/// Not for several threads at once; several simulations may run in several threads.
+/// Not for several threads at once; several simulations may run in several threads. A child of fork can look
+/// at a simulation of its parent and copy it; Error(usage) where it steps, changes or records it.
 class Simulation {
  public:
   /// The bed of the scenario before its first step. `text` is the scenario as it was written, for the header
@@ -62,7 +63,8 @@ class Simulation {
   // Commands: recorded, and repeated by talus replay. Throw Error(usage), with nothing changed, as
   // Session::apply does.
 
-  void push(Index grain, Vec2 velocity);             ///< adds to its velocity, m/s
+  void push(Index grain, Vec2 velocity);  ///< adds to its velocity, m/s
+  void push(const std::vector<Index>& grains, const std::vector<Vec2>& velocities);  ///< all of them, or none
   void drop(Index grains, double x, double height);  ///< from the free surface onto x (m), from a height (m)
   void drag(Index grain, Vec2 to);                   ///< by a spring, m
   void release();
@@ -102,7 +104,10 @@ class Simulation {
   /// if it is recorded already.
   void record(const std::string& path, bool overwrite = false);
   bool recorded() const;
+  /// Writes the state as it is as a run of its own, which can be resumed. Throws as record does.
+  void save(const std::string& path, bool overwrite = false) const;
   /// Makes all that was recorded durable. It is done at each frame, at the end, and when the simulation goes.
+  /// Once the run is over, this packs it where that has failed before, on a full disk.
   void commit();
 
  private:

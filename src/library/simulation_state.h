@@ -1,6 +1,8 @@
 #pragma once
 /// What a Simulation holds.
 
+#include <sys/types.h>
+
 #include <memory>
 #include <optional>
 
@@ -25,11 +27,17 @@ struct Simulation::State {
 
   std::optional<MeasuredFrame> measured{};  ///< of the state after the last step, once it was asked for
 
-  explicit State(Session from)
-      : session(std::move(from)), statics(run_statics(session.scenario(), session.world())) {}
+  pid_t process;  ///< that made it: in a child of fork it can only be looked at and copied
+
+  explicit State(Session from);
+  bool is_own() const;
+  /// Throws Error(usage) in a child of fork.
+  void require_own() const;
 
   /// Steps once, and records it.
   void advance();
+  /// Makes durable what was recorded, and packs the run once it is over.
+  void commit();
   MeasuredFrame& measure();
 };
 

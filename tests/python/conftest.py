@@ -23,6 +23,8 @@ pytest.importorskip("xxhash", reason="xxhash is not installed: python3-xxhash")
 import talus  # noqa: E402
 
 PROGRAM = os.environ.get("TALUS_PROGRAM", str(ROOT / "build/release/talus"))
+#: For the program, which has its sanitizer built in: that of Python is loaded before it.
+PROGRAM_ENVIRONMENT = {name: value for name, value in os.environ.items() if name != "LD_PRELOAD"}
 
 #: A bed of 90 grains that fails within a second of computing.
 BED = """
@@ -43,7 +45,7 @@ def pytest_configure(config):
 
 def run_talus(*words, folder=None):
     """What `talus` prints; a failure of it is one of the test."""
-    done = subprocess.run([PROGRAM, *map(str, words)], cwd=folder, capture_output=True, text=True)
+    done = subprocess.run([PROGRAM, *map(str, words)], cwd=folder, capture_output=True, text=True, env=PROGRAM_ENVIRONMENT)
     assert done.returncode == 0, done.stderr
     return done.stdout
 

@@ -378,7 +378,7 @@ def use_spoilt(seed, folder):
 
 @pytest.mark.chosen
 def test_any_damage_that_is_sealed_again_ends_in_an_error(tmp_path):
-    tries = int(os.environ.get("TALUS_TRIES", "40"))
+    tries = int(os.environ.get("TALUS_TRIES", "15"))
     refused = 0
     for seed in range(tries):
         try:

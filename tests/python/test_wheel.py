@@ -1,4 +1,5 @@
-"""The package as others install it: a wheel that is built and installed without a network, and cmake --install."""
+"""The package as others install it: wheels that are built and installed without a network, with the extension and without,
+and cmake --install."""
 
 import importlib.util
 import os
@@ -7,7 +8,7 @@ import subprocess
 import sys
 
 import pytest
-from conftest import ROOT, json_of
+from conftest import BUILD, ROOT, json_of
 
 import talus
 
@@ -20,30 +21,50 @@ def call(*words, **options):
     return done.stdout.strip()
 
 
-def check_installed(folder, path):
-    """The package in `folder` is whole and reads a run, from another place than the sources."""
-    assert sorted(file.name for file in (folder / "talus").iterdir() if file.is_file()) == FILES
-    words = "import sys, talus; print(talus.__file__, len(talus.open(sys.argv[1]).frames))"
+def check_installed(folder, path, extension):
+    """The package in `folder` is whole, and from another place than the sources it reads a run, and steps a bed or says what
+    is missing."""
+    files = sorted(file.name for file in (folder / "talus").iterdir() if file.is_file())
+    assert [name for name in files if not name.endswith(".so")] == FILES
+    assert len(files) == len(FILES) + extension
+    words = """
+import sys, talus
+told = [talus.__file__, len(talus.open(sys.argv[1]).frames)]
+try:
+    sim = talus.Simulation({"bed": {"length": 10, "depth": 3}})
+    sim.step(3)
+    told.append(sim.step_count)
+except talus.Error as error:
+    told.append("talus._core" in str(error) and "./bootstrap wheel" in str(error))
+print(*told)
+"""
     environment = {**os.environ, "PYTHONPATH": str(folder), "PYTHONDONTWRITEBYTECODE": "1"}
     told = call(sys.executable, "-c", words, path, env=environment, cwd="/")
-    assert told == f"{folder}/talus/__init__.py {json_of('info', path)['frames']}"
+    assert told == f"{folder}/talus/__init__.py {json_of('info', path)['frames']} {3 if extension else True}"
 
 
-def test_wheel_is_built_and_installed_without_a_network(analysed, tmp_path):
+def has_extension():
+    return any((BUILD / "python/talus").glob("_core*.so"))
+
+
+@pytest.mark.parametrize("extension", [False, True])
+def test_wheel_is_built_and_installed_without_a_network(analysed, tmp_path, extension):
     for package in ("pip", "setuptools", "wheel"):
         if importlib.util.find_spec(package) is None:
             pytest.skip(f"{package} is not installed: python3-{package}")
-    source = shutil.copytree(ROOT / "python", tmp_path / "source", ignore=shutil.ignore_patterns("__pycache__", "build"))
+    if extension and not has_extension():
+        pytest.skip("the extension is not built: pybind11-dev, python3-dev")
+    source = shutil.copytree(BUILD / "python" if extension else ROOT / "python", tmp_path / "source",
+                             ignore=shutil.ignore_patterns("__pycache__", "build", "*.egg-info"))
     pip = (sys.executable, "-m", "pip", "--disable-pip-version-check", "--no-input")
     call(*pip, "wheel", "--no-index", "--no-deps", "--no-build-isolation", "-w", tmp_path, source)
     [wheel] = tmp_path.glob("*.whl")
-    assert wheel.name == f"talus-{talus.__version__}-py3-none-any.whl"
+    assert wheel.name.startswith(f"talus-{talus.__version__}-{'cp3' if extension else 'py3-none-any'}")
     call(*pip, "install", "--no-index", "--no-deps", "--no-compile", "--target", tmp_path / "site", wheel)
-    check_installed(tmp_path / "site", analysed)
+    check_installed(tmp_path / "site", analysed, extension)
 
 
 def test_cmake_installs_the_package_beside_the_program(analysed, tmp_path):
-    build = os.environ.get("TALUS_BUILD", ROOT / "build/release")
-    call("cmake", "--install", build, "--prefix", tmp_path, "--component", "python")
+    call("cmake", "--install", BUILD, "--prefix", tmp_path, "--component", "python")
     [package] = tmp_path.glob("lib/python3*/dist-packages")
-    check_installed(package, analysed)
+    check_installed(package, analysed, has_extension())

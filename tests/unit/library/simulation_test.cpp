@@ -3,9 +3,13 @@
 #include "library/simulation.h"
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "core/errors.h"
 #include "core/hash.h"
@@ -71,7 +75,8 @@ TEST_P(SimulationOfChance, has_the_same_bits) {
     else
       sim.commit();
   }
-  EXPECT_EQ(sim.state_hash(), end_of(scenario));
+  static const std::string expected = end_of(scenario);
+  EXPECT_EQ(sim.state_hash(), expected);
   EXPECT_TRUE(!recorded || RunFile::open(folder.path("run.h5")).complete());
 }
 
@@ -106,6 +111,24 @@ TEST(Simulation, is_repeated_from_its_file_with_its_commands) {
   sim.finish();
   EXPECT_NE(sim.state_hash(), end_of(poured_bed()));
   EXPECT_EQ(replayed(RunFile::open(folder.path("run.h5"))), sim.state_hash());
+}
+
+TEST(Simulation, that_is_saved_goes_on_from_there_as_often_as_it_is_resumed) {
+  const test::TemporaryFolder folder;
+  Simulation sim(test::small_tilted_bed(3.0));
+  sim.deposit();
+  sim.set_friction(0.3);
+  sim.save(folder.path("saved.h5"));
+  const std::string state = sim.state_hash();
+  EXPECT_FALSE(sim.recorded());
+  EXPECT_EQ(test::exit_code_of([&] { sim.save(folder.path("saved.h5")); }), ExitCode::cannot_create);
+  sim.finish();
+  Simulation later = Simulation::resume(folder.path("saved.h5"));
+  EXPECT_EQ(later.state_hash(), state);
+  EXPECT_EQ(later.friction(), 0.3);
+  later.finish();
+  EXPECT_EQ(later.state_hash(), sim.state_hash());
+  EXPECT_EQ(later.theta_c(), sim.theta_c());
 }
 
 TEST(Simulation, that_is_recorded_later_is_a_branch_which_can_be_repeated) {
@@ -179,6 +202,70 @@ TEST(Simulation, is_interrupted_between_two_steps) {
   EXPECT_EQ(sim.state_hash(), end_of(slow));
 }
 
+/// How a child of fork ends that does this.
+template <typename Work>
+int code_of_child(const Work& work) {
+  const pid_t child = ::fork();
+  if (child == 0) ::_exit(work() ? 0 : 1);
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  return status;
+}
+
+TEST(Simulation, is_looked_at_and_copied_in_a_child_of_fork_and_goes_on_in_the_parent) {
+  const test::TemporaryFolder folder;
+  std::optional<Simulation> sim(poured_bed());
+  sim->record(folder.path("run.h5"));
+  sim->tilt_to(1.0);
+  EXPECT_EQ(code_of_child([&] {
+              const auto refused = [](const auto& call) {
+                return test::exit_code_of(call) == ExitCode::usage;
+              };
+              bool ok = refused([&] { sim->step(); }) && refused([&] { sim->set_friction(0.1); }) &&
+                        refused([&] { sim->commit(); }) && refused([&] { sim->use_threads(2); });
+              Simulation copy = *sim;
+              ok = ok && copy.state_hash() == sim->state_hash();
+              copy.finish();
+              sim.reset();
+              return ok && copy.state_hash() == end_of(poured_bed());
+            }),
+            0);
+  sim->interrupt_if([] { return false; });
+  sim->finish();
+  EXPECT_EQ(sim->state_hash(), end_of(poured_bed()));
+  EXPECT_EQ(replayed(RunFile::open(folder.path("run.h5"))), sim->state_hash());
+}
+
+TEST(Simulation, that_is_left_is_free_though_a_child_of_fork_has_its_files) {
+  const test::TemporaryFolder folder;
+  std::optional<Simulation> sim(poured_bed());
+  sim->record(folder.path("run.h5"));
+  sim->step(3);
+  std::array<int, 2> pipe{};
+  ASSERT_EQ(::pipe(pipe.data()), 0);
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::close(pipe[1]);
+    char end = 0;
+    ::_exit(static_cast<int>(::read(pipe[0], &end, 1)));  // waits until the parent closes its side
+  }
+  sim.reset();
+  EXPECT_NO_THROW(Simulation::resume(folder.path("run.h5")).step(3));
+  ::close(pipe[1]);
+  ::close(pipe[0]);
+  ::waitpid(child, nullptr, 0);
+}
+
+TEST(Simulation, pushes_all_grains_or_none) {
+  Simulation sim(test::small_tilted_bed(1.0));
+  const std::string before = sim.state_hash();
+  const std::vector<Vec2> velocities = {{0.1, 0.0}, {0.1, 0.0}};
+  EXPECT_EQ(test::exit_code_of([&] { sim.push({1, 1000}, velocities); }), ExitCode::usage);
+  EXPECT_EQ(sim.state_hash(), before);
+  sim.push({1, 2}, velocities);
+  EXPECT_NE(sim.state_hash(), before);
+}
+
 TEST(Simulation, refuses_what_cannot_be) {
   const test::TemporaryFolder folder;
   Simulation sim(test::small_tilted_bed(1.0));
@@ -200,7 +287,8 @@ TEST(Simulation, refuses_what_cannot_be) {
   sim.set_tilt_rate(20.0);
   sim.record(folder.path("run.h5"));
   EXPECT_EQ(refused([&] { sim.record(folder.path("other.h5")); }), ExitCode::usage);
-  sim.finish();
+  sim.step(std::numeric_limits<std::int64_t>::max());
+  EXPECT_TRUE(sim.done()) << "all steps there are";
   EXPECT_EQ(refused([&] { sim.step(); }), ExitCode::usage);
   EXPECT_EQ(refused([&] { sim.set_friction(0.2); }), ExitCode::usage);
   EXPECT_EQ(refused([&] { Simulation::resume(folder.path("none.h5")); }), ExitCode::missing_input);

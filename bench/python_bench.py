@@ -1,0 +1,143 @@
+#!/usr/bin/env python3
+"""What it costs to drive runs from Python: whole runs against `talus run`, in turn; reads of numbers and views, against a property of
+Python; the memory of many steps; two beds in two threads. Prints a Markdown table. talus must be imported from the same build
+as the program (PYTHONPATH).
+
+usage: python_bench.py TALUS [--pairs N] [--length D]
+"""
+import argparse
+import os
+import resource
+import statistics
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+
+import numpy as np
+import talus
+
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+SCENARIO = os.path.join(ROOT, "assets/scenarios/demo.toml")
+DRIVEN = """
+import sys, talus
+sim = talus.Simulation("scenario.toml", progress=False)
+sim.record(sys.argv[1])
+sim.deposit()
+while not sim.done:
+    sim.tilt_by(0.25)
+"""
+
+
+def processor_seconds(command, folder):
+    """Processor time of a command."""
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    package = os.path.dirname(os.path.dirname(os.path.abspath(talus.__file__)))
+    subprocess.run(command, cwd=folder, check=True, env={**os.environ, "PYTHONPATH": package})
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+
+
+def whole_runs(program, settings, pairs):
+    """Medians of both, and of the ratio of a pair."""
+    taken = ([], [])
+    with tempfile.TemporaryDirectory() as folder:
+        with open(os.path.join(folder, "scenario.toml"), "w") as file:
+            file.write(talus.Simulation(SCENARIO, **settings).scenario)
+        for pair in range(pairs):
+            ends = []
+            for k in (0, 1) if pair % 2 == 0 else (1, 0):
+                path = os.path.join(folder, f"{pair}-{k}.h5")
+                command = [program, "run", "scenario.toml", "-o", path, "-q"] if k == 0 else [sys.executable, "-c", DRIVEN, path]
+                taken[k].append(processor_seconds(command, folder))
+                ends.append(talus.open(path).frames[-1].position)
+            assert np.array_equal(*ends), "others than the same bits"
+        start = statistics.median(processor_seconds([sys.executable, "-c", "import talus"], folder) for _ in range(5))
+    ratio = statistics.median(driven / run for run, driven in zip(*taken))
+    run, driven = (statistics.median(of) for of in taken)
+    return (f"{run:.2f} s by talus run, {driven:.2f} s by a script; ratio of a pair {ratio:.4f}, and {ratio - start / run:.4f} without "
+            f"the {start:.2f} s in which Python starts")
+
+
+def nanoseconds(do, count):
+    """Of a call; the least of five rounds."""
+    rounds = []
+    for _ in range(5):
+        begin = time.perf_counter()
+        for _ in range(count):
+            do()
+        rounds.append((time.perf_counter() - begin) / count)
+    return 1e9 * min(rounds)
+
+
+class Plain:
+    """A property of Python that looks a number up."""
+
+    def __init__(self):
+        self._tilt = 1.0
+
+    @property
+    def tilt(self):
+        return self._tilt
+
+
+def reads():
+    sim, plain = talus.Simulation(**{"bed.length": 200, "bed.depth": 40, "deposition.method": "geometric"}), Plain()
+    tilt, of_python = nanoseconds(lambda: sim.tilt, 10**6), nanoseconds(lambda: plain.tilt, 10**6)
+    view, grains = nanoseconds(lambda: sim.grains.position, 10**5), len(sim.grains)
+    return (f"{tilt:.0f} ns", f"{of_python:.0f} ns", f"{view:.0f} ns, of {grains} grains")
+
+
+def memory(steps):
+    """kB that it grows by in the second half of so many steps, with views made and dropped."""
+    sim = talus.Simulation(SCENARIO, **{"bed.length": 12, "bed.depth": 7})
+    sim.deposit()
+    sim.tilt_rate = 0
+    half = []
+    for _ in range(2):
+        for _ in range(steps // 20):
+            sim.step(10)
+            sim.grains.position, sim.grains.velocity, sim.contacts.force
+        half.append(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss)
+    return f"{half[1] - half[0]} kB more in the second half, {half[1] / 1024:.0f} MB in all"
+
+
+def two_threads(settings, pairs):
+    """Wall times, the median of pairs."""
+    first = talus.Simulation(SCENARIO, **settings)
+    first.deposit()
+    ratios = []
+    for _ in range(pairs):
+        taken = []
+        for count in (1, 2):
+            threads = [threading.Thread(target=first.copy().step, args=(150,)) for _ in range(count)]
+            begin = time.perf_counter()
+            for thread in threads:
+                thread.start()
+            for thread in threads:
+                thread.join()
+            taken.append(time.perf_counter() - begin)
+        ratios.append(taken[1] / taken[0])
+    return f"{statistics.median(ratios):.2f} of the time of one"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("talus", help="the program")
+    parser.add_argument("--pairs", type=int, default=7, help="of which medians are told")
+    parser.add_argument("--length", type=float, default=40, help="of the bed that is run, in D")
+    arguments = parser.parse_args()
+    settings = {"bed.length": arguments.length, "bed.depth": 20}
+    print("| measured | |")
+    print("|---|---|")
+    tilt, of_python, view = reads()
+    print(f"| `sim.tilt` | {tilt}; a property of Python: {of_python} |")
+    print(f"| `sim.grains.position` | {view} |")
+    print(f"| memory in 100 000 steps of a bed of 90 grains, with views | {memory(10**5)} |", flush=True)
+    print(f"| two beds in two threads | {two_threads(settings, arguments.pairs)} |", flush=True)
+    print(f"| a whole run, processor time | {whole_runs(os.path.abspath(arguments.talus), settings, arguments.pairs)} |")
+
+
+if __name__ == "__main__":
+    main()

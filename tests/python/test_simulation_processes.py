@@ -1,0 +1,242 @@
+"""A simulation and the process it lives in: forks, signals, the end of the interpreter, full disks. Each test is a script that must
+end by itself, with code 0."""
+
+import os
+import re
+import subprocess
+import sys
+import textwrap
+
+import pytest
+import talus
+from conftest import run_talus
+from test_simulation import BED
+
+pytest.importorskip("talus._core", reason="the extension is not built: pybind11-dev, python3-dev")
+
+BEGIN = f"""
+import faulthandler, multiprocessing, os, signal, sys, threading, time
+import talus
+faulthandler.enable()
+bed = lambda **settings: talus.Simulation({BED!r}, **settings)
+large = lambda **settings: bed(**{{"bed.length": 60, "bed.depth": 30, "tilt.rate": 1, "tilt.step": 0.005}}, **settings)
+
+def refused(do):
+    try:
+        do()
+    except talus.Error as error:
+        return str(error)
+    sys.exit("it was not refused")
+
+def in_child(do):
+    sys.stdout.flush()
+    child = os.fork()
+    if child == 0:
+        do()
+        sys.exit()
+    deadline = time.monotonic() + 100
+    while os.waitpid(child, os.WNOHANG) == (0, 0):
+        if time.monotonic() > deadline:
+            os.kill(child, signal.SIGKILL)
+            sys.exit("a child hangs")
+        time.sleep(0.01)
+"""
+
+
+def script(text, *words, folder=None, **options):
+    """What a script prints."""
+    done = subprocess.run([sys.executable, "-c", BEGIN + textwrap.dedent(text), *map(str, words)], cwd=folder, capture_output=True, text=True,
+                          timeout=300, **options)
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+def test_a_child_of_fork_looks_draws_and_copies_and_leaves_the_recording_alone(tmp_path):
+    out = script("""
+        sim = large(threads=2)
+        sim.record("run.h5")
+        sim.step(30)
+        sim.draw("gamma", width=300)
+        before = sim.state_hash
+        def look(_):
+            return sim.state_hash
+        def child():
+            for do in (sim.step, sim.run, sim.commit, lambda: sim.push(1, (0, 0)), lambda: setattr(sim, "friction", 0.1),
+                       lambda: sim.record("other.h5")):
+                assert "copy() makes one" in refused(do)
+            assert sim.state_hash == before and sim.tilt == 0 and len(sim.grains.position) == len(sim.grains)
+            assert sim["kinetic_energy"] > 0 and sim.draw("gamma", width=300).shape[1] == 300
+            copied = sim.copy()
+            copied.step(5)
+            print(copied.state_hash)
+        in_child(child)
+        in_child(lambda: None)
+        with multiprocessing.get_context("fork").Pool(2) as pool:
+            assert pool.map(look, range(4)) == [before] * 4
+            sim.step(5)
+            print(sim.state_hash)
+            del sim
+            talus.resume("run.h5").step(3)
+        """, folder=tmp_path)
+    first, second = out.split()
+    assert first == second
+    assert sorted(os.listdir(tmp_path)) == ["run.h5.run"]
+    run_talus("info", tmp_path / "run.h5")
+
+
+def test_a_child_of_fork_while_another_thread_steps():
+    script("""
+        sim = large()
+        thread = threading.Thread(target=lambda: sim.step(10**6), daemon=True)
+        thread.start()
+        time.sleep(0.2)
+        def child():
+            assert "another thread" in refused(sim.step)
+            assert "another thread" in refused(lambda: sim.tilt)
+            own = bed()
+            own.step(3)
+            own.draw("gamma", width=300)
+        in_child(child)
+        """)
+
+
+def test_a_signal_that_forks_steps_no_bed_in_the_child(tmp_path):
+    script("""
+        sim = large()
+        sim.record("run.h5")
+        children = []
+        def fork(*_):
+            children.append(os.fork())
+        signal.signal(signal.SIGALRM, fork)
+        signal.setitimer(signal.ITIMER_REAL, 0.2)
+        try:
+            sim.step(600 if not children else 0)
+        except talus.Error as error:
+            assert children == [0] and "copy() makes one" in str(error), error
+            sys.exit()
+        while not children:
+            time.sleep(0.01)
+        if children == [0]:
+            sys.exit()
+        assert os.waitpid(children[0], 0)[1] == 0
+        """, folder=tmp_path)
+
+
+@pytest.mark.parametrize("way", ["plain", "recorded", "callback", "again and again", "drawing", "progress"])
+def test_the_interpreter_ends_while_a_thread_is_busy(tmp_path, way):
+    out = script("""
+        sim = large(progress=sys.argv[1] == "progress")
+        way = sys.argv[1]
+        if way == "recorded":
+            sim.record("run.h5")
+        def steps():
+            while True:
+                sim.step(1)
+        def draws():
+            while True:
+                sim.draw("gamma", width=300)
+        def callback():
+            time.sleep(0.01)
+            return False
+        target = {"callback": lambda: sim.run(until=callback), "again and again": steps, "drawing": draws}.get(way, sim.run)
+        threading.Thread(target=target, daemon=True).start()
+        time.sleep(0.3)
+        print("end")
+        """, way, folder=tmp_path)
+    assert out == "end\n"
+    if way == "recorded":
+        talus.resume(tmp_path / "run.h5").step(3)
+
+
+def test_a_callback_that_never_returns_keeps_nobody():
+    script("""
+        sim = bed()
+        never = threading.Event()
+        threading.Thread(target=lambda: sim.run(until=never.wait), daemon=True).start()
+        time.sleep(0.1)
+        sim.step(3)  # it is not stepped meanwhile
+        signal.signal(signal.SIGALRM, signal.default_int_handler)
+        signal.setitimer(signal.ITIMER_REAL, 0.3)
+        try:
+            sim.run(until=never.wait)
+        except KeyboardInterrupt:
+            sim.step(3)
+        else:
+            sys.exit("not interrupted")
+        """)
+
+
+def test_interruptions_at_any_moment_leave_a_whole_run(tmp_path):
+    script("""
+        signal.signal(signal.SIGALRM, signal.default_int_handler)
+        sim = bed()
+        sim.record("run.h5")
+        delay, interrupted = 0.0003, 0
+        while not sim.done:
+            signal.setitimer(signal.ITIMER_REAL, delay)
+            try:
+                sim.step(7)
+                sim.grains.position.sum(), sim["kinetic_energy"], sim.grains["pressure"]
+                sim.run(0.01, until=lambda: False)
+                sim.draw("gamma", width=200)
+                time.sleep(0.1)
+            except KeyboardInterrupt:
+                interrupted += 1
+            delay = delay * 1.1 if delay < 0.1 else 0.0003
+        assert interrupted > 10, interrupted
+        whole = bed()
+        whole.run()
+        assert whole.state_hash == sim.state_hash
+        """, folder=tmp_path)
+    run_talus("replay", tmp_path / "run.h5")
+
+
+def test_a_full_disk_is_an_error_after_which_all_goes_on(tmp_path):
+    out = script("""
+        import resource
+        signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+        def allow(size):
+            resource.setrlimit(resource.RLIMIT_FSIZE, (size, resource.RLIM_INFINITY))
+        whole = bed()
+        whole.run()
+        sim = bed()
+        allow(100)
+        assert refused(lambda: sim.record("none.h5")) and not sim.recorded and not os.path.exists("none.h5.run/manifest")
+        allow(resource.RLIM_INFINITY)
+        sim.record("run.h5")
+        errors = 0
+        sizes = [3000, 10**4, 10**5]
+        while not sim.done:
+            allow(sizes[sim.step_count // 40 % 3])
+            try:
+                sim.step(40)
+            except talus.Error as error:
+                assert error.exit_code == 74, error
+                errors += 1
+        assert errors > 3 and sim.state_hash == whole.state_hash
+        allow(100)
+        if sim.recorded:
+            refused(sim.commit)
+        allow(resource.RLIM_INFINITY)
+        sim.commit()
+        print(errors, sim.recorded)
+        """, folder=tmp_path)
+    assert re.fullmatch(r"\d+ False\n", out), "once there is room, the run is packed"
+    run_talus("info", tmp_path / "run.h5")
+    assert "recomputed" in run_talus("replay", tmp_path / "run.h5")
+
+
+def test_paths_of_any_bytes(tmp_path):
+    script(r"""
+        name = b"\xff\xe4.h5"
+        sim = bed()
+        sim.record(name)
+        assert "exists already" in refused(lambda: bed().record(name))
+        sim.run()
+        sim = bed()
+        assert "xff" in refused(lambda: sim.record(name))
+        for wrong in ("a\0b.h5", b"a\0b.h5", "", b"", None, 3, "\ud800.h5"):
+            refused(lambda: bed().record(wrong))
+        assert os.listdir(b".") == [name]
+        """, folder=tmp_path)
+
