@@ -23,10 +23,10 @@ sim.tilt_rate = 0
 begin, history = sim.time, []
 
 while not sim.done and sim.time - begin < DURATION:
-    sim.run(EVERY)
     rms = np.sqrt((sim.grains.velocity[sim.grains.free] ** 2).sum(axis=1).mean()) / np.sqrt(sim.gravity * sim.D)
     sim.friction *= np.exp(EVERY * (GROWTH if rms > QUIET else -DECAY))
     history.append((sim.time - begin, sim.friction, rms))
+    sim.run(EVERY)
 time, friction, rms = np.array(history).T
 
 figure, (top, bottom) = plt.subplots(2, sharex=True, figsize=(8, 4.6), layout="constrained")
