@@ -41,6 +41,19 @@ bool configures_driver(std::string_view name) {
          names_driver_option(name);
 }
 
+}  // namespace
+
+std::string driver_variables() {
+  std::string found;
+  for (char** variable = environ; *variable != nullptr; ++variable) {
+    const std::string_view text = *variable, name = text.substr(0, text.find('='));
+    if (configures_driver(name)) found.append(found.empty() ? "" : ", ").append(name);
+  }
+  return found;
+}
+
+namespace {
+
 /// Replaces the environment by one that makes Mesa draw in software, and returns the names of the variables
 /// that were removed. Drivers crash on values that they do not know, and other values change the pictures.
 /// The former environment is left as it was, because another thread may be reading it, and the new one is

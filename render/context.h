@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 #include <string_view>
 
 namespace talus {
@@ -27,6 +28,9 @@ enum class ContextKind {
 std::string_view context_name(ContextKind kind);
 /// The kind of that name; none for "auto". Throws Error(usage) with the names that exist.
 std::optional<ContextKind> context_kind(std::string_view name);
+
+/// The names of the variables of the environment that configure drivers, "GALLIUM_DRIVER, LIBGL_DEBUG".
+std::string driver_variables();
 
 /// Whether that is the name of a renderer of Mesa in software (GL_RENDERER). A GPU rounds in other ways.
 bool draws_in_software(std::string_view renderer);

@@ -1,5 +1,6 @@
 """An ensemble: many runs of one scenario in a folder, and the numbers that each has given."""
 
+import os
 import re
 import tomllib
 from collections.abc import Callable, Sequence
@@ -336,6 +337,6 @@ def open_ensemble(folder: str | Path) -> Ensemble:
     run of a member is damaged or that of another."""
     path = as_path(folder)
     try:
-        return Ensemble(path)
+        return Ensemble(Path(os.path.abspath(path)))  # another process may be in another folder
     except OSError as error:
         raise Error(f"{short(str(path))}: cannot be opened: {error}") from None

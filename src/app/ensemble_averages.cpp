@@ -41,7 +41,10 @@ EnsembleView write_averages(const std::string& folder, KnownMembers& known) {
   EnsembleView view;
   while_locked((place / "averages.lock").string(), [&] {
     const EnsemblePlan plan = plan_of(read_ensemble(folder), folder);
-    for (const std::size_t m : done_members(plan)) analysed_member(plan.members[m], known);
+    std::vector<MemberState> states = look_at_members(plan);
+    look_for_damage(plan, states, known);
+    for (std::size_t m = 0; m < states.size(); ++m)
+      if (states[m].stage == MemberStage::done) analysed_member(plan.members[m], known);
     view = view_of_ensemble(folder, known);
     if (count_of(view.states, MemberStage::done) > 0) write_files(place, view, known);
   });

@@ -145,16 +145,19 @@ void work(const EnsembleArguments& arguments) {
 
 void average(const EnsembleArguments& arguments) {
   KnownMembers known;
-  print_text(ensemble_text(write_averages(arguments.folder, known)));
+  const EnsembleView view = write_averages(arguments.folder, known);
+  print_text(ensemble_text(view));
+  for (const MemberState& state : view.states)
+    if (!state.damage.empty()) throw Error(ExitCode::bad_data, state.damage);
 }
 
 void retry(const EnsembleArguments& arguments) {
-  const EnsemblePlan plan = plan_of(read_ensemble(arguments.folder), arguments.folder);
-  const std::vector<MemberState> states = look_at_members(plan);
-  std::size_t count = 0;
-  for (std::size_t m = 0; m < states.size(); ++m) {
-    if (states[m].stage != MemberStage::failed) continue;
-    remove_file(failure_path(plan.members[m].path));
+  KnownMembers known;
+  const EnsembleView view = view_of_ensemble(arguments.folder, known);
+  std::size_t count = begin_damaged_anew(view);
+  for (std::size_t m = 0; m < view.states.size(); ++m) {
+    if (view.states[m].stage != MemberStage::failed) continue;
+    remove_file(failure_path(view.plan.members[m].path));
     ++count;
   }
   print("%zu members wait again; talus ensemble work %s computes them\n", count,

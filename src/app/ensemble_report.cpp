@@ -76,6 +76,10 @@ std::string members_text(const EnsembleView& view) {
   bool failed = false;
   for (std::size_t m = 0; m < view.plan.members.size(); ++m) {
     const Member& member = view.plan.members[m];
+    if (!view.states[m].damage.empty()) {
+      text += fmt::format("damaged: {}: {}\n", visible(member.name), visible(view.states[m].damage));
+      failed = true;
+    }
     if (view.states[m].stage == MemberStage::claimed)
       text += fmt::format("under way: {}, {}\n", visible(member.name), holder_text(member, view.states[m]));
     if (view.states[m].stage != MemberStage::failed) continue;
@@ -105,6 +109,7 @@ Json member_json(const EnsembleView& view, std::size_t m) {
   const MemberState& state = view.states[m];
   const Member& member = view.plan.members[m];
   Json json = {{"stage", stage_names.at(static_cast<std::size_t>(state.stage))}};
+  if (!state.damage.empty()) json["damage"] = state.damage;
   if (state.stage == MemberStage::claimed) json["by"] = holder_text(member, state);
   if (state.stage == MemberStage::done) {
     json["state_hash"] = view.numbers[m].state_hash;
@@ -134,6 +139,7 @@ EnsembleView view_of_ensemble(const std::string& folder, KnownMembers& known) {
   EnsembleView view{folder, read_ensemble(folder), {}, {}, {}, 0};
   view.plan = plan_of(view.manifest, folder);
   view.states = look_at_members(view.plan);
+  look_for_damage(view.plan, view.states, known);
   view.numbers = numbers_of(view.plan, view.states, known);
   for (std::size_t m = 0; m < view.states.size(); ++m)
     if (view.states[m].stage == MemberStage::done && read_member(view.plan.members[m], known).has_frames)

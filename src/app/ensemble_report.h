@@ -22,7 +22,7 @@ struct EnsembleView {
   std::size_t with_frames = 0;         ///< members that are done and have the frames of their runs
 };
 
-/// Throws as read_ensemble and numbers_of do.
+/// Members whose files are damaged wait. Throws as read_ensemble and numbers_of do.
 EnsembleView view_of_ensemble(const std::string& folder, KnownMembers& known);
 
 /// Members that will not be begun any more: done, failed, or not needed for the precision that was asked for.

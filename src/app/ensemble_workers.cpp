@@ -133,9 +133,21 @@ std::vector<FailedJob> run_workers(const EnsembleWorkers& workers, const Ensembl
 
 }  // namespace
 
+std::size_t begin_damaged_anew(const EnsembleView& view) {
+  std::size_t count = 0;
+  for (std::size_t m = 0; m < view.states.size(); ++m) {
+    if (view.states[m].damage.empty()) continue;
+    if (const std::string damage = set_damaged_aside(view.plan.members[m].path); !damage.empty())
+      print_error("talus: note: %s; the member is begun anew\n", damage.c_str());
+    ++count;
+  }
+  return count;
+}
+
 void compute_members(const EnsembleWorkers& workers, KnownMembers& known) {
   ClaimWatch watch{workers.times, {}};
   for (std::size_t ended = 0;;) {
+    begin_damaged_anew(view_of_ensemble(workers.folder, known));
     const EnsemblePlan plan = plan_of(read_ensemble(workers.folder), workers.folder);
     std::vector<FailedJob> killed;
     if (has_work(plan, look_at_members(plan), watch)) killed = run_workers(workers, plan, known);

@@ -16,10 +16,14 @@ struct EnsembleWorkers {
   int jobs = 1;          ///< workers side by side, each on one thread; 0: what is missing is left to others
 };
 
-/// Computes what is missing of an ensemble. Members that others compute are waited for, and taken over where
-/// their workers end before them; workers that were killed are replaced, as long as members come to an end.
-/// With a limit of time others are left alone. Throws Error(stopped) on a signal or where the time is over,
-/// the Error of a worker that ended with one, and as read_ensemble does.
+/// Members whose files are damaged make way (set_damaged_aside) and wait to be computed again, which is said
+/// on stderr. Returns how many.
+std::size_t begin_damaged_anew(const EnsembleView& view);
+
+/// Computes what is missing of an ensemble, damaged members anew. Members that others compute are waited for,
+/// and taken over where their workers end before them; workers that were killed are replaced, as long as
+/// members come to an end. With a limit of time others are left alone. Throws Error(stopped) on a signal or
+/// where the time is over, the Error of a worker that ended with one, and as read_ensemble does.
 void compute_members(const EnsembleWorkers& workers, KnownMembers& known);
 
 /// Removes frames that the ensemble does not keep, of members that were done before it was told to keep less,

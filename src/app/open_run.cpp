@@ -68,11 +68,11 @@ OpenRun resume_run(const RunRequest& request) {
   const Scenario scenario = stored_scenario(header, request.output + ":/parameters");
   require_same_scenario(request, scenario);
   refuse_unfinished_replay(request, header, checkpoint.world);
-  if (const std::string begun_by = version_of(header.provenance); begun_by != version_text())
+  if (const std::string begun_by = version_of(header.provenance); begun_by != version_and_commit())
     print_error(
         "talus: note: %s was begun by version %s and goes on with %s, which may give other bits and measure "
         "differently\n",
-        request.output.c_str(), begun_by.c_str(), version_text().c_str());
+        request.output.c_str(), begun_by.c_str(), version_and_commit().c_str());
   return {std::move(header), std::move(store), Session(scenario, std::move(checkpoint), request.output)};
 }
 

@@ -12,6 +12,8 @@ extern const char* const
 extern const char* const compiler;     ///< name and version
 extern const char* const build_flags;  ///< that affect arithmetic and optimisation
 
+/// "0.1.0 (1234567890ab)".
+std::string version_and_commit();
 /// "talus 0.1.0 (1234567890ab)".
 std::string version_text();
 

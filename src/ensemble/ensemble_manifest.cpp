@@ -192,8 +192,10 @@ bool is_hopeless(const EnsembleManifest& found, const Variant& variant, const st
   for (std::size_t m = 0; m < states.size(); ++m) {
     const MemberStage stage = states[m].stage;
     if (stage == MemberStage::done || stage == MemberStage::claimed) return false;
-    if (run_presence(plan.members[m].path) != RunPresence::none) return false;
-    if (stage != MemberStage::failed) continue;
+    if (stage != MemberStage::failed) {
+      if (run_presence(plan.members[m].path) != RunPresence::none) return false;
+      continue;
+    }
     if (!has_failed_itself(plan.members[m])) return false;
     has_failed = true;
   }
@@ -221,8 +223,8 @@ std::vector<Variant> take_hopeless(EnsembleManifest& found, const EnsembleManife
   return hopeless;
 }
 
-/// Makes the names of variants free that are no longer in the manifest, and removes what is left of their
-/// members but the logs.
+/// Makes the names of variants free that are no longer in the manifest. Of their members stay the logs, and
+/// what was computed until they failed.
 void withdraw(const EnsembleManifest& rest, const std::vector<Variant>& withdrawn,
               const std::string& folder) {
   if (rest.variants.empty())
@@ -231,6 +233,7 @@ void withdraw(const EnsembleManifest& rest, const std::vector<Variant>& withdraw
     write_text(manifest_path(folder), text_of(rest));
   for (const Variant& variant : withdrawn) {
     for (const Member& member : plan_ensemble(rest.seeds, {variant}, folder).members) {
+      set_withdrawn_aside(member.path);
       remove_file(failure_path(member.path));
     }
     remove_file(variant.scenario_file);

@@ -110,6 +110,21 @@ const MemberResult& read_member(const Member& member, KnownMembers& known) {
   return read_parts(member, known, false);
 }
 
+void look_for_damage(const EnsemblePlan& plan, std::vector<MemberState>& states, KnownMembers& known) {
+  for (std::size_t m = 0; m < states.size(); ++m) {
+    if (states[m].stage != MemberStage::done) continue;
+    const Member& member = plan.members[m];
+    try {
+      read_member(member, known);
+    } catch (const Error& error) {
+      if (error.code() != ExitCode::bad_data) throw;
+      states[m].damage = damage_of_packed(member.path);
+      if (states[m].damage.empty()) throw;
+      states[m].stage = MemberStage::waiting;
+    }
+  }
+}
+
 const MemberResult& analysed_member(const Member& member, KnownMembers& known) {
   const MemberResult& read = read_parts(member, known, true);
   if (!read.numbers.numbers.empty()) return read;

@@ -4,7 +4,9 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <vector>
 
+#include "ensemble/member_state.h"
 #include "ensemble/member_values.h"
 #include "ensemble/plan.h"
 #include "io/run_store.h"
@@ -37,6 +39,10 @@ struct KnownMembers {
 /// The numbers of a member that is done, at least. The reference holds until its file is found changed.
 /// Throws as require_own_run and RunFile::open do.
 const MemberResult& read_member(const Member& member, KnownMembers& known);
+
+/// Takes members whose files are damaged for ones that wait, and says why. Throws as read_member does where a
+/// file is whole.
+void look_for_damage(const EnsemblePlan& plan, std::vector<MemberState>& states, KnownMembers& known);
 
 /// All of a member that is done, whose run may not be analysed yet, such as one that `talus run` has put
 /// there: it is then, and the analysis stored where it may be. Throws as analysed_run does as well, and

@@ -22,6 +22,7 @@ struct MemberState {
   std::optional<int> claim;    ///< the highest claim there is, whatever the stage
   bool has_folder = false;     ///< the folder in which its run is computed is there
   bool has_old_table = false;  ///< earlier versions of Talus have left a table of it
+  std::string damage = {};     ///< of its run file, if look_for_damage found it so
 };
 
 /// Of all members, in the order of the plan, with one look at each folder.

@@ -163,7 +163,8 @@ WorkerEnd work_on_ensemble(const WorkerOptions& options) {
   for (;;) {
     const EnsembleManifest manifest = read_ensemble(options.folder);
     const EnsemblePlan plan = plan_of(manifest, options.folder);
-    const std::vector<MemberState> states = look_at_members(plan);
+    std::vector<MemberState> states = look_at_members(plan);
+    if (!manifest.until.empty()) look_for_damage(plan, states, worker.known);
     worker.end.enough = !manifest.until.empty() && is_reached(parse_precision(manifest.until), plan,
                                                               numbers_of(plan, states, worker.known));
     if (worker.end.enough) return worker.end;

@@ -12,6 +12,7 @@
 
 #include "core/errors.h"
 #include "core/trigonometry.h"
+#include "core/visible_text.h"
 #include "gui/screen.h"
 
 namespace talus {
@@ -68,9 +69,12 @@ WindowHandle make_window(int width, int height) {
   if (!window) {
     const char* reason = nullptr;
     glfwGetError(&reason);
+    const std::string variables = driver_variables();
     throw Error(ExitCode::unavailable,
-                fmt::format("no window with OpenGL 3.3: {}; apt-get install libgl1 libgl1-mesa-dri",
-                            reason ? reason : "unknown"));
+                fmt::format("no window with OpenGL 3.3: {}; {}", reason ? reason : "unknown",
+                            variables.empty() ? "apt-get install libgl1 libgl1-mesa-dri"
+                                              : "the environment configures its driver, try without " +
+                                                    visible_word(variables, 200)));
   }
   glfwMakeContextCurrent(window.get());
   glfwSwapInterval(1);

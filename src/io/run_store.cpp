@@ -391,8 +391,39 @@ void discard_folder(const std::string& path) {
   remove_folder(folder, lock);
 }
 
+std::string damage_of_packed(const std::string& path) {
+  try {
+    verify_seal(path);
+    return "";
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::bad_data) throw;
+    return error.what();
+  }
+}
+
+/// Gives what makes way for a run a name that is free: `path`, `ending`, and a number from the second one on.
+static std::string set_aside(const std::string& what, const std::string& path, const std::string& ending) {
+  std::string aside = path + ending;
+  for (int number = 2; is_there(aside); ++number) aside = fmt::format("{}{}-{}", path, ending, number);
+  if (std::rename(what.c_str(), aside.c_str()) != 0)
+    throw Error(ExitCode::cannot_create,
+                fmt::format("{} cannot be renamed to {}: {}", what, aside, std::strerror(errno)));
+  return aside;
+}
+
+/// What was damaged, and where it lies now. After a semicolon stands advice for a run that cannot be made
+/// again.
+static std::string damage_text(const std::string& damage, const std::string& aside) {
+  return fmt::format("{}; what is left of it is {} now", damage.substr(0, damage.find(';')), aside);
+}
+
 std::string set_damaged_aside(const std::string& path) {
-  if (run_presence(path) != RunPresence::folder) return "";
+  const RunPresence presence = run_presence(path);
+  if (presence == RunPresence::packed) {
+    const std::string damage = damage_of_packed(path);
+    return damage.empty() ? "" : damage_text(damage, set_aside(path, path, ".damaged"));
+  }
+  if (presence != RunPresence::folder) return "";
   const std::string folder = run_folder(path);
   WriterLock lock(folder);
   shut_out_others(folder, lock);
@@ -402,14 +433,15 @@ std::string set_damaged_aside(const std::string& path) {
   } catch (const Error& error) {
     lock.require();
     if (error.code() != ExitCode::bad_data) throw;
-    std::string aside = path + ".damaged";
-    for (int number = 2; is_there(aside); ++number) aside = fmt::format("{}.damaged-{}", path, number);
-    if (std::rename(folder.c_str(), aside.c_str()) != 0)
-      throw Error(ExitCode::cannot_create,
-                  fmt::format("{}: is damaged and cannot be renamed: {}", folder, std::strerror(errno)));
-    const std::string damage = error.what();  // after a semicolon: advice for a run that cannot be made again
-    return fmt::format("{}; what is left of it is {} now", damage.substr(0, damage.find(';')), aside);
+    return damage_text(error.what(), set_aside(folder, path, ".damaged"));
   }
+}
+
+void set_withdrawn_aside(const std::string& path) {
+  if (run_presence(path) != RunPresence::folder) return;
+  WriterLock lock(run_folder(path));
+  shut_out_others(run_folder(path), lock);
+  set_aside(run_folder(path), path, ".withdrawn");
 }
 
 std::string run_folder(const std::string& path) { return path + ".run"; }

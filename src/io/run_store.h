@@ -123,11 +123,18 @@ RunPresence run_presence(const std::string& path);
 /// Error(cannot_create) where another process is at it.
 void discard_folder(const std::string& path);
 
-/// Makes way for a run whose folder cannot be continued, as its manifest is damaged or does not name what is
-/// there: the folder becomes `path`.damaged, with a number from the second one on. Returns what was damaged
-/// and where it lies now; nothing where all is whole. Throws Error(cannot_create) where another process is at
-/// it, or where it cannot be renamed.
+/// What is damaged of a packed file, by its seal; empty where it is whole. Throws Error(missing_input).
+std::string damage_of_packed(const std::string& path);
+
+/// Makes way for a run that cannot be used, as its file is damaged, or the manifest of its folder is or does
+/// not name what is there: file or folder becomes `path`.damaged, with a number from the second one on.
+/// Returns what was damaged and where it lies now; nothing where all is whole. Throws Error(cannot_create)
+/// where another process is at it, or where it cannot be renamed.
 std::string set_damaged_aside(const std::string& path);
+
+/// Makes way for another run of that name: a folder becomes `path`.withdrawn, with a number from the second
+/// one on. Throws as set_damaged_aside does.
+void set_withdrawn_aside(const std::string& path);
 
 /// The folder in which the run `path` is computed.
 std::string run_folder(const std::string& path);

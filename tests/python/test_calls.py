@@ -133,6 +133,7 @@ def test_calls_of_an_ensemble(folder, tmp_path):
     with pytest.raises(talus.Error, match="arrays of several shapes"):
         ensemble.measure(lambda run: np.zeros(run.seed))
     again = pickle.loads(pickle.dumps(ensemble))
+    assert again.folder.is_absolute() and again.done()[0].path.is_absolute(), "it may be opened in another folder"
     np.testing.assert_array_equal(again.numbers("gamma_c"), ensemble.numbers("gamma_c"))
 
 

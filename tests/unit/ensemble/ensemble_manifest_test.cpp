@@ -286,9 +286,11 @@ TEST_F(EnsembleManifestTest, withdraws_no_variant_that_was_stopped_or_has_begun)
   std::ofstream(members[2].path + ".run/manifest") << "talus run folder 1\n";
   extend();
   EXPECT_EQ(read_ensemble(ensemble).variants.size(), 2u) << "another seed has a run";
-  std::filesystem::remove_all(members[2].path + ".run");
+  record_failure(members[2].path, {65, "a mistake"});
   extend();
-  EXPECT_EQ(read_ensemble(ensemble).variants.size(), 1u);
+  EXPECT_EQ(read_ensemble(ensemble).variants.size(), 1u) << "both have failed by themselves";
+  EXPECT_TRUE(std::filesystem::exists(members[2].path + ".withdrawn/manifest")) << "nothing is lost";
+  EXPECT_FALSE(std::filesystem::exists(members[2].path + ".run")) << "the name is free";
 }
 
 TEST_F(EnsembleManifestTest, of_an_earlier_version_keeps_its_names) {
