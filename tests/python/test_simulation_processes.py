@@ -173,13 +173,13 @@ def test_interruptions_at_any_moment_leave_a_whole_run(tmp_path):
         sim.record("run.h5")
         delay, interrupted = 0.0003, 0
         while not sim.done:
-            signal.setitimer(signal.ITIMER_REAL, delay)
             try:
+                signal.setitimer(signal.ITIMER_REAL, delay)
                 sim.step(7)
                 sim.grains.position.sum(), sim["kinetic_energy"], sim.grains["pressure"]
                 sim.run(0.01, until=lambda: False)
                 sim.draw("gamma", width=200)
-                time.sleep(0.1)
+                time.sleep(0.2)
             except KeyboardInterrupt:
                 interrupted += 1
             delay = delay * 1.1 if delay < 0.1 else 0.0003
