@@ -313,7 +313,10 @@ class Simulation:
     def push(self, grain: int | Any, velocity: Any) -> None:
         """Adds (v_x, v_y), m/s, to the velocity of a free grain, or of each of several: (2,), or one row for each. All are
         pushed, or none if one of them cannot be."""
-        grains = np.atleast_1d(np.asarray(grain))
+        try:
+            grains = np.atleast_1d(np.asarray(grain))
+        except ValueError:  # rows of unlike lengths
+            grains = np.empty((0, 0))
         if grains.dtype.kind not in "iu" or grains.ndim != 1:
             raise WrongType(f"push({short(grain)}): expected the id of a grain, or a list of ids")
         try:

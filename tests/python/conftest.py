@@ -22,7 +22,7 @@ pytest.importorskip("xxhash", reason="xxhash is not installed: python3-xxhash")
 
 import talus  # noqa: E402
 
-PROGRAM = os.environ.get("TALUS_PROGRAM", str(ROOT / "build/release/talus"))
+PROGRAM = os.path.abspath(os.environ.get("TALUS_PROGRAM", ROOT / "build/release/talus"))
 #: For the program, which has its sanitizer built in: that of Python is loaded before it.
 PROGRAM_ENVIRONMENT = {name: value for name, value in os.environ.items() if name != "LD_PRELOAD"}
 

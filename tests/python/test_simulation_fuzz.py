@@ -19,7 +19,7 @@ from test_simulation import bed
 
 pytest.importorskip("talus._core", reason="the extension is not built: pybind11-dev, python3-dev")
 
-TRIES, FIRST = int(os.environ.get("TALUS_TRIES", 6)), int(os.environ.get("TALUS_SEED", -1))
+TRIES, FIRST = int(os.environ.get("TALUS_TRIES", 8)), int(os.environ.get("TALUS_SEED", -1))
 SEEDS = range(TRIES) if FIRST < 0 else [FIRST]
 CALLS = 60
 

@@ -100,6 +100,25 @@ def test_a_child_of_fork_while_another_thread_steps():
         """)
 
 
+def test_a_child_of_fork_while_another_thread_draws():
+    script("""
+        sim = bed()
+        def draws():
+            while True:
+                sim.draw("gamma", width=300)
+        threading.Thread(target=draws, daemon=True).start()
+        time.sleep(0.5)
+        def child():
+            try:
+                bed().draw("gamma", width=300)
+            except talus.Error as error:
+                assert "spawn" in str(error), error
+        for _ in range(5):
+            in_child(child)
+            time.sleep(0.02)
+        """)
+
+
 def test_a_signal_that_forks_steps_no_bed_in_the_child(tmp_path):
     script("""
         sim = large()
@@ -173,16 +192,16 @@ def test_interruptions_at_any_moment_leave_a_whole_run(tmp_path):
         sim.record("run.h5")
         delay, interrupted = 0.0003, 0
         while not sim.done:
-            signal.setitimer(signal.ITIMER_REAL, delay)
             try:
+                signal.setitimer(signal.ITIMER_REAL, delay)
                 sim.step(7)
                 sim.grains.position.sum(), sim["kinetic_energy"], sim.grains["pressure"]
                 sim.run(0.01, until=lambda: False)
                 sim.draw("gamma", width=200)
-                time.sleep(0.1)
+                time.sleep(0.2)
             except KeyboardInterrupt:
                 interrupted += 1
-            delay = delay * 1.1 if delay < 0.1 else 0.0003
+            delay = delay * 1.3 if delay < 0.1 else 0.0003
         assert interrupted > 10, interrupted
         whole = bed()
         whole.run()
