@@ -3,12 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <span>
 #include <sstream>
 
 #include "core/hash.h"
+#include "support/places.h"
 #include "support/process.h"
 
 namespace talus::test {
@@ -53,6 +55,62 @@ TEST(EnsembleMembers, is_not_stopped_by_a_value_with_a_mistake_in_it) {
       {"ensemble", "bed.toml", "--seeds", "3", "--vary", "deposition.file=a.csv", "-o", "e"}, folder.path());
   EXPECT_EQ(more.exit_code, 66) << more.err;
   EXPECT_EQ(more.out.find("e: 5 of 6 done, 0 under way, 1 failed"), 0u) << more.out;
+}
+
+TEST(EnsembleMembers, whose_files_are_damaged_stop_no_others_and_are_begun_anew) {
+  const TemporaryFolder folder;
+  write_file(folder, "bed.toml", tiny_bed);
+  ASSERT_EQ(run_talus(ensemble_of("e", "1-3"), folder.path()).exit_code, 0);
+  const std::string whole = text_of(folder.path("e/seed-2.h5")),
+                    averages = text_of(folder.path("e/averages.csv"));
+  const auto state_of_second = [&] {
+    return json_value(run_talus({"info", "e/seed-2.h5", "--json"}, folder.path()).out, "state_hash");
+  };
+  const std::string state = state_of_second();
+  std::string flipped = whole;
+  flipped[flipped.size() / 2] ^= 1;
+  int number = 0;
+  for (const std::string& damaged :
+       {whole.substr(0, whole.size() / 2), flipped, std::string(), std::string("talus")}) {
+    SCOPED_TRACE(damaged.size());
+    write_file(folder, "e/seed-2.h5", damaged);
+    const Outcome status = run_talus({"ensemble", "status", "e"}, folder.path());
+    EXPECT_EQ(status.exit_code, 0) << status.err;
+    EXPECT_NE(status.out.find("2 of 3 done"), std::string::npos) << status.out;
+    EXPECT_NE(status.out.find("damaged: seed-2: e/seed-2.h5"), std::string::npos) << status.out;
+    const Outcome average = run_talus({"ensemble", "average", "e"}, folder.path());
+    EXPECT_EQ(average.exit_code, 65);
+    EXPECT_EQ(std::ranges::count(text_of(folder.path("e/members.csv")), '\n'), 3)
+        << "those of the others are there";
+    if (number % 2 == 0) {
+      const Outcome retry = run_talus({"ensemble", "retry", "e"}, folder.path());
+      EXPECT_EQ(retry.exit_code, 0) << retry.err;
+      EXPECT_NE(retry.out.find("1 members wait again"), std::string::npos) << retry.out;
+    }
+    const Outcome again = run_talus(ensemble_of("e", "1-3"), folder.path());
+    EXPECT_EQ(again.exit_code, 0) << again.err;
+    EXPECT_EQ(state_of_second(), state);
+    EXPECT_EQ(text_of(folder.path("e/averages.csv")), averages);
+    const std::string aside =
+        ++number == 1 ? "e/seed-2.h5.damaged" : "e/seed-2.h5.damaged-" + std::to_string(number);
+    EXPECT_TRUE(text_of(folder.path(aside)) == damaged) << "nothing is lost";
+  }
+}
+
+TEST(EnsembleMembers, of_a_value_with_a_mistake_are_withdrawn_though_they_had_begun) {
+  const TemporaryFolder folder;
+  write_file(folder, "bed.toml", tiny_bed);
+  const auto ensemble = [&](const std::string& times) {
+    return run_talus(
+        {"ensemble", "bed.toml", "--seeds", "1-2", "--vary", "deposition.max_time=" + times, "-o", "e"},
+        folder.path());
+  };
+  EXPECT_EQ(ensemble("60,0.001").exit_code, 65);
+  const Outcome corrected = ensemble("60,50");
+  EXPECT_EQ(corrected.exit_code, 0) << corrected.err;
+  EXPECT_NE(corrected.out.find("e: 4 of 4 done"), std::string::npos) << corrected.out;
+  EXPECT_NE(corrected.err.find("deposition.max_time=0.001 is withdrawn"), std::string::npos) << corrected.err;
+  EXPECT_TRUE(std::filesystem::exists(folder.path("e/deposition.max_time=0.001/seed-2.h5.withdrawn")));
 }
 
 TEST(EnsembleMembers, knows_whose_a_run_is) {

@@ -451,41 +451,6 @@ TEST(Ensemble, begins_a_member_anew_whose_folder_is_damaged) {
   EXPECT_FALSE(std::filesystem::exists(folder.path("e/seed-1.failed")));
 }
 
-TEST(Ensemble, goes_on_without_members_whose_files_are_damaged_and_begins_them_anew) {
-  const TemporaryFolder folder;
-  write_file(folder, "bed.toml", tiny_bed);
-  ASSERT_EQ(run_talus(ensemble_of("e", "1-3"), folder.path()).exit_code, 0);
-  const std::string whole = text_of(folder.path("e/seed-2.h5")),
-                    averages = text_of(folder.path("e/averages.csv"));
-  std::string flipped = whole;
-  flipped[flipped.size() / 2] ^= 1;
-  int number = 0;
-  for (const std::string& damaged :
-       {whole.substr(0, whole.size() / 2), flipped, std::string(), std::string("talus")}) {
-    SCOPED_TRACE(damaged.size());
-    write_file(folder, "e/seed-2.h5", damaged);
-    const Outcome status = run_talus({"ensemble", "status", "e"}, folder.path());
-    EXPECT_EQ(status.exit_code, 0) << status.err;
-    EXPECT_NE(status.out.find("2 of 3 done"), std::string::npos) << status.out;
-    EXPECT_NE(status.out.find("damaged: seed-2: e/seed-2.h5"), std::string::npos) << status.out;
-    const Outcome average = run_talus({"ensemble", "average", "e"}, folder.path());
-    EXPECT_EQ(average.exit_code, 65);
-    EXPECT_EQ(count_of_lines(text_of(folder.path("e/members.csv"))), 3u) << "those of the others are there";
-    if (number % 2 == 0) {
-      const Outcome retry = run_talus({"ensemble", "retry", "e"}, folder.path());
-      EXPECT_EQ(retry.exit_code, 0) << retry.err;
-      EXPECT_NE(retry.out.find("1 members wait again"), std::string::npos) << retry.out;
-    }
-    const Outcome again = run_talus(ensemble_of("e", "1-3"), folder.path());
-    EXPECT_EQ(again.exit_code, 0) << again.err;
-    EXPECT_EQ(text_of(folder.path("e/seed-2.h5")), whole);
-    EXPECT_EQ(text_of(folder.path("e/averages.csv")), averages);
-    const std::string aside =
-        ++number == 1 ? "e/seed-2.h5.damaged" : "e/seed-2.h5.damaged-" + std::to_string(number);
-    EXPECT_EQ(text_of(folder.path(aside)), damaged) << "nothing is lost";
-  }
-}
-
 TEST(Ensemble, is_left_without_claims_and_locks) {
   const TemporaryFolder folder;
   write_file(folder, "bed.toml", tiny_bed);

@@ -160,6 +160,7 @@ TEST(Run, is_resumed_by_its_name_or_its_folder_alone) {
     EXPECT_NE(begun.err.find("; talus run --resume bed.h5 goes on.\n"), std::string::npos) << begun.err;
     const Outcome again = run_talus({"run", "--resume", name, "--max-wall", "00:00:01"}, folder.path());
     EXPECT_EQ(again.exit_code, 75) << again.err;
+    EXPECT_EQ(again.err.find("was begun by version"), std::string::npos) << again.err;
     EXPECT_FALSE(std::filesystem::exists(folder.path("bed.h5")));
     std::filesystem::remove_all(folder.path("bed.h5.run"));
   }

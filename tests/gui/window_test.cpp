@@ -93,6 +93,19 @@ TEST(View, a_file_that_is_missing_is_said_where_there_is_no_display_too) {
   }
 }
 
+TEST(View, without_a_window_by_a_variable_of_the_environment_says_so) {
+  if (const std::string missing = missing_for_desktop(); !missing.empty()) GTEST_SKIP() << missing;
+  const TemporaryFolder folder;
+  write_file(folder, "bed.toml", small_bed);
+  const Desktop desktop;
+  for (const std::string variable : {"MESA_GL_VERSION_OVERRIDE=2.1", "GALLIUM_DRIVER=swr"}) {
+    const Outcome outcome = run_talus({"view", "bed.toml"}, folder.path(), {variable});
+    EXPECT_EQ(outcome.exit_code, 69);
+    EXPECT_NE(outcome.err.find(variable.substr(0, variable.find('='))), std::string::npos) << outcome.err;
+    EXPECT_EQ(outcome.err.find("apt-get"), std::string::npos) << outcome.err;
+  }
+}
+
 TEST(View, refuses_a_beginning_that_is_none) {
   const TemporaryFolder folder;
   write_file(folder, "bed.toml", small_bed);
