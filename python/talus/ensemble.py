@@ -193,6 +193,8 @@ class Ensemble:
             self.full_names[self.variants[-1]] = rest
         elif kind == "bed":
             self._origins[-1]["bed"] = rest
+        elif kind not in ("task", "hash"):
+            raise ValueError(f"there is no {short(kind)}")
 
     def _refuse_copies(self) -> None:
         """Throws Error where two seeds of a variant have one state hash, but for the bed of a file: nothing is random there."""

@@ -1,6 +1,7 @@
 #include "ensemble/ensemble_manifest.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <filesystem>
 #include <fmt/core.h>
@@ -131,6 +132,10 @@ void take_variant(EnsembleManifest& manifest, const std::string& rest) {
 void take_line(EnsembleManifest& manifest, const std::string& folder, const std::string& line) {
   const std::size_t blank = std::min(line.find(' '), line.size());
   const std::string kind = line.substr(0, blank), rest = line.substr(std::min(blank + 1, line.size()));
+  static const std::array<std::string, 8> kinds = {"version", "seeds",   "until", "task",
+                                                   "keep",    "variant", "full",  "bed"};
+  if (std::find(kinds.begin(), kinds.end(), kind) == kinds.end())
+    throw Error(ExitCode::bad_data, fmt::format("expected one of {}", joined(kinds, ", ")));
   if (kind == "version") manifest.version = rest;
   if (kind == "seeds") manifest.seeds = parse_seeds(rest);
   if (kind == "until") parse_precision(manifest.until = rest);
@@ -299,7 +304,8 @@ EnsembleManifest read_ensemble(const std::string& folder) {
   EnsembleManifest manifest;
   std::istringstream lines = text_stream(text.substr(0, seal));
   std::string line;
-  for (int number = 1; std::getline(lines, line); ++number) try {
+  std::getline(lines, line);  // the first, which tells the version of the format
+  for (int number = 2; std::getline(lines, line); ++number) try {
       take_line(manifest, folder, line);
     } catch (const Error& error) {
       throw LocatedError(

@@ -22,13 +22,14 @@ RunChoice choose(const RunGroup& group, const Condition& condition) {
   return choice;
 }
 
-/// Of the tables whose first column is one, or the angle that is left, deg.
+/// Of the tables whose first column is one, or the angle that is left, deg; 1 where all are 0, as an axis
+/// needs a length.
 double largest_tilt(const Figure& figure) {
   double largest = 0.0;
   for (const Table& table : figure.tables)
     if (const Column& first = table.columns.front(); first.name == "theta" || first.name == "angle_left")
       for (const double tilt : first.values) largest = std::max(largest, tilt);
-  return largest;
+  return largest > 0.0 ? largest : 1.0;
 }
 
 }  // namespace

@@ -51,6 +51,13 @@ class Figures : public testing::Test {
   TemporaryFolder folder_;
 };
 
+TEST_F(Figures, of_one_tilt_alone_have_an_axis) {
+  write_file(folder_, "flat.toml", "[bed]\nlength = 10\ndepth = 2\n[tilt]\nend_angle = 0.05\n");
+  ASSERT_EQ(run_talus({"ensemble", "flat.toml", "--seeds", "1-2", "-o", "e"}, folder_.path()).exit_code, 0);
+  const Outcome outcome = run_talus({"figures", "e/ensemble.h5", "--only", "4", "-o", "out"}, folder_.path());
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+}
+
 TEST_F(Figures, are_files_of_each_kind) {
   const Outcome outcome = figures({"--only", "4,fig09-overloaded-fraction", "--set", "gamma_c=0.3"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;

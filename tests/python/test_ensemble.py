@@ -135,6 +135,13 @@ def test_names_of_a_manifest_stay_in_its_folder(tmp_path, name):
         talus.open_ensemble(tmp_path)
 
 
+@pytest.mark.parametrize("line", ["frob 1", "", "Seeds 1"])
+def test_lines_that_talus_does_not_write_are_refused(tmp_path, line):
+    (tmp_path / "ensemble.manifest").write_text(sealed_text(f"talus ensemble 1\n{line}\nseeds 1\nvariant 0 \nhash 0\n"))
+    with pytest.raises(talus.Error, match="ensemble.manifest: is not what talus wrote, in line 2: "):
+        talus.open_ensemble(tmp_path)
+
+
 @pytest.mark.parametrize("seeds", ["1-1000000000000", "5-1", "1-9000,10000-19000", str(2**63), "1" * 5000, "-1", "1-", "+1",
                                    "1_0", " 1"])
 def test_seeds_of_a_manifest_have_bounds(tmp_path, seeds):

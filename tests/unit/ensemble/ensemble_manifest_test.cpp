@@ -187,7 +187,7 @@ TEST_F(EnsembleManifestTest, that_is_broken_is_named_with_the_line) {
        {"seeds 5-1", "seeds 1-1000000000000", "seeds 1-9000,10000-19000", "seeds 9223372036854775808",
         "seeds x", "until theta_c", "until theta_c:-1", "keep some", "keep 99999999999999999999999",
         "task dance", "task trials --from 12 --every 0 --patch 10x2",
-        "task trials --from nan --every 1 --patch 10x2", "full a", "bed a"}) {
+        "task trials --from nan --every 1 --patch 10x2", "full a", "bed a", "frob 1", "", "Seeds 1"}) {
     replace_manifest(fmt::format("{}\nseeds 1\nvariant {} \n", line, hash));
     EXPECT_TRUE(message_of_reading().starts_with(manifest_path(ensemble) + ":2:1: error: ")) << line;
   }
