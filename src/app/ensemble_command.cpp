@@ -153,11 +153,12 @@ void average(const EnsembleArguments& arguments) {
 
 void retry(const EnsembleArguments& arguments) {
   KnownMembers known;
-  const EnsembleView view = view_of_ensemble(arguments.folder, known);
-  std::size_t count = begin_damaged_anew(view);
-  for (std::size_t m = 0; m < view.states.size(); ++m) {
-    if (view.states[m].stage != MemberStage::failed) continue;
-    remove_file(failure_path(view.plan.members[m].path));
+  const EnsemblePlan plan = plan_of(read_ensemble(arguments.folder), arguments.folder);
+  std::size_t count = begin_damaged_anew(plan, known);
+  const std::vector<MemberState> states = look_at_members(plan);
+  for (std::size_t m = 0; m < states.size(); ++m) {
+    if (states[m].stage != MemberStage::failed) continue;
+    remove_file(failure_path(plan.members[m].path));
     ++count;
   }
   print("%zu members wait again; talus ensemble work %s computes them\n", count,

@@ -133,11 +133,13 @@ std::vector<FailedJob> run_workers(const EnsembleWorkers& workers, const Ensembl
 
 }  // namespace
 
-std::size_t begin_damaged_anew(const EnsembleView& view) {
+std::size_t begin_damaged_anew(const EnsemblePlan& plan, KnownMembers& known) {
+  std::vector<MemberState> states = look_at_members(plan);
+  look_for_damage(plan, states, known);
   std::size_t count = 0;
-  for (std::size_t m = 0; m < view.states.size(); ++m) {
-    if (view.states[m].damage.empty()) continue;
-    if (const std::string damage = set_damaged_aside(view.plan.members[m].path); !damage.empty())
+  for (std::size_t m = 0; m < states.size(); ++m) {
+    if (states[m].damage.empty()) continue;
+    if (const std::string damage = set_damaged_aside(plan.members[m].path); !damage.empty())
       print_error("talus: note: %s; the member is begun anew\n", damage.c_str());
     ++count;
   }
@@ -147,8 +149,8 @@ std::size_t begin_damaged_anew(const EnsembleView& view) {
 void compute_members(const EnsembleWorkers& workers, KnownMembers& known) {
   ClaimWatch watch{workers.times, {}};
   for (std::size_t ended = 0;;) {
-    begin_damaged_anew(view_of_ensemble(workers.folder, known));
     const EnsemblePlan plan = plan_of(read_ensemble(workers.folder), workers.folder);
+    begin_damaged_anew(plan, known);
     std::vector<FailedJob> killed;
     if (has_work(plan, look_at_members(plan), watch)) killed = run_workers(workers, plan, known);
     const EnsembleView view = view_of_ensemble(workers.folder, known);

@@ -18,7 +18,7 @@ struct EnsembleWorkers {
 
 /// Members whose files are damaged make way (set_damaged_aside) and wait to be computed again, which is said
 /// on stderr. Returns how many.
-std::size_t begin_damaged_anew(const EnsembleView& view);
+std::size_t begin_damaged_anew(const EnsemblePlan& plan, KnownMembers& known);
 
 /// Computes what is missing of an ensemble, damaged members anew. Members that others compute are waited for,
 /// and taken over where their workers end before them; workers that were killed are replaced, as long as

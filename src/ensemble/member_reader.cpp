@@ -117,10 +117,9 @@ void look_for_damage(const EnsemblePlan& plan, std::vector<MemberState>& states,
     try {
       read_member(member, known);
     } catch (const Error& error) {
-      if (error.code() != ExitCode::bad_data) throw;
+      if (error.code() != ExitCode::bad_data) continue;
       states[m].damage = damage_of_packed(member.path);
-      if (states[m].damage.empty()) throw;
-      states[m].stage = MemberStage::waiting;
+      if (!states[m].damage.empty()) states[m].stage = MemberStage::waiting;
     }
   }
 }

@@ -40,8 +40,8 @@ struct KnownMembers {
 /// Throws as require_own_run and RunFile::open do.
 const MemberResult& read_member(const Member& member, KnownMembers& known);
 
-/// Takes members whose files are damaged for ones that wait, and says why. Throws as read_member does where a
-/// file is whole.
+/// Takes members whose files are damaged for ones that wait, and says why. Those that read_member refuses for
+/// another reason stay done.
 void look_for_damage(const EnsemblePlan& plan, std::vector<MemberState>& states, KnownMembers& known);
 
 /// All of a member that is done, whose run may not be analysed yet, such as one that `talus run` has put

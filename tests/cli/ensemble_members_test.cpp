@@ -97,6 +97,22 @@ TEST(EnsembleMembers, whose_files_are_damaged_stop_no_others_and_are_begun_anew)
   }
 }
 
+TEST(EnsembleMembers, of_another_scenario_stop_no_others) {
+  const TemporaryFolder folder;
+  write_file(folder, "bed.toml", tiny_bed);
+  ASSERT_EQ(run_talus(ensemble_of("e", "1-2"), folder.path()).exit_code, 0);
+  ASSERT_EQ(
+      run_talus({"run", "bed.toml", "--set", "contact.friction=0.3", "-o", "e/seed-1.h5", "--overwrite"},
+                folder.path())
+          .exit_code,
+      0);
+  const Outcome more = run_talus(ensemble_of("e", "1-3"), folder.path());
+  EXPECT_EQ(more.exit_code, 65);
+  EXPECT_NE(more.err.find("e/seed-1.h5 is a run of another scenario"), std::string::npos) << more.err;
+  EXPECT_TRUE(std::filesystem::exists(folder.path("e/seed-3.h5"))) << "it was computed all the same";
+  EXPECT_FALSE(std::filesystem::exists(folder.path("e/seed-1.h5.damaged"))) << "it is whole";
+}
+
 TEST(EnsembleMembers, of_a_value_with_a_mistake_are_withdrawn_though_they_had_begun) {
   const TemporaryFolder folder;
   write_file(folder, "bed.toml", tiny_bed);
