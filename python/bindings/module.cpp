@@ -12,6 +12,7 @@
 #include <chrono>
 #include <cstring>
 #include <optional>
+#include <set>
 #include <thread>
 #include <utility>
 
@@ -28,8 +29,9 @@ namespace {
 std::atomic<int> steps_under_way = 0;
 std::atomic<bool> interpreter_ends = false;
 std::atomic<int> draws_under_way = 0;
-/// In a child of fork, if another thread of its parent was drawing: the locks of Mesa stay as they were then.
-bool cannot_draw = false;
+/// In a child of fork, if another thread of its parent was drawing, or was in a simulation, which may have
+/// been writing: the locks of Mesa and of HDF5 stay as they were then.
+bool cannot_draw = false, cannot_use_files = false;
 
 /// For children of fork, which have none of the other threads. Mesa draws without threads of its own, for
 /// which a child would wait when it draws, or ends.
@@ -37,6 +39,7 @@ void survive_forks() {
   ::setenv("LP_NUM_THREADS", "0", 0);
   ::pthread_atfork(nullptr, nullptr, [] {
     cannot_draw = cannot_draw || draws_under_way > 0;
+    cannot_use_files = cannot_use_files || steps_under_way > 0;
     steps_under_way = draws_under_way = 0;
   });
 }
@@ -57,7 +60,22 @@ class Count {
 /// itself may only look at it.
 class Driven {
  public:
-  explicit Driven(Simulation simulation) : simulation_(std::move(simulation)) {}
+  explicit Driven(Simulation simulation) : simulation_(std::move(simulation)) { all.insert(this); }
+  ~Driven() { all.erase(this); }
+  Driven(const Driven&) = delete;
+  Driven& operator=(const Driven&) = delete;
+
+  /// Commits what was recorded, of all simulations that no thread is in. The interpreter does not destroy
+  /// those that a daemon thread holds.
+  static void commit_all() {
+    for (Driven* const driven : all) {
+      if (driven->busy_) continue;
+      try {
+        driven->simulation_.commit();
+      } catch (const std::exception&) {  // what was committed before is whole
+      }
+    }
+  }
 
   Simulation& seen() {
     if (busy_.load(std::memory_order_acquire) && owner_ != std::this_thread::get_id()) refuse();
@@ -110,6 +128,7 @@ class Driven {
                       "as copy() makes them");
   }
 
+  inline static std::set<Driven*> all;  ///< changed by who holds the interpreter
   Simulation simulation_;
   std::atomic<bool> busy_ = false;
   std::atomic<std::thread::id> owner_;
@@ -211,6 +230,14 @@ void translate(std::exception_ptr thrown) {
   }
 }
 
+/// To be called before HDF5 is.
+void require_files() {
+  if (cannot_use_files)
+    throw Error(ExitCode::unavailable,
+                "this process was forked while another thread was in a simulation, and can neither read nor "
+                "record runs: start it by the method \"spawn\" of multiprocessing");
+}
+
 /// What is drawn by a simulation or a frame.
 template <typename Draw>
 py::array drawn(Draw&& draw) {
@@ -222,13 +249,17 @@ py::array drawn(Draw&& draw) {
   return pixels(draw());
 }
 
-/// Waits for steps that other threads are in, since they end in the interpreter.
+/// Waits for steps that other threads are in, since they end in the interpreter, and commits what was
+/// recorded.
 void end_steps() {
   interpreter_ends = true;
-  const py::gil_scoped_release let_go;
-  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
-  while (steps_under_way > 0 && std::chrono::steady_clock::now() < end)
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  {
+    const py::gil_scoped_release let_go;
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+    while (steps_under_way > 0 && std::chrono::steady_clock::now() < end)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  Driven::commit_all();
 }
 
 void bind_stepping(py::class_<Driven, Holder>& type) {
@@ -385,7 +416,10 @@ void bind_options(py::module_& module) {
 /// Frames of files, which have the same measures.
 void bind_frames(py::module_& module) {
   py::class_<MeasuredFrame>(module, "MeasuredFrame")
-      .def(py::init([](const std::string& path, std::size_t k) { return measured_frame(path, k); }))
+      .def(py::init([](const std::string& path, std::size_t k) {
+        require_files();
+        return measured_frame(path, k);
+      }))
       .def("_quantity", [](MeasuredFrame& frame, const std::string& name) { return frame.quantity(name); })
       .def("_grain_values",
            [](MeasuredFrame& frame, const std::string& name) {
@@ -420,17 +454,21 @@ PYBIND11_MODULE(_core, module) {
     return std::make_shared<Driven>(
         driven.use([](Simulation& simulation) { return Simulation(simulation); }));
   });
-  type.def_static("_resume",
-                  [](const std::string& path) { return std::make_shared<Driven>(Simulation::resume(path)); });
+  type.def_static("_resume", [](const std::string& path) {
+    require_files();
+    return std::make_shared<Driven>(Simulation::resume(path));
+  });
   bind_stepping(type);
   bind_commands(type);
   bind_state(type);
   bind_arrays(type);
   bind_measures(type);
   type.def("_save", [](Driven& driven, const std::string& path, bool overwrite) {
+    require_files();
     driven.use([&](Simulation& simulation) { simulation.save(path, overwrite); });
   });
   type.def("_record", [](Driven& driven, const std::string& path, bool overwrite) {
+    require_files();
     driven.use([&](Simulation& simulation) { simulation.record(path, overwrite); });
   });
   type.def("commit", [](Driven& driven) { driven.use([](Simulation& simulation) { simulation.commit(); }); });

@@ -1,10 +1,11 @@
 """The contacts of a frame, with their end points."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
+from talus.errors import check_text
 from talus.optional import need
 
 
@@ -26,6 +27,11 @@ class Contacts:
     #: (K,) moment on b, N (per metre of thickness), counter-clockwise positive; its opposite acts on a. None where
     #: contacts do not resist rolling (contact.rolling_friction = 0)
     moment: np.ndarray | None = None
+    frame: Any = field(default=None, repr=False, compare=False)  #: whose they are
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        """A quantity of the table in docs/export.md, `contacts["mobilisation"]`, in SI units."""
+        return self.frame._measured._contact_values(check_text(name, "quantity"))
 
     def __len__(self) -> int:
         return len(self.pair)

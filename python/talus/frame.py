@@ -25,6 +25,11 @@ class FrameGrains:
     def __getitem__(self, name: str) -> np.ndarray:
         return self._frame._measured._grain_values(check_text(name, "quantity"))
 
+    @property
+    def free_count(self) -> int:
+        """Grains that are not of the floor: the first ones."""
+        return int(self._frame.free.sum())
+
     def __getattr__(self, name: str) -> Any:
         if name in ("position", "velocity", "angle", "angular_velocity", "radius", "free"):
             return getattr(self._frame, name)
@@ -151,7 +156,7 @@ class Frame:
         end[between_grains] = self.position[b[between_grains]]
         end[between_grains, 0] += read["shift"][between_grains] * self.run.length
         return Contacts(**read, start=self.position[a], end=end, between_grains=between_grains,
-                        period=self.run.length if self.run.periodic else 0.0)
+                        period=self.run.length if self.run.periodic else 0.0, frame=self)
 
     def to_pandas(self) -> Any:
         """A DataFrame with one row for each grain, its index the id: free, x, y, radius, mass, angle, v_x, v_y,

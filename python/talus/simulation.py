@@ -1,6 +1,7 @@
 """A run that a script drives: stepped, steered, measured, drawn, recorded and copied."""
 
 import atexit
+import operator
 import os
 import sys
 from collections.abc import Callable, Mapping
@@ -39,15 +40,30 @@ def _path(path: Any) -> bytes:
     return name
 
 
+def _number(value: Any, what: str) -> float:
+    """A number. Throws WrongType where it is none."""
+    try:
+        if not isinstance(value, str | bytes):
+            return float(value)
+    except Exception:  # of whatever __float__ it has
+        pass
+    raise WrongType(f"{what} = {short(value)}: expected a number")
+
+
 def _seconds(value: Any, what: str) -> float:
     """A time. Throws WrongType where it is none."""
-    try:
-        seconds = np.nan if isinstance(value, str | bytes) else float(value)
-    except (TypeError, ValueError, OverflowError):
-        seconds = np.nan
+    seconds = _number(value, what)
     if np.isnan(seconds):
         raise WrongType(f"{what} = {short(value)}: expected a number of seconds")
     return seconds
+
+
+def _whole(value: Any, what: str) -> int:
+    """A whole number, of those beyond 2^62 that. Throws WrongType where it is none."""
+    try:
+        return max(-1, min(operator.index(value), 2**62))
+    except Exception:
+        raise WrongType(f"{what} = {short(value)}: expected a whole number") from None
 
 
 def _toml(value: Any, key: str) -> str:
@@ -269,15 +285,13 @@ class Simulation:
         try:
             if not method(*goal, tick):
                 raise SystemExit  # the interpreter ends
-        except TypeError as error:
-            raise WrongType(f"expected a number: {error}".splitlines()[0]) from None
         finally:
             if tick is not None:
                 print("\r\x1b[K", end="", file=sys.stderr, flush=True)
 
     def step(self, count: int = 1) -> None:
         """Takes so many time steps, or fewer if the run is over before."""
-        self._steps(self._core._step, count)
+        self._steps(self._core._step, _whole(count, "step: count"))
 
     def deposit(self) -> None:
         """Steps until the bed rests, and its tilt begins."""
@@ -285,11 +299,11 @@ class Simulation:
 
     def tilt_to(self, angle: float) -> None:
         """Steps until the tilt is at least that (deg), or the run is over."""
-        self._steps(self._core._tilt_to, angle)
+        self._steps(self._core._tilt_to, _number(angle, "tilt_to: angle"))
 
     def tilt_by(self, angle: float) -> None:
         """Steps until the tilt has grown by that (deg), or the run is over."""
-        self._steps(self._core._tilt_by, angle)
+        self._steps(self._core._tilt_by, _number(angle, "tilt_by: angle"))
 
     def run(self, seconds: float | None = None, *, until: Callable[[], bool] | None = None, every: float | None = None) -> None:
         """Steps for so many seconds of simulated time, to the end of the run without them, and not beyond the moment at which
@@ -298,7 +312,7 @@ class Simulation:
             if seconds is None:
                 self._steps(self._core._finish)
             else:
-                self._steps(self._core._run, seconds)
+                self._steps(self._core._run, _number(seconds, "run: seconds"))
             return
         end = np.inf if seconds is None else self.time + _seconds(seconds, "run: seconds")
         pause = 0.0 if every is None else _seconds(every, "run: every")
@@ -333,7 +347,11 @@ class Simulation:
 
     def drag(self, grain: int, to: Any) -> None:
         """Pulls a grain to a place (x, y), m, by a damped spring, from the next step on."""
-        self._command(self._core._drag, grain, *to)
+        try:
+            x, y = to
+        except (TypeError, ValueError):
+            raise WrongType(f"drag: to = {short(to)}: expected (x, y)") from None
+        self._command(self._core._drag, grain, x, y)
 
     def release(self) -> None:
         """Ends the drag."""

@@ -35,21 +35,6 @@ OpenRun start_run(const RunRequest& request) {
   return {std::move(header), std::move(store), std::move(session)};
 }
 
-namespace {
-
-/// A replay that has not reached the end of its run lacks the commands that are still to come.
-void refuse_unfinished_replay(const RunRequest& request, const RunHeader& header, const World& world) {
-  const std::optional<std::string> steps = find_value(header.provenance, "replay_steps");
-  if (!steps || world.step >= std::atoll(steps->c_str())) return;
-  const std::string run = find_value(header.provenance, "replay_of").value_or("RUN");
-  throw Error(ExitCode::bad_data,
-              fmt::format("{} is a replay of {} that was stopped after {} of its {} steps, without the "
-                          "commands that follow; begin it again with: talus replay {} -o {} --overwrite",
-                          request.output, run, world.step, *steps, run, request.output));
-}
-
-}  // namespace
-
 void require_same_scenario(const RunRequest& request, const Scenario& stored) {
   if (request.scenario.empty()) return;
   const Scenario asked = read_scenario(request.scenario, request.settings);
@@ -67,7 +52,7 @@ OpenRun resume_run(const RunRequest& request) {
   prepare_folder_of(request.output);
   const Scenario scenario = stored_scenario(header, request.output + ":/parameters");
   require_same_scenario(request, scenario);
-  refuse_unfinished_replay(request, header, checkpoint.world);
+  refuse_unfinished_replay(header, checkpoint.world, request.output);
   if (const std::string begun_by = version_of(header.provenance); begun_by != version_and_commit())
     print_error(
         "talus: note: %s was begun by version %s and goes on with %s, which may give other bits and measure "

@@ -25,6 +25,7 @@
 #include "io/durable_file.h"
 #include "io/mistaken_path.h"
 #include "io/run_store.h"
+#include "io/writer_lock.h"
 #include "session/deposition.h"
 
 namespace talus {
@@ -197,6 +198,7 @@ bool is_hopeless(const EnsembleManifest& found, const Variant& variant, const st
   for (std::size_t m = 0; m < states.size(); ++m) {
     const MemberStage stage = states[m].stage;
     if (stage == MemberStage::done || stage == MemberStage::claimed) return false;
+    if (!writer_of(run_folder(plan.members[m].path)).empty()) return false;  // it could not be set aside
     if (stage != MemberStage::failed) {
       if (run_presence(plan.members[m].path) != RunPresence::none) return false;
       continue;

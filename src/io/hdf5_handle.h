@@ -4,7 +4,9 @@
 #include <hdf5.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
+#include <cstdint>
 #include <cstdlib>
 #include <fmt/core.h>
 #include <iterator>
@@ -81,9 +83,12 @@ inline void throw_cause(const std::string& name) {
     throw system_error(ExitCode::io_error, "read", name, cause);
 }
 
-/// A name for a file in memory. HDF5 takes files of equal names for the same one, and looks for a file of
-/// that name on disk: below /dev/null there can be none.
-inline std::string memory_name(const std::string& name) { return "/dev/null/" + name; }
+/// A name for a file in memory, another one at each call. HDF5 takes open files of equal names for the same
+/// one, and looks for a file of that name on disk: below /dev/null there can be none.
+inline std::string memory_name(const std::string& name) {
+  static std::atomic<std::uint64_t> count = 0;
+  return fmt::format("/dev/null/{} {}", name, ++count);
+}
 
 /// Passes on a file that is open. Throws Error(bad_data) where HDF5 could not open it, and as throw_cause
 /// does.
@@ -102,8 +107,7 @@ inline Handle open_image(std::vector<std::byte>& image, const std::string& name,
   if (H5Pset_fapl_core(access.get(), 1 << 20, false) < 0 ||
       H5Pset_file_image(access.get(), image.data(), image.size()) < 0)
     throw Error(ExitCode::out_of_memory, name + ": no memory to open it");
-  const std::string unique = memory_name(fmt::format("{} {}", name, hash_text(hash_bytes(image))));
-  return require_open({H5Fopen(unique.c_str(), access_flags, access.get()), H5Fclose}, name);
+  return require_open({H5Fopen(memory_name(name).c_str(), access_flags, access.get()), H5Fclose}, name);
 }
 
 /// What a path leads to.

@@ -1,5 +1,6 @@
 #include "io/run_store.h"
 
+#include <fcntl.h>
 #include <sys/random.h>
 #include <unistd.h>
 
@@ -396,24 +397,28 @@ std::string damage_of_packed(const std::string& path) {
     verify_seal(path);
     return "";
   } catch (const Error& error) {
+    if (error.code() == ExitCode::missing_input && !is_there(path)) return "";  // somebody has moved it
     if (error.code() != ExitCode::bad_data) throw;
-    return error.what();
+    return begins_with(path, "talus run file ") && !begins_as_run(path) ? "" : error.what();
   }
 }
 
 /// Gives what makes way for a run a name that is free: `path`, `ending`, and a number from the second one on.
+/// Empty where it is gone, as another process has done the same.
 static std::string set_aside(const std::string& what, const std::string& path, const std::string& ending) {
   std::string aside = path + ending;
   for (int number = 2; is_there(aside); ++number) aside = fmt::format("{}{}-{}", path, ending, number);
-  if (std::rename(what.c_str(), aside.c_str()) != 0)
-    throw Error(ExitCode::cannot_create,
-                fmt::format("{} cannot be renamed to {}: {}", what, aside, std::strerror(errno)));
-  return aside;
+  if (std::rename(what.c_str(), aside.c_str()) == 0) return aside;
+  const int error = errno;
+  if (error == ENOENT && !is_there(what)) return "";
+  throw Error(ExitCode::cannot_create,
+              fmt::format("{} cannot be renamed to {}: {}", what, aside, std::strerror(error)));
 }
 
 /// What was damaged, and where it lies now. After a semicolon stands advice for a run that cannot be made
 /// again.
 static std::string damage_text(const std::string& damage, const std::string& aside) {
+  if (aside.empty()) return "";
   return fmt::format("{}; what is left of it is {} now", damage.substr(0, damage.find(';')), aside);
 }
 
@@ -421,7 +426,11 @@ std::string set_damaged_aside(const std::string& path) {
   const RunPresence presence = run_presence(path);
   if (presence == RunPresence::packed) {
     const std::string damage = damage_of_packed(path);
-    return damage.empty() ? "" : damage_text(damage, set_aside(path, path, ".damaged"));
+    const std::string aside = damage.empty() ? "" : set_aside(path, path, ".damaged");
+    if (aside.empty() || !damage_of_packed(aside).empty()) return damage_text(damage, aside);
+    // Another process was faster, and has computed it anew meanwhile.
+    ::renameat2(AT_FDCWD, aside.c_str(), AT_FDCWD, path.c_str(), RENAME_NOREPLACE);
+    return "";
   }
   if (presence != RunPresence::folder) return "";
   const std::string folder = run_folder(path);

@@ -123,7 +123,8 @@ RunPresence run_presence(const std::string& path);
 /// Error(cannot_create) where another process is at it.
 void discard_folder(const std::string& path);
 
-/// What is damaged of a packed file, by its seal; empty where it is whole. Throws Error(missing_input).
+/// What is damaged of a packed file, by its seal; empty where it is whole, gone, or of a later format. Throws
+/// Error(missing_input).
 std::string damage_of_packed(const std::string& path);
 
 /// Makes way for a run that cannot be used, as its file is damaged, or the manifest of its folder is or does

@@ -50,7 +50,13 @@ std::vector<std::string> names_of_numbers() {
 std::vector<double> values_of(std::span<const FrameQuantity> table, std::string_view name, const char* what,
                               const GrainSource& source) {
   const auto found = std::ranges::find(table, name, &FrameQuantity::name);
-  if (found != table.end() && !name.empty()) return found->values(source, 0);
+  if (found != table.end() && !name.empty()) {
+    std::vector<double> values = found->values(source, 0);
+    const bool is_known = found->need != FrameNeed::earlier_frame ||
+                          (source.earlier && source.earlier->grain_count() == source.frame.grain_count());
+    if (!is_known) std::ranges::fill(values, not_known);
+    return values;
+  }
   std::vector<std::string> names;
   for (const FrameQuantity& quantity : table) names.emplace_back(quantity.name);
   refuse(name, what, names);
@@ -68,15 +74,17 @@ const Frame& MeasuredFrame::judged() {
 const FrameRecord& MeasuredFrame::record() {
   if (record_) return *record_;
   const Analysis analysis = begin_analysis(input_.statics, input_.parameters, theta_c());
-  record_ = analyse_frame({judged(), input_.statics}, input_.parameters, analysis);
-  take_topology(force_persistence({judged(), input_.statics}, record_->mean_normal_force),
-                input_.statics.free_count, analysis.network_threshold, *record_);
+  FrameRecord found = analyse_frame({judged(), input_.statics}, input_.parameters, analysis);
+  take_topology(force_persistence({judged(), input_.statics}, found.mean_normal_force),
+                input_.statics.free_count, analysis.network_threshold, found);
   if (input_.row) {
-    record_->volume_strain = at(*input_.row, Observable::volume_strain);
-    record_->centre_of_mass_strain = at(*input_.row, Observable::centre_of_mass_strain);
-    record_->solid_fraction = at(*input_.row, Observable::solid_fraction);
+    found.volume_strain = at(*input_.row, Observable::volume_strain);
+    found.centre_of_mass_strain = at(*input_.row, Observable::centre_of_mass_strain);
+    found.solid_fraction = at(*input_.row, Observable::solid_fraction);
   }
+  factors_.clear();
   for (const RunThreshold& threshold : analysis.thresholds) factors_.push_back(threshold.factor);
+  record_ = std::move(found);
   return *record_;
 }
 

@@ -12,6 +12,7 @@
 #include "core/errors.h"
 #include "core/hash.h"
 #include "core/trigonometry.h"
+#include "io/run_file.h"
 #include "library/simulation_state.h"
 #include "runs/analysis_parameters.h"
 #include "runs/run_view.h"
@@ -27,6 +28,11 @@ constexpr std::chrono::milliseconds interrupt_interval(50);
 void require_finite(double value, const char* what) {
   if (!std::isfinite(value))
     throw Error(ExitCode::usage, fmt::format("{} {}: expected a finite number", what, value));
+}
+
+/// Whether a command holds the tilt.
+bool is_held(const Session& session) {
+  return session.phase() == Phase::tilt && session.schedule().course && session.tilt_rate() <= 0.0;
 }
 
 }  // namespace
@@ -95,19 +101,20 @@ Simulation Simulation::resume(const std::string& path) {
   Checkpoint checkpoint;
   RunStore store = RunStore::resume(path, header, checkpoint);
   const Scenario scenario = stored_scenario(header, path + ":/parameters");
+  refuse_unfinished_replay(header, checkpoint.world, path);
   auto state = std::make_unique<State>(Session(scenario, std::move(checkpoint), path));
   state->is_new = false;
   state->origin.scenario_text = header.scenario_given;
   state->store.emplace(std::move(store));
   state->recorder.emplace(state->session, *state->store);
+  if (const RunFile run = RunFile::open(path); !run.all_frame_tilts().empty()) state->begin = run.frame(0);
   return Simulation(std::move(state));
 }
 
 Simulation::Simulation(const Simulation& other)
-    : state_(std::make_unique<State>(Session(other.scenario(), other.state_->session.checkpoint(0.0)))) {
+    : state_(std::make_unique<State>(other.state_->session.copy())) {
   state_->origin = other.state_->origin;
   state_->parameters = other.state_->parameters;
-  state_->interrupts = other.state_->interrupts;
   state_->begin = other.state_->begin;
   state_->is_new = other.state_->is_new;
 }
@@ -163,7 +170,7 @@ bool Simulation::tilt_to(double degrees) {
   const double goal = radians(degrees) - reached_within;
   return advance_until([goal](const Session& session) {
     if (session.world().tilt >= goal) return true;
-    if (session.phase() == Phase::tilt && session.schedule().course && session.tilt_rate() <= 0.0)
+    if (is_held(session))
       throw Error(ExitCode::usage, "the tilt is held or lowered (tilt_rate), and never gets there");
     return false;
   });
@@ -185,7 +192,11 @@ bool Simulation::run_until(const std::function<bool()>& holds) {
 }
 
 bool Simulation::finish() {
-  return advance_until([](const Session&) { return false; });
+  return advance_until([](const Session& session) {
+    if (is_held(session))
+      throw Error(ExitCode::usage, "the tilt is held (tilt_rate), so the run has no end: say for how long");
+    return false;
+  });
 }
 
 void Simulation::interrupt_if(std::function<bool()> interrupts) {
@@ -210,8 +221,11 @@ void Simulation::apply(const Command& command) {
 void Simulation::push(Index grain, Vec2 velocity) { push(std::vector{grain}, std::vector{velocity}); }
 void Simulation::push(const std::vector<Index>& grains, const std::vector<Vec2>& velocities) {
   const auto command = [&](std::size_t k) {
-    return Command{0, CommandKind::push, grains[k], velocities.at(k).x, velocities.at(k).y};
+    return Command{0, CommandKind::push, grains[k], velocities[k].x, velocities[k].y};
   };
+  if (grains.size() != velocities.size())
+    throw Error(ExitCode::usage, fmt::format("{} velocities for {} grains: expected one for each",
+                                             velocities.size(), grains.size()));
   for (std::size_t k = 0; k < grains.size(); ++k) check_command(command(k), scenario(), world());
   for (std::size_t k = 0; k < grains.size(); ++k) apply(command(k));
 }

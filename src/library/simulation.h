@@ -52,7 +52,7 @@ class Simulation {
   bool tilt_by(double degrees);                        ///< until it has grown by that
   bool run(double seconds);                            ///< of simulated time
   bool run_until(const std::function<bool()>& holds);  ///< asked after each step
-  bool finish();                                       ///< to the end of the run
+  bool finish();                                       ///< to the end of the run, which a held tilt has not
 
   /// Asked between steps, some twenty times a second: true interrupts what is stepping. An exception that it
   /// throws goes through, between two steps.

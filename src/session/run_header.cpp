@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <cstdlib>
 #include <ctime>
 #include <fmt/core.h>
 
@@ -64,6 +65,16 @@ RunHeader run_header(const Session& session, const RunOrigin& origin) {
   if (!origin.bed.empty()) header.provenance.emplace_back(bed_fact, origin.bed);
   header.branch = origin.branch;
   return header;
+}
+
+void refuse_unfinished_replay(const RunHeader& header, const World& world, const std::string& path) {
+  const std::optional<std::string> steps = find_value(header.provenance, "replay_steps");
+  if (!steps || world.step >= std::atoll(steps->c_str())) return;
+  const std::string run = find_value(header.provenance, "replay_of").value_or("RUN");
+  throw Error(ExitCode::bad_data,
+              fmt::format("{} is a replay of {} that was stopped after {} of its {} steps, without the "
+                          "commands that follow; begin it again with: talus replay {} -o {} --overwrite",
+                          path, run, world.step, *steps, run, path));
 }
 
 Session session_at_start(const RunHeader& header, const std::string& name) {

@@ -29,6 +29,10 @@ std::string bed_of(const Facts& provenance);
 /// The header of a run that this program begins now, on this host.
 RunHeader run_header(const Session& session, const RunOrigin& origin);
 
+/// Throws Error(bad_data) where the run is a replay that was stopped: what goes on from there lacks the
+/// commands that were still to come.
+void refuse_unfinished_replay(const RunHeader& header, const World& world, const std::string& path);
+
 /// The session of a stored run before its first step; of a branch, with what it records of its start. `name`
 /// is what messages call the file. Throws Error(bad_data) as stored_scenario and check_branch_start do, and
 /// where deposition.file now holds another bed.

@@ -353,6 +353,13 @@ double Session::tilt_rate() const {
   return schedule_.course ? schedule_.course->rate : radians(scenario_.tilt.rate);
 }
 
+Session Session::copy() const {
+  Session other(scenario_, checkpoint(0.0));
+  other.report_ = report_;
+  other.broken_guard_ = broken_guard_;
+  return other;
+}
+
 Checkpoint Session::checkpoint(double seconds_writing) const {
   Checkpoint checkpoint;
   checkpoint.world = world_;

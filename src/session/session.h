@@ -80,6 +80,9 @@ class Session {
   /// Puts back what had been recorded of a run that goes back to a state it had.
   void put_back(Segment segment) { segment_ = std::move(segment); }
 
+  /// The same state, on one thread, with nothing recorded.
+  Session copy() const;
+
   /// All that a resumed run needs. `seconds_writing` goes to the timing.
   Checkpoint checkpoint(double seconds_writing) const;
 

@@ -124,6 +124,7 @@ def test_frames_of_files_have_the_same_names(tmp_path):
     assert np.degrees(frame.tilt) == pytest.approx(tilt)
     np.testing.assert_allclose(frame.grains["pressure"], pressure, rtol=1e-4, atol=1)
     assert 0 <= frame["overloaded/fraction"] <= 1
+    assert frame.contacts["mobilisation"].shape == (len(frame.contacts),) and frame.grains.free_count == frame.grains.free.sum()
     assert frame.draw("gamma", width=300).shape[1:] == (300, 4)
     assert len(frame.grains) == len(frame.grains.position) == len(pressure)
 
@@ -174,6 +175,20 @@ def test_threads_run_side_by_side_and_not_in_one_simulation():
     for thread in threads:
         thread.join()
     assert all("another thread" in text or "over" in text for text in refused)
+
+
+def test_beds_are_recorded_side_by_side(tmp_path):
+    def run(k):
+        sim = bed()
+        sim.record(tmp_path / f"{k}.h5")
+        for _ in range(10):
+            sim.step(3)
+            sim.commit()
+        return sim.state_hash
+
+    with ThreadPoolExecutor(4) as pool:
+        assert len(set(pool.map(run, range(8)))) == 1
+    assert [talus.resume(tmp_path / f"{k}.h5").step_count for k in range(8)] == [30] * 8
 
 
 def test_callbacks_may_throw_and_step():

@@ -100,6 +100,26 @@ def test_a_child_of_fork_while_another_thread_steps():
         """)
 
 
+def test_a_child_of_fork_while_another_thread_records(tmp_path):
+    script("""
+        sim = large()
+        sim.record("run.h5")
+        def commits():
+            while True:
+                sim.step(1)
+                sim.commit()
+        threading.Thread(target=commits, daemon=True).start()
+        time.sleep(0.3)
+        def child():
+            try:
+                bed().save(f"{os.getpid()}.h5")
+            except talus.Error as error:
+                assert "spawn" in str(error), error
+        for _ in range(10):
+            in_child(child)
+        """, folder=tmp_path)
+
+
 def test_a_child_of_fork_while_another_thread_draws():
     script("""
         sim = bed()
@@ -165,6 +185,20 @@ def test_the_interpreter_ends_while_a_thread_is_busy(tmp_path, way):
     assert out == "end\n"
     if way == "recorded":
         talus.resume(tmp_path / "run.h5").step(3)
+
+
+def test_what_a_daemon_thread_holds_is_committed_at_the_end(tmp_path):
+    out = script("""
+        def hold():
+            sim = bed()
+            sim.record("run.h5")
+            sim.step(40)
+            print(sim.step_count, flush=True)
+            time.sleep(1000)
+        threading.Thread(target=hold, daemon=True).start()
+        time.sleep(3)
+        """, folder=tmp_path)
+    assert talus.resume(tmp_path / "run.h5").step_count == int(out) == 40
 
 
 def test_a_callback_that_never_returns_keeps_nobody():

@@ -49,8 +49,8 @@ struct Writer {
 };
 
 inline bool decodes(const fs::path& movie) {
-  const std::string words = "ffmpeg -nostdin -v error -xerror -i 'file:" + movie.string() + "' -f null -";
-  return std::system(words.c_str()) == 0;
+  ::setenv("MOVIE", movie.c_str(), 1);  // a name may have quotes
+  return std::system("ffmpeg -nostdin -v error -xerror -i \"file:$MOVIE\" -f null -") == 0;
 }
 
 /// Whether a file ends as its format says. What is written through memory is never torn anywhere else.

@@ -6,15 +6,21 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <string>
+#include <thread>
+#include <vector>
 
 #include "core/errors.h"
 #include "core/hash.h"
 #include "core/random.h"
 #include "io/run_file.h"
+#include "session/recorder.h"
 #include "session/run.h"
 #include "session/run_header.h"
 #include "support/exit_code.h"
@@ -111,6 +117,80 @@ TEST(Simulation, is_repeated_from_its_file_with_its_commands) {
   sim.finish();
   EXPECT_NE(sim.state_hash(), end_of(poured_bed()));
   EXPECT_EQ(replayed(RunFile::open(folder.path("run.h5"))), sim.state_hash());
+}
+
+TEST(Simulation, is_recorded_by_several_threads_side_by_side) {
+  const test::TemporaryFolder folder;
+  std::vector<std::thread> threads;
+  std::atomic<int> failed = 0;
+  for (int k = 0; k < 4; ++k)
+    threads.emplace_back([&, k] {
+      try {
+        Simulation sim(test::small_tilted_bed(1.0));
+        sim.record(folder.path(std::to_string(k) + ".h5"));
+        for (int step = 0; step < 12; ++step) {
+          sim.step(2);
+          sim.commit();
+        }
+      } catch (const Error&) {
+        ++failed;
+      }
+    });
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(failed, 0);
+  for (int k = 0; k < 4; ++k)
+    EXPECT_EQ(RunFile::open(folder.path(std::to_string(k) + ".h5")).checkpoint().world.step, 24);
+}
+
+TEST(Simulation, that_is_resumed_measures_motion_from_the_first_frame_of_its_file) {
+  const test::TemporaryFolder folder;
+  Simulation sim(test::small_tilted_bed(3.0));
+  EXPECT_TRUE(std::isnan(sim.grain_values("rotation").front())) << "the tilt has not begun";
+  sim.record(folder.path("run.h5"));
+  sim.tilt_to(1.5);
+  const std::vector<double> before = sim.grain_values("rotation");
+  const auto free_count = static_cast<std::size_t>(sim.world().grains.free_count);
+  EXPECT_TRUE(std::ranges::any_of(before, [](double angle) { return angle > 0.0; }));
+  sim.commit();
+  { const Simulation gone = std::move(sim); }
+  Simulation resumed = Simulation::resume(folder.path("run.h5"));
+  const std::vector<double> after = resumed.grain_values("rotation");
+  for (std::size_t i = 0; i < free_count; ++i) EXPECT_NEAR(after[i], before[i], 1e-6) << i;
+}
+
+TEST(Simulation, that_is_a_copy_says_what_the_original_says) {
+  Simulation sim(test::small_tilted_bed(3.0));
+  sim.tilt_to(0.5);
+  const Simulation copy = sim;
+  EXPECT_TRUE(sim.converged());
+  EXPECT_EQ(copy.converged(), sim.converged());
+  EXPECT_EQ(copy.residual(), sim.residual());
+}
+
+TEST(Simulation, of_a_replay_that_was_stopped_is_not_resumed) {
+  const test::TemporaryFolder folder;
+  const Scenario scenario = test::small_tilted_bed(3.0);
+  {
+    Session session(scenario);
+    RunHeader header = run_header(session, {});
+    header.provenance.emplace_back("replay_of", "run.h5");
+    header.provenance.emplace_back("replay_steps", "100000");
+    RunStore store = RunStore::create(folder.path("replay.h5"), header, false);
+    Recorder recorder(session, store);
+    recorder.advance();
+    recorder.commit();
+  }
+  EXPECT_EQ(test::exit_code_of([&] { Simulation::resume(folder.path("replay.h5")); }), ExitCode::bad_data);
+}
+
+TEST(Simulation, of_a_held_tilt_has_no_end_to_step_to) {
+  Simulation sim(test::small_tilted_bed(3.0));
+  sim.tilt_to(0.5);
+  sim.set_tilt_rate(0.0);
+  EXPECT_EQ(test::exit_code_of([&] { sim.finish(); }), ExitCode::usage);
+  sim.set_tilt_rate(5.0);
+  sim.finish();
+  EXPECT_TRUE(sim.done());
 }
 
 TEST(Simulation, that_is_saved_goes_on_from_there_as_often_as_it_is_resumed) {
