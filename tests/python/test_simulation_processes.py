@@ -115,6 +115,7 @@ def test_a_child_of_fork_while_another_thread_records(tmp_path):
                 bed().save(f"{os.getpid()}.h5")
             except talus.Error as error:
                 assert "spawn" in str(error), error
+            os._exit(0)  # as children of multiprocessing end: h5py, too, would wait for the lock of HDF5
         for _ in range(10):
             in_child(child)
         """, folder=tmp_path)
