@@ -15,7 +15,7 @@
 #include "analysis/pair_correlation.h"
 #include "analysis/rigid_clusters.h"
 #include "analysis/topology.h"
-#include "core/errors.h"
+#include "base/errors.h"
 #include "io/run_file.h"
 #include "processor_time.h"
 #include "program.h"

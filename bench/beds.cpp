@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "core/trigonometry.h"
 #include "io/run_file.h"
 #include "tiling.h"

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <fstream>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "core/random.h"
 #include "render/colour_map.h"
 

@@ -9,8 +9,8 @@
 #include <fstream>
 #include <string>
 
+#include "base/errors.h"
 #include "beds.h"
-#include "core/errors.h"
 #include "frozen_step.h"
 #include "program.h"
 #include "session/session.h"

@@ -4,7 +4,7 @@
 #include <numeric>
 #include <tuple>
 
-#include "core/errors.h"
+#include "base/errors.h"
 
 namespace talus::bench {
 namespace {

@@ -9,7 +9,7 @@
 #include <thread>
 #include <vector>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "gui/offscreen.h"
 #include "program.h"
 

@@ -51,4 +51,6 @@ if(sanitizer)
   endif()
   execute_process(COMMAND ${CMAKE_CXX_COMPILER} -print-file-name=${file} OUTPUT_VARIABLE TALUS_SANITIZER_LIBRARY OUTPUT_STRIP_TRAILING_WHITESPACE)
 endif()
+# Sums in their written order, and no fused multiply-add: Eigen's own vector code has neither.
+target_compile_definitions(talus_options INTERFACE EIGEN_DONT_VECTORIZE)
 target_include_directories(talus_options INTERFACE ${CMAKE_SOURCE_DIR}/src ${CMAKE_SOURCE_DIR})

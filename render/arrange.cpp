@@ -4,7 +4,7 @@
 #include <fmt/core.h>
 #include <string>
 
-#include "core/errors.h"
+#include "base/errors.h"
 
 namespace talus {
 namespace {

@@ -6,9 +6,9 @@
 #include <fmt/core.h>
 #include <string>
 
-#include "core/errors.h"
-#include "core/nearest_word.h"
-#include "core/visible_text.h"
+#include "base/errors.h"
+#include "base/nearest_word.h"
+#include "base/visible_text.h"
 #include "render/embedded.h"
 
 namespace talus {

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "core/errors.h"
-#include "core/nearest_word.h"
-#include "core/visible_text.h"
+#include "base/errors.h"
+#include "base/nearest_word.h"
+#include "base/visible_text.h"
 
 namespace talus {
 namespace {

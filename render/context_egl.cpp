@@ -7,7 +7,7 @@
 #include <fmt/core.h>
 #include <string>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "render/context.h"
 
 namespace talus {

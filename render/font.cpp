@@ -6,7 +6,7 @@
 #include <fmt/core.h>
 #include <string>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "render/embedded.h"
 
 namespace talus {

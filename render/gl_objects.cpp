@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <fmt/core.h>
 
-#include "core/errors.h"
+#include "base/errors.h"
 
 namespace talus {
 namespace {

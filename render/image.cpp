@@ -3,7 +3,7 @@
 #include <fmt/core.h>
 #include <string>
 
-#include "core/errors.h"
+#include "base/errors.h"
 
 namespace talus {
 

@@ -6,7 +6,7 @@
 #include <limits>
 #include <optional>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "render/layout_groups.h"
 #include "render/layout_traces.h"
 

@@ -10,8 +10,8 @@
 #include <fmt/core.h>
 #include <vector>
 
-#include "core/child_program.h"
-#include "core/errors.h"
+#include "base/child_program.h"
+#include "base/errors.h"
 
 namespace talus {
 namespace {

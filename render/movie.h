@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <string>
 
-#include "core/output_file.h"
+#include "base/output_file.h"
 #include "render/image.h"
 
 namespace talus {

@@ -8,8 +8,8 @@
 #include <fmt/core.h>
 #include <new>
 
-#include "core/errors.h"
-#include "core/output_file.h"
+#include "base/errors.h"
+#include "base/output_file.h"
 #include "render/png_errors.h"
 
 namespace talus {

@@ -16,7 +16,7 @@
 #include <thread>
 #include <utility>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "library/talus.h"
 #include "scenario/scenario.h"
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <iterator>
 
-#include "core/errors.h"
+#include "base/errors.h"
 
 namespace talus {
 namespace {

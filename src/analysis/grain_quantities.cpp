@@ -13,7 +13,7 @@
 #include "analysis/local_deformation.h"
 #include "analysis/local_solid_fraction.h"
 #include "analysis/quantities.h"
-#include "core/errors.h"
+#include "base/errors.h"
 #include "core/trigonometry.h"
 #include "stress/bed.h"
 

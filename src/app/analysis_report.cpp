@@ -8,7 +8,7 @@
 
 #include "analysis/last_rise.h"
 #include "app/event_report.h"
-#include "core/text_table.h"
+#include "base/text_table.h"
 #include "core/trigonometry.h"
 #include "runs/analysis_parameters.h"
 

@@ -10,7 +10,7 @@
 #include "app/progress.h"
 #include "app/stop_signals.h"
 #include "app/terminal.h"
-#include "core/errors.h"
+#include "base/errors.h"
 #include "pictures/run_movie.h"
 
 namespace talus {

@@ -10,7 +10,7 @@
 #include "app/json.h"
 #include "app/progress.h"
 #include "app/terminal.h"
-#include "core/errors.h"
+#include "base/errors.h"
 #include "io/run_repair.h"
 #include "scenario/keys.h"
 #include "scenario/text.h"

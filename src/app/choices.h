@@ -7,9 +7,9 @@
 #include <type_traits>
 #include <vector>
 
-#include "core/nearest_word.h"
-#include "core/text.h"
-#include "core/visible_text.h"
+#include "base/nearest_word.h"
+#include "base/text.h"
+#include "base/visible_text.h"
 
 namespace talus {
 

@@ -3,7 +3,7 @@
 #include <fmt/core.h>
 #include <fstream>
 
-#include "core/text.h"
+#include "base/text.h"
 
 namespace talus {
 

@@ -3,7 +3,7 @@
 #include <fmt/core.h>
 #include <functional>
 
-#include "core/text.h"
+#include "base/text.h"
 
 namespace talus {
 namespace {

@@ -9,7 +9,7 @@
 #include "app/commands.h"
 #include "app/output_files.h"
 #include "app/terminal.h"
-#include "core/errors.h"
+#include "base/errors.h"
 #include "core/trigonometry.h"
 #include "pictures/frame_choice.h"
 #include "problems/problem_file.h"

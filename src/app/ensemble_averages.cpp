@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "core/locked_file.h"
+#include "base/locked_file.h"
 #include "ensemble/averages_file.h"
 #include "io/durable_file.h"
 

@@ -5,9 +5,9 @@
 #include <fmt/core.h>
 
 #include "app/program_output.h"
-#include "core/errors.h"
-#include "core/text.h"
-#include "core/visible_text.h"
+#include "base/errors.h"
+#include "base/text.h"
+#include "base/visible_text.h"
 #include "ensemble/slurm_jobs.h"
 
 namespace talus {

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <fmt/core.h>
 
+#include "base/text.h"
+#include "base/text_table.h"
+#include "base/visible_text.h"
 #include "core/statistics.h"
-#include "core/text.h"
-#include "core/text_table.h"
-#include "core/visible_text.h"
 #include "ensemble/claim.h"
 #include "ensemble/plus_minus.h"
 #include "ensemble/until.h"

@@ -5,9 +5,9 @@
 #include <fmt/core.h>
 
 #include "app/json.h"
-#include "core/hash.h"
-#include "core/text.h"
-#include "core/version.h"
+#include "base/hash.h"
+#include "base/text.h"
+#include "base/version.h"
 #include "figures/scripts.h"
 #include "scenario/text.h"
 

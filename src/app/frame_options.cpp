@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "app/choices.h"
-#include "core/errors.h"
+#include "base/errors.h"
 
 namespace talus {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "app/figure_runs.h"
 #include "app/progress.h"
-#include "core/errors.h"
+#include "base/errors.h"
 #include "ensemble/averages_reader.h"
 #include "io/run_file.h"
 #include "view/frame_values.h"

@@ -4,7 +4,7 @@
 #include <fmt/core.h>
 
 #include "app/terminal.h"
-#include "core/errors.h"
+#include "base/errors.h"
 #include "io/seal.h"
 
 namespace talus {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "app/program_output.h"
-#include "core/errors.h"
+#include "base/errors.h"
 
 namespace talus {
 namespace {

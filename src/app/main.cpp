@@ -16,7 +16,7 @@
 #include "app/stop_signals.h"
 #include "app/usage_error.h"
 #include "app/value_words.h"
-#include "core/errors.h"
+#include "base/errors.h"
 
 namespace {
 

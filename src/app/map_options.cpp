@@ -3,7 +3,7 @@
 #include <fmt/core.h>
 
 #include "app/choices.h"
-#include "core/text.h"
+#include "base/text.h"
 #include "render/layout.h"
 
 namespace talus {

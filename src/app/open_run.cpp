@@ -5,10 +5,10 @@
 
 #include "app/output_files.h"
 #include "app/terminal.h"
-#include "core/errors.h"
-#include "core/output_file.h"
-#include "core/version.h"
-#include "core/visible_text.h"
+#include "base/errors.h"
+#include "base/output_file.h"
+#include "base/version.h"
+#include "base/visible_text.h"
 #include "session/estimate.h"
 #include "session/run_header.h"
 

@@ -1,7 +1,7 @@
 #include "app/output_files.h"
 
 #include "app/terminal.h"
-#include "core/locked_file.h"
+#include "base/locked_file.h"
 #include "io/run_store.h"
 
 namespace talus {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "core/output_file.h"
+#include "base/output_file.h"
 #include "scenario/scenario.h"
 
 namespace talus {

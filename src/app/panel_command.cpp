@@ -9,7 +9,7 @@
 #include "app/output_files.h"
 #include "app/progress.h"
 #include "app/terminal.h"
-#include "core/errors.h"
+#include "base/errors.h"
 #include "pictures/panel.h"
 #include "render/layout.h"
 

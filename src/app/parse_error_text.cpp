@@ -5,8 +5,8 @@
 #include <fmt/core.h>
 #include <string_view>
 
-#include "core/text.h"
-#include "core/visible_text.h"
+#include "base/text.h"
+#include "base/visible_text.h"
 
 namespace talus {
 namespace {

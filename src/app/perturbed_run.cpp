@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "app/terminal.h"
-#include "core/errors.h"
+#include "base/errors.h"
 #include "core/trigonometry.h"
 #include "session/perturbation_threshold.h"
 

@@ -14,8 +14,8 @@
 #include <system_error>
 
 #include "app/terminal.h"
-#include "core/errors.h"
-#include "core/sanitizers.h"
+#include "base/errors.h"
+#include "base/sanitizers.h"
 #include "io/file_in_use.h"
 
 namespace talus {

@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "app/stop_signals.h"
-#include "core/errors.h"
+#include "base/errors.h"
 
 namespace talus {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/child_program.h"
+#include "base/child_program.h"
 
 namespace talus {
 

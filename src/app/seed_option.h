@@ -4,7 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
-#include "core/visible_text.h"
+#include "base/visible_text.h"
 
 namespace talus {
 

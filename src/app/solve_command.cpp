@@ -13,7 +13,7 @@
 #include "app/json.h"
 #include "app/moving_step.h"
 #include "app/terminal.h"
-#include "core/output_file.h"
+#include "base/output_file.h"
 #include "problems/local_solvers.h"
 #include "problems/problem_file.h"
 #include "problems/siconos_error.h"

@@ -5,7 +5,7 @@
 
 #include <string_view>
 
-#include "core/errors.h"
+#include "base/errors.h"
 
 namespace talus {
 namespace {

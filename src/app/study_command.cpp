@@ -11,7 +11,7 @@
 #include "app/jobs_option.h"
 #include "app/json.h"
 #include "app/terminal.h"
-#include "core/output_file.h"
+#include "base/output_file.h"
 #include "ensemble/study_report.h"
 #include "io/durable_file.h"
 

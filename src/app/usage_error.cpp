@@ -6,11 +6,11 @@
 
 #include "app/command_tree.h"
 #include "app/parse_error_text.h"
-#include "core/errors.h"
-#include "core/nearest_word.h"
-#include "core/paths.h"
-#include "core/text.h"
-#include "core/visible_text.h"
+#include "base/errors.h"
+#include "base/nearest_word.h"
+#include "base/paths.h"
+#include "base/text.h"
+#include "base/visible_text.h"
 #include "scenario/keys.h"
 #include "scenario/setting_forms.h"
 

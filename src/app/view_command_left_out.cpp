@@ -1,7 +1,7 @@
 /// `talus view` where the window was not built.
 
 #include "app/commands.h"
-#include "core/errors.h"
+#include "base/errors.h"
 
 namespace talus {
 

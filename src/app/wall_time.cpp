@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <fmt/core.h>
 
-#include "core/errors.h"
+#include "base/errors.h"
 
 namespace talus {
 

@@ -1,9 +1,9 @@
 #pragma once
 /// Narrow phase: gaps and local frames (T3).
 
+#include "base/thread_team.h"
 #include "contact/neighbour_list.h"
 #include "core/contacts.h"
-#include "core/thread_team.h"
 
 namespace talus {
 

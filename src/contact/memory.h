@@ -1,8 +1,8 @@
 #pragma once
 /// Contact memory: forces that persist from step to step (T18).
 
+#include "base/thread_team.h"
 #include "core/contacts.h"
-#include "core/thread_team.h"
 
 namespace talus {
 

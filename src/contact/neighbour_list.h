@@ -5,8 +5,8 @@
 #include <tuple>
 #include <vector>
 
+#include "base/thread_team.h"
 #include "contact/grain_cells.h"
-#include "core/thread_team.h"
 
 namespace talus {
 

@@ -1,7 +1,7 @@
 #pragma once
 /// From the world and its contacts to the contact problem of one step (docs/theory.md).
 
-#include "core/thread_team.h"
+#include "base/thread_team.h"
 #include "core/world.h"
 #include "dynamics/contact_law_parameters.h"
 #include "solver/problem.h"

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "core/errors.h"
+#include "base/errors.h"
 
 namespace talus {
 namespace {

@@ -8,9 +8,9 @@
 #include <fmt/core.h>
 #include <limits>
 
+#include "base/errors.h"
 #include "contact/detection.h"
 #include "contact/memory.h"
-#include "core/errors.h"
 #include "dynamics/form_problem.h"
 
 namespace talus {

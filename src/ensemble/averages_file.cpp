@@ -4,8 +4,8 @@
 #include <cmath>
 #include <fmt/core.h>
 
-#include "core/hash.h"
-#include "core/text.h"
+#include "base/hash.h"
+#include "base/text.h"
 #include "io/durable_file.h"
 #include "io/hdf5_writer.h"
 #include "io/seal.h"

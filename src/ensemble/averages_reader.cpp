@@ -5,8 +5,8 @@
 #include <fmt/core.h>
 
 #include "analysis/quantities.h"
-#include "core/errors.h"
-#include "core/hash.h"
+#include "base/errors.h"
+#include "base/hash.h"
 #include "core/trigonometry.h"
 #include "io/hdf5_reader.h"
 #include "io/seal.h"

@@ -6,9 +6,9 @@
 #include <span>
 #include <string_view>
 
-#include "core/errors.h"
-#include "core/hash.h"
-#include "core/visible_text.h"
+#include "base/errors.h"
+#include "base/hash.h"
+#include "base/visible_text.h"
 #include "ensemble/plan.h"
 #include "scenario/keys.h"
 #include "scenario/setting_forms.h"

@@ -13,10 +13,10 @@
 #include <limits>
 #include <system_error>
 
-#include "core/errors.h"
-#include "core/locked_file.h"
-#include "core/output_file.h"
-#include "core/paths.h"
+#include "base/errors.h"
+#include "base/locked_file.h"
+#include "base/output_file.h"
+#include "base/paths.h"
 #include "ensemble/plan.h"
 
 namespace talus {

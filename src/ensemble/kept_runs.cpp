@@ -7,10 +7,10 @@
 #include <fmt/core.h>
 #include <optional>
 
-#include "core/errors.h"
-#include "core/locked_file.h"
-#include "core/paths.h"
-#include "core/visible_text.h"
+#include "base/errors.h"
+#include "base/locked_file.h"
+#include "base/paths.h"
+#include "base/visible_text.h"
 #include "ensemble/claim.h"
 #include "io/analysis_file.h"
 #include "io/run_store.h"

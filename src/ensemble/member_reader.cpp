@@ -9,8 +9,8 @@
 #include <iterator>
 
 #include "analysis/quantities.h"
-#include "core/errors.h"
-#include "core/visible_text.h"
+#include "base/errors.h"
+#include "base/visible_text.h"
 #include "io/analysis_file.h"
 #include "runs/analysis_parameters.h"
 #include "runs/analysis_run.h"

@@ -6,9 +6,9 @@
 #include <map>
 #include <set>
 
-#include "core/errors.h"
-#include "core/text_stream.h"
-#include "core/visible_text.h"
+#include "base/errors.h"
+#include "base/text_stream.h"
+#include "base/visible_text.h"
 #include "ensemble/claim.h"
 #include "io/durable_file.h"
 

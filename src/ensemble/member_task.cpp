@@ -2,8 +2,8 @@
 
 #include <fmt/core.h>
 
-#include "core/errors.h"
-#include "core/visible_text.h"
+#include "base/errors.h"
+#include "base/visible_text.h"
 
 namespace talus {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "analysis/last_rise.h"
 #include "analysis/quantities.h"
-#include "core/hash.h"
+#include "base/hash.h"
 #include "core/snapshot.h"
 #include "core/trigonometry.h"
 #include "runs/run_view.h"

@@ -6,8 +6,8 @@
 #include <limits>
 #include <set>
 
-#include "core/errors.h"
-#include "core/visible_text.h"
+#include "base/errors.h"
+#include "base/visible_text.h"
 #include "session/estimate.h"
 
 namespace talus {

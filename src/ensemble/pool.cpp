@@ -11,11 +11,11 @@
 #include <map>
 #include <system_error>
 
-#include "core/child_program.h"
-#include "core/descriptor.h"
-#include "core/errors.h"
-#include "core/output_file.h"
-#include "core/visible_text.h"
+#include "base/child_program.h"
+#include "base/descriptor.h"
+#include "base/errors.h"
+#include "base/output_file.h"
+#include "base/visible_text.h"
 #include "ensemble/member_state.h"
 
 namespace talus {

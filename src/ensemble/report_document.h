@@ -6,7 +6,7 @@
 #include <variant>
 #include <vector>
 
-#include "core/text_table.h"
+#include "base/text_table.h"
 
 namespace talus {
 

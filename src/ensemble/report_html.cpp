@@ -2,7 +2,7 @@
 #include <filesystem>
 #include <fmt/core.h>
 
-#include "core/base64.h"
+#include "base/base64.h"
 #include "ensemble/report_document.h"
 #include "io/durable_file.h"
 

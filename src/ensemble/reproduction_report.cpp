@@ -4,8 +4,8 @@
 #include <cmath>
 #include <fmt/core.h>
 
-#include "core/text.h"
-#include "core/version.h"
+#include "base/text.h"
+#include "base/version.h"
 #include "ensemble/plus_minus.h"
 #include "scenario/text.h"
 #include "session/estimate.h"

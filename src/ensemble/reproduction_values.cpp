@@ -5,8 +5,8 @@
 #include <optional>
 #include <utility>
 
-#include "core/errors.h"
-#include "core/hash.h"
+#include "base/errors.h"
+#include "base/hash.h"
 #include "ensemble/member_state.h"
 #include "ensemble/member_values.h"
 #include "io/analysis_file.h"

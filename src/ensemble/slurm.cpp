@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <fmt/core.h>
 
-#include "core/errors.h"
-#include "core/text.h"
-#include "core/visible_text.h"
+#include "base/errors.h"
+#include "base/text.h"
+#include "base/visible_text.h"
 #include "ensemble/plan.h"
 
 namespace talus {

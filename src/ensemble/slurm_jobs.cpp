@@ -6,10 +6,10 @@
 #include <sstream>
 #include <tuple>
 
-#include "core/errors.h"
-#include "core/output_file.h"
-#include "core/paths.h"
-#include "core/text_stream.h"
+#include "base/errors.h"
+#include "base/output_file.h"
+#include "base/paths.h"
+#include "base/text_stream.h"
 #include "ensemble/member_state.h"
 #include "io/durable_file.h"
 #include "io/manifest.h"

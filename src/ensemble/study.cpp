@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "ensemble/axes.h"
 #include "ensemble/ensemble_manifest.h"
 #include "ensemble/member_state.h"

@@ -5,8 +5,8 @@
 #include <fmt/core.h>
 #include <set>
 
-#include "core/text.h"
-#include "core/text_table.h"
+#include "base/text.h"
+#include "base/text_table.h"
 #include "ensemble/plus_minus.h"
 #include "scenario/text.h"
 

@@ -6,10 +6,10 @@
 #include <map>
 #include <utility>
 
-#include "core/errors.h"
+#include "base/errors.h"
+#include "base/text.h"
+#include "base/visible_text.h"
 #include "core/statistics.h"
-#include "core/text.h"
-#include "core/visible_text.h"
 
 namespace talus {
 

@@ -9,7 +9,7 @@
 #include <set>
 #include <thread>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "ensemble/ensemble_manifest.h"
 #include "ensemble/member_state.h"
 #include "ensemble/pool.h"

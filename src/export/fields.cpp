@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <fmt/core.h>
 
-#include "core/text.h"
+#include "base/text.h"
 
 namespace talus {
 namespace {

@@ -4,7 +4,7 @@
 #include <array>
 #include <fmt/core.h>
 
-#include "core/text.h"
+#include "base/text.h"
 
 namespace talus {
 namespace {

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/version.h"
+#include "base/version.h"
 #include "export/fields.h"
 #include "export/writers.h"
 

@@ -2,7 +2,7 @@
 #include <span>
 #include <vector>
 
-#include "core/text.h"
+#include "base/text.h"
 #include "export/fields.h"
 #include "export/writers.h"
 

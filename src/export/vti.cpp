@@ -3,7 +3,7 @@
 #include <cmath>
 #include <fmt/core.h>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "core/trigonometry.h"
 #include "export/vtk_xml.h"
 #include "export/writers.h"

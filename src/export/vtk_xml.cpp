@@ -5,8 +5,8 @@
 #include <cstring>
 #include <fmt/core.h>
 
-#include "core/base64.h"
-#include "core/version.h"
+#include "base/base64.h"
+#include "base/version.h"
 
 namespace talus {
 namespace {

@@ -3,7 +3,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/version.h"
+#include "base/version.h"
 #include "export/fields.h"
 #include "export/vtk_xml.h"
 #include "export/writers.h"

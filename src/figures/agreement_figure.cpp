@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/text.h"
+#include "base/text.h"
 #include "ensemble/reproduction_report.h"
 #include "figures/group_table.h"
 #include "scenario/text.h"

@@ -3,7 +3,7 @@
 #include <fmt/core.h>
 #include <limits>
 
-#include "core/text.h"
+#include "base/text.h"
 #include "core/trigonometry.h"
 #include "figures/group_table.h"
 #include "figures/recipes.h"

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <fmt/core.h>
 
+#include "base/text.h"
 #include "core/statistics.h"
-#include "core/text.h"
 #include "core/trigonometry.h"
 #include "figures/group_table.h"
 #include "figures/recipes.h"

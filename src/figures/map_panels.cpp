@@ -3,7 +3,7 @@
 #include <fmt/core.h>
 #include <string>
 
-#include "core/text.h"
+#include "base/text.h"
 #include "core/trigonometry.h"
 #include "figures/failed_group.h"
 #include "figures/recipes.h"

@@ -7,7 +7,7 @@
 #include "analysis/cells.h"
 #include "analysis/coarse_graining.h"
 #include "analysis/free_grains.h"
-#include "core/text.h"
+#include "base/text.h"
 #include "core/trigonometry.h"
 #include "figures/failed_group.h"
 #include "figures/recipes.h"

@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "analysis/quantities.h"
+#include "base/text.h"
 #include "core/statistics.h"
-#include "core/text.h"
 #include "core/trigonometry.h"
 #include "figures/group_table.h"
 #include "scenario/text.h"

@@ -6,7 +6,7 @@
 #include <fmt/core.h>
 #include <vector>
 
-#include "core/text_table.h"
+#include "base/text_table.h"
 #include "core/trigonometry.h"
 #include "figures/group_table.h"
 #include "figures/perturbation_figure.h"

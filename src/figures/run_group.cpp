@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <fmt/core.h>
 
-#include "core/errors.h"
-#include "core/paths.h"
+#include "base/errors.h"
+#include "base/paths.h"
 #include "scenario/keys.h"
 #include "scenario/text.h"
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <fmt/core.h>
 
+#include "base/errors.h"
 #include "core/drag_spring.h"
-#include "core/errors.h"
 #include "gui/actions.h"
 
 namespace talus {

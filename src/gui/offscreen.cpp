@@ -2,7 +2,7 @@
 
 #include <fmt/core.h>
 
-#include "core/errors.h"
+#include "base/errors.h"
 
 namespace talus {
 namespace {

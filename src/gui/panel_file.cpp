@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "core/paths.h"
+#include "base/paths.h"
 #include "gui/actions.h"
 #include "gui/panels.h"
 

@@ -10,9 +10,9 @@
 #include <fmt/core.h>
 #include <utility>
 
-#include "core/errors.h"
+#include "base/errors.h"
+#include "base/visible_text.h"
 #include "core/trigonometry.h"
-#include "core/visible_text.h"
 #include "gui/screen.h"
 
 namespace talus {

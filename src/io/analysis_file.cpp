@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <fmt/core.h>
 
-#include "core/errors.h"
-#include "core/text_stream.h"
+#include "base/errors.h"
+#include "base/text_stream.h"
 #include "io/durable_file.h"
 #include "io/packed_file.h"
 #include "io/run_records.h"

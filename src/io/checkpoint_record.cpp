@@ -2,7 +2,7 @@
 #include <fmt/core.h>
 #include <utility>
 
-#include "core/hash.h"
+#include "base/hash.h"
 #include "io/record_fields.h"
 #include "io/run_records.h"
 

@@ -13,9 +13,9 @@
 #include <new>
 #include <optional>
 
-#include "core/descriptor.h"
-#include "core/errors.h"
-#include "core/sanitizers.h"
+#include "base/descriptor.h"
+#include "base/errors.h"
+#include "base/sanitizers.h"
 
 namespace talus {
 namespace {

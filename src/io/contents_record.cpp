@@ -1,7 +1,7 @@
 #include <fmt/core.h>
 
-#include "core/errors.h"
-#include "core/text_stream.h"
+#include "base/errors.h"
+#include "base/text_stream.h"
 #include "io/analysis_schema.h"
 #include "io/run_records.h"
 

@@ -6,9 +6,9 @@
 
 #include <cerrno>
 
-#include "core/descriptor.h"
-#include "core/errors.h"
-#include "core/visible_text.h"
+#include "base/descriptor.h"
+#include "base/errors.h"
+#include "base/visible_text.h"
 
 namespace talus {
 

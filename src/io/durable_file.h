@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/output_file.h"
+#include "base/output_file.h"
 
 namespace talus {
 

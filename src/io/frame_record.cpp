@@ -3,7 +3,7 @@
 #include <fmt/core.h>
 #include <span>
 
-#include "core/hash.h"
+#include "base/hash.h"
 #include "io/record_fields.h"
 #include "io/run_file.h"
 #include "io/run_records.h"

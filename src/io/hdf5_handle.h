@@ -16,8 +16,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/errors.h"
-#include "core/hash.h"
+#include "base/errors.h"
+#include "base/hash.h"
 #include "io/run_schema.h"
 
 namespace talus::hdf5 {

@@ -7,8 +7,8 @@
 #include <optional>
 #include <span>
 
-#include "core/errors.h"
-#include "core/text.h"
+#include "base/errors.h"
+#include "base/text.h"
 #include "io/file_in_use.h"
 
 namespace talus::hdf5 {

@@ -5,8 +5,8 @@
 #include <limits>
 #include <utility>
 
-#include "core/errors.h"
-#include "core/visible_text.h"
+#include "base/errors.h"
+#include "base/visible_text.h"
 
 namespace talus::hdf5 {
 namespace {

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <fmt/core.h>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "io/record_fields.h"
 #include "io/run_records.h"
 #include "scenario/scenario.h"

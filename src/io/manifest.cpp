@@ -4,10 +4,10 @@
 #include <filesystem>
 #include <fmt/core.h>
 
-#include "core/errors.h"
-#include "core/hash.h"
-#include "core/paths.h"
-#include "core/text_stream.h"
+#include "base/errors.h"
+#include "base/hash.h"
+#include "base/paths.h"
+#include "base/text_stream.h"
 #include "io/durable_file.h"
 #include "io/seal.h"
 

@@ -5,8 +5,8 @@
 #include <fmt/core.h>
 #include <vector>
 
-#include "core/errors.h"
-#include "core/paths.h"
+#include "base/errors.h"
+#include "base/paths.h"
 #include "core/trigonometry.h"
 #include "io/run_file.h"
 #include "io/seal.h"

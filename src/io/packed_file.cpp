@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "core/version.h"
+#include "base/version.h"
 #include "io/run_records.h"
 #include "io/seal.h"
 

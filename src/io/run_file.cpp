@@ -5,7 +5,7 @@
 #include <fmt/core.h>
 #include <optional>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "io/durable_file.h"
 #include "io/frames_of_tilt.h"
 #include "io/manifest.h"

@@ -9,9 +9,9 @@
 #include <set>
 #include <utility>
 
-#include "core/errors.h"
-#include "core/paths.h"
-#include "core/text_stream.h"
+#include "base/errors.h"
+#include "base/paths.h"
+#include "base/text_stream.h"
 #include "core/trigonometry.h"
 #include "io/child_process.h"
 #include "io/durable_file.h"

@@ -1,8 +1,8 @@
 #include "io/run_schema.h"
 
-#include "core/errors.h"
+#include "base/errors.h"
+#include "base/text_stream.h"
 #include "core/observables.h"
-#include "core/text_stream.h"
 #include "core/trial_row.h"
 #include "io/analysis_schema.h"
 

@@ -16,9 +16,9 @@
 #include <system_error>
 #include <thread>
 
-#include "core/errors.h"
-#include "core/locked_file.h"
-#include "core/paths.h"
+#include "base/errors.h"
+#include "base/locked_file.h"
+#include "base/paths.h"
 #include "io/analysis_file.h"
 #include "io/durable_file.h"
 #include "io/manifest.h"

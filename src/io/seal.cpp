@@ -10,9 +10,9 @@
 #include <filesystem>
 #include <fmt/core.h>
 
-#include "core/descriptor.h"
-#include "core/errors.h"
-#include "core/hash.h"
+#include "base/descriptor.h"
+#include "base/errors.h"
+#include "base/hash.h"
 #include "io/mistaken_path.h"
 
 namespace talus {

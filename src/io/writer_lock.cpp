@@ -10,8 +10,8 @@
 #include <filesystem>
 #include <fmt/core.h>
 
-#include "core/errors.h"
-#include "core/locked_file.h"
+#include "base/errors.h"
+#include "base/locked_file.h"
 
 namespace talus {
 namespace {

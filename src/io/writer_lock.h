@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "core/descriptor.h"
+#include "base/descriptor.h"
 
 namespace talus {
 

@@ -9,8 +9,8 @@
 #include <limits>
 #include <utility>
 
-#include "core/errors.h"
-#include "core/hash.h"
+#include "base/errors.h"
+#include "base/hash.h"
 #include "core/trigonometry.h"
 #include "io/run_file.h"
 #include "library/simulation_state.h"

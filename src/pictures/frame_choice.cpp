@@ -8,10 +8,10 @@
 #include <utility>
 
 #include "analysis/last_rise.h"
-#include "core/errors.h"
-#include "core/nearest_word.h"
+#include "base/errors.h"
+#include "base/nearest_word.h"
+#include "base/visible_text.h"
 #include "core/trigonometry.h"
-#include "core/visible_text.h"
 
 namespace talus {
 namespace {

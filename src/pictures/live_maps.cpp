@@ -4,8 +4,8 @@
 #include <fmt/core.h>
 #include <utility>
 
-#include "core/output_file.h"
-#include "core/paths.h"
+#include "base/output_file.h"
+#include "base/paths.h"
 #include "core/trigonometry.h"
 #include "pictures/picture_files.h"
 

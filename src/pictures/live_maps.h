@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "pictures/background_tasks.h"
 #include "pictures/picture_series.h"
 #include "render/renderer.h"

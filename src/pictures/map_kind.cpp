@@ -5,10 +5,10 @@
 #include <fmt/core.h>
 
 #include "analysis/frame_quantities.h"
-#include "core/errors.h"
-#include "core/nearest_word.h"
-#include "core/text.h"
-#include "core/visible_text.h"
+#include "base/errors.h"
+#include "base/nearest_word.h"
+#include "base/text.h"
+#include "base/visible_text.h"
 
 namespace talus {
 namespace {

@@ -6,11 +6,11 @@
 #include <iterator>
 #include <set>
 
-#include "core/errors.h"
-#include "core/nearest_word.h"
-#include "core/text.h"
+#include "base/errors.h"
+#include "base/nearest_word.h"
+#include "base/text.h"
+#include "base/visible_text.h"
 #include "core/trigonometry.h"
-#include "core/visible_text.h"
 
 namespace talus {
 namespace {

@@ -6,7 +6,7 @@
 #include <fmt/core.h>
 #include <utility>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "core/trigonometry.h"
 #include "pictures/bed_view.h"
 #include "pictures/layers.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <fmt/core.h>
 
-#include "core/text.h"
+#include "base/text.h"
 #include "pictures/frame_choice.h"
 #include "render/arrange.h"
 #include "render/renderer.h"

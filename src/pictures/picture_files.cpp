@@ -6,8 +6,8 @@
 #include <fmt/core.h>
 #include <utility>
 
-#include "core/errors.h"
-#include "core/output_file.h"
+#include "base/errors.h"
+#include "base/output_file.h"
 #include "core/trigonometry.h"
 #include "pictures/background_tasks.h"
 #include "render/renderer.h"

@@ -3,11 +3,11 @@
 #include <filesystem>
 #include <fmt/core.h>
 
-#include "core/errors.h"
-#include "core/output_file.h"
-#include "core/paths.h"
+#include "base/errors.h"
+#include "base/output_file.h"
+#include "base/paths.h"
+#include "base/version.h"
 #include "core/trigonometry.h"
-#include "core/version.h"
 #include "pictures/texts.h"
 
 namespace talus {

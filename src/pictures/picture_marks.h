@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/hash.h"
+#include "base/hash.h"
 #include "pictures/picture_series.h"
 #include "render/png.h"
 

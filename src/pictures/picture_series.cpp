@@ -6,7 +6,7 @@
 #include <iterator>
 #include <utility>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "core/trigonometry.h"
 #include "pictures/frame_choice.h"
 #include "pictures/motion.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "core/trigonometry.h"
 #include "render/arrange.h"
 #include "render/movie.h"

@@ -3,7 +3,7 @@
 #include <fmt/core.h>
 
 #include "analysis/coarse_graining.h"
-#include "core/errors.h"
+#include "base/errors.h"
 #include "core/trigonometry.h"
 #include "pictures/layers.h"
 #include "pictures/texts.h"

@@ -6,11 +6,11 @@
 #include <fmt/core.h>
 #include <limits>
 
-#include "core/errors.h"
-#include "core/nearest_word.h"
-#include "core/text.h"
+#include "base/errors.h"
+#include "base/nearest_word.h"
+#include "base/text.h"
+#include "base/visible_text.h"
 #include "core/trigonometry.h"
-#include "core/visible_text.h"
 #include "pictures/texts.h"
 #include "stress/overload.h"
 

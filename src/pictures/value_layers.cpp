@@ -4,7 +4,7 @@
 #include <cmath>
 #include <fmt/core.h>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "pictures/layers.h"
 #include "pictures/motion.h"
 #include "pictures/texts.h"

@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "analysis/frame_analysis.h"
-#include "core/errors.h"
+#include "base/errors.h"
 #include "core/statistics.h"
 #include "runs/analysis_input.h"
 #include "runs/analysis_parameters.h"

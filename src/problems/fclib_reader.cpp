@@ -2,7 +2,7 @@
 #include <fmt/core.h>
 #include <limits>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "io/child_process.h"
 #include "io/durable_file.h"
 #include "io/hdf5_reader.h"

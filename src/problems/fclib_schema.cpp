@@ -1,6 +1,6 @@
 #include "problems/fclib_schema.h"
 
-#include "core/errors.h"
+#include "base/errors.h"
 
 namespace talus {
 namespace {

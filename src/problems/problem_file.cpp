@@ -4,7 +4,7 @@
 #include <array>
 #include <fmt/core.h>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "problems/fclib_file.h"
 
 namespace talus {

@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "core/trigonometry.h"
 #include "dynamics/form_problem.h"
 #include "session/drag.h"

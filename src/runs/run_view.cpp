@@ -2,8 +2,8 @@
 
 #include <fmt/core.h>
 
-#include "core/hash.h"
-#include "core/output_file.h"
+#include "base/hash.h"
+#include "base/output_file.h"
 #include "io/analysis_file.h"
 #include "runs/analysis_run.h"
 

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <fmt/core.h>
 
-#include "core/text.h"
-#include "core/visible_text.h"
+#include "base/text.h"
+#include "base/visible_text.h"
 #include "scenario/text.h"
 
 namespace talus {

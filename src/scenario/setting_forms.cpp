@@ -6,7 +6,7 @@
 #include <cmath>
 #include <fmt/core.h>
 
-#include "core/visible_text.h"
+#include "base/visible_text.h"
 
 namespace talus {
 namespace {

@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "core/nearest_word.h"
-#include "core/text.h"
+#include "base/nearest_word.h"
+#include "base/text.h"
 
 namespace talus {
 namespace {

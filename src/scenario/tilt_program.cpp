@@ -5,7 +5,7 @@
 #include <cmath>
 #include <fmt/core.h>
 
-#include "core/nearest_word.h"
+#include "base/nearest_word.h"
 #include "core/trigonometry.h"
 #include "scenario/text.h"
 

@@ -11,11 +11,11 @@
 #include <new>
 #include <span>
 
-#include "core/descriptor.h"
-#include "core/errors.h"
-#include "core/nearest_word.h"
-#include "core/text.h"
-#include "core/visible_text.h"
+#include "base/descriptor.h"
+#include "base/errors.h"
+#include "base/nearest_word.h"
+#include "base/text.h"
+#include "base/visible_text.h"
 #include "scenario/keys.h"
 #include "scenario/rules.h"
 #include "scenario/setting_forms.h"

@@ -8,9 +8,9 @@
 #include <fmt/core.h>
 #include <numeric>
 
+#include "base/errors.h"
+#include "base/paths.h"
 #include "contact/detection.h"
-#include "core/errors.h"
-#include "core/paths.h"
 #include "io/durable_file.h"
 #include "io/run_file.h"
 #include "session/bed_table.h"

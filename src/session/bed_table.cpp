@@ -8,8 +8,8 @@
 #include <string_view>
 #include <utility>
 
-#include "core/errors.h"
-#include "core/visible_text.h"
+#include "base/errors.h"
+#include "base/visible_text.h"
 #include "scenario/text.h"
 #include "session/table_columns.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <fmt/core.h>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "core/trigonometry.h"
 #include "scenario/text.h"
 #include "scenario/tilt_program.h"

@@ -7,7 +7,7 @@
 #include <fmt/core.h>
 #include <optional>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "core/trigonometry.h"
 #include "session/drag.h"
 

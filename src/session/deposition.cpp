@@ -3,7 +3,7 @@
 #include <cmath>
 #include <fmt/core.h>
 
-#include "core/hash.h"
+#include "base/hash.h"
 #include "core/trigonometry.h"
 #include "dynamics/collapse.h"
 #include "dynamics/geometric.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <fmt/core.h>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "session/command.h"
 #include "session/measure.h"
 #include "stress/free_surface.h"

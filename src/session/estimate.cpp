@@ -4,8 +4,8 @@
 #include <cmath>
 #include <fmt/core.h>
 
-#include "core/errors.h"
-#include "core/machine_memory.h"
+#include "base/errors.h"
+#include "base/machine_memory.h"
 #include "scenario/tilt_program.h"
 #include "session/deposition.h"
 

@@ -5,7 +5,7 @@
 #include <fmt/core.h>
 #include <utility>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "core/trigonometry.h"
 #include "dynamics/failure.h"
 #include "scenario/tilt_program.h"

@@ -3,10 +3,10 @@
 #include <charconv>
 #include <fmt/core.h>
 
-#include "core/errors.h"
+#include "base/errors.h"
+#include "base/text_stream.h"
+#include "base/visible_text.h"
 #include "core/snapshot.h"
-#include "core/text_stream.h"
-#include "core/visible_text.h"
 #include "scenario/text.h"
 
 namespace talus {

@@ -1,6 +1,6 @@
 #include "session/recorder.h"
 
-#include "core/errors.h"
+#include "base/errors.h"
 
 namespace talus {
 

@@ -4,7 +4,7 @@
 #include <chrono>
 #include <fmt/core.h>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "session/recorder.h"
 
 namespace talus {

@@ -6,8 +6,8 @@
 #include <limits>
 #include <span>
 
+#include "base/errors.h"
 #include "core/bed_frame.h"
-#include "core/errors.h"
 #include "core/tensor.h"
 #include "core/trigonometry.h"
 #include "scenario/scenario.h"

@@ -6,10 +6,10 @@
 #include <ctime>
 #include <fmt/core.h>
 
-#include "core/errors.h"
-#include "core/hash.h"
-#include "core/version.h"
-#include "core/visible_text.h"
+#include "base/errors.h"
+#include "base/hash.h"
+#include "base/version.h"
+#include "base/visible_text.h"
 #include "session/branch_start.h"
 #include "session/frame_state.h"
 

@@ -7,8 +7,8 @@
 #include <variant>
 #include <vector>
 
-#include "core/errors.h"
-#include "core/hash.h"
+#include "base/errors.h"
+#include "base/hash.h"
 #include "scenario/text.h"
 
 namespace talus {

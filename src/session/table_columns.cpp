@@ -6,9 +6,9 @@
 #include <fmt/core.h>
 #include <utility>
 
-#include "core/errors.h"
-#include "core/text.h"
-#include "core/visible_text.h"
+#include "base/errors.h"
+#include "base/text.h"
+#include "base/visible_text.h"
 
 namespace talus {
 namespace {

@@ -5,7 +5,7 @@
 #include <exception>
 #include <memory>
 
-#include "core/thread_team.h"
+#include "base/thread_team.h"
 #include "solver/linearisation.h"
 #include "solver/problem.h"
 #include "solver/residual.h"

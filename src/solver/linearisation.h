@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/thread_team.h"
+#include "base/thread_team.h"
 #include "solver/problem.h"
 #include "solver/residual.h"
 #include "solver/rolling_contacts.h"

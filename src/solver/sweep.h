@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "core/thread_team.h"
+#include "base/thread_team.h"
 #include "solver/linearisation.h"
 #include "solver/momentum.h"
 

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <numeric>
 
-#include "core/thread_team.h"
+#include "base/thread_team.h"
 
 namespace talus {
 namespace {

@@ -5,12 +5,12 @@
 #include <cmath>
 #include <fmt/core.h>
 
-#include "core/errors.h"
-#include "core/paths.h"
-#include "core/text.h"
-#include "core/text_stream.h"
+#include "base/errors.h"
+#include "base/paths.h"
+#include "base/text.h"
+#include "base/text_stream.h"
+#include "base/visible_text.h"
 #include "core/trigonometry.h"
-#include "core/visible_text.h"
 #include "io/durable_file.h"
 
 namespace talus {

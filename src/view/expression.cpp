@@ -7,9 +7,9 @@
 #include <fmt/core.h>
 #include <optional>
 
-#include "core/errors.h"
-#include "core/nearest_word.h"
-#include "core/visible_text.h"
+#include "base/errors.h"
+#include "base/nearest_word.h"
+#include "base/visible_text.h"
 
 namespace talus {
 namespace {

@@ -11,8 +11,8 @@
 #include <thread>
 #include <utility>
 
-#include "core/errors.h"
-#include "core/hash.h"
+#include "base/errors.h"
+#include "base/hash.h"
 #include "core/trigonometry.h"
 #include "session/measure.h"
 #include "session/recorder.h"

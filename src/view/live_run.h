@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "core/observables.h"
 #include "core/snapshot.h"
 #include "io/run_store.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <fmt/core.h>
 
-#include "core/text.h"
+#include "base/text.h"
 #include "core/trigonometry.h"
 #include "render/colour_map.h"
 

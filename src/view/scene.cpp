@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "pictures/bed_view.h"
 #include "pictures/change_map.h"
 

@@ -4,8 +4,8 @@
 #include <array>
 #include <fmt/core.h>
 
-#include "core/errors.h"
-#include "core/visible_text.h"
+#include "base/errors.h"
+#include "base/visible_text.h"
 
 namespace talus {
 namespace {

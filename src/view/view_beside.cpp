@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "view/camera.h"
 #include "view/run_clock.h"
 #include "view/view_model.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "pictures/frame_choice.h"
 #include "runs/event_catalogue.h"
 #include "session/command.h"

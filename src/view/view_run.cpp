@@ -6,8 +6,8 @@
 #include <fmt/core.h>
 #include <utility>
 
-#include "core/errors.h"
-#include "core/hash.h"
+#include "base/errors.h"
+#include "base/hash.h"
 #include "core/trigonometry.h"
 #include "pictures/frame_choice.h"
 #include "runs/event_catalogue.h"

@@ -3,7 +3,7 @@
 #include <fmt/core.h>
 #include <utility>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "io/durable_file.h"
 #include "pictures/motion.h"
 #include "runs/event_catalogue.h"

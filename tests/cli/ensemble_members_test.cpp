@@ -9,7 +9,7 @@
 #include <span>
 #include <sstream>
 
-#include "core/hash.h"
+#include "base/hash.h"
 #include "support/places.h"
 #include "support/process.h"
 

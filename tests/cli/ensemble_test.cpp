@@ -9,7 +9,7 @@
 #include <fstream>
 #include <thread>
 
-#include "core/descriptor.h"
+#include "base/descriptor.h"
 #include "support/places.h"
 #include "support/process.h"
 

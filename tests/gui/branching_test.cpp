@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/hash.h"
+#include "base/hash.h"
 #include "gui/offscreen_fixture.h"
 #include "io/run_file.h"
 

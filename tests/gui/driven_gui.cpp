@@ -4,7 +4,7 @@
 #include <cctype>
 #include <fmt/core.h>
 
-#include "core/errors.h"
+#include "base/errors.h"
 
 namespace talus::test {
 namespace {

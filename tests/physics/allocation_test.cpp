@@ -8,8 +8,8 @@
 #include <initializer_list>
 #include <new>
 
+#include "base/thread_team.h"
 #include "contact/detection.h"
-#include "core/thread_team.h"
 #include "core/trigonometry.h"
 #include "support/scenes.h"
 

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "support/scenes.h"
 
 namespace talus {

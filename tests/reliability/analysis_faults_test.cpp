@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cerrno>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "io/analysis_file.h"
 #include "io/run_file.h"
 #include "reliability/faults.h"

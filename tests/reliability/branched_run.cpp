@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/hash.h"
+#include "base/hash.h"
 #include "io/run_file.h"
 #include "reliability/hostile_run.h"
 #include "session/frame_state.h"

@@ -10,7 +10,7 @@
 #include <cstdlib>
 #include <thread>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "core/random.h"
 #include "reliability/hostile_file.h"
 #include "reliability/hostile_run.h"

@@ -8,7 +8,7 @@
 #include <iterator>
 #include <limits>
 
-#include "core/hash.h"
+#include "base/hash.h"
 #include "io/hdf5_handle.h"
 #include "io/seal.h"
 

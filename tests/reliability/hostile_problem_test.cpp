@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <optional>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "core/random.h"
 #include "problems/fclib_file.h"
 #include "reliability/hostile_run.h"

@@ -1,6 +1,6 @@
 #include "reliability/hostile_run.h"
 
-#include "core/hash.h"
+#include "base/hash.h"
 #include "core/trigonometry.h"
 #include "io/analysis_file.h"
 #include "problems/local_solvers.h"

@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "base/sanitizers.h"
 #include "core/random.h"
-#include "core/sanitizers.h"
 #include "io/child_process.h"
 #include "io/run_file.h"
 #include "reliability/hostile_test.h"

@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "reliability/hostile_file.h"
 #include "support/temporary_folder.h"
 

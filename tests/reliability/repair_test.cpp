@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <map>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "core/random.h"
 #include "io/run_file.h"
 #include "io/run_repair.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/hash.h"
+#include "base/hash.h"
 #include "core/trigonometry.h"
 #include "dynamics/collapse.h"
 #include "stress/free_surface.h"

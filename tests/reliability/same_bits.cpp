@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "core/hash.h"
+#include "base/hash.h"
 #include "reliability/rocked_bed.h"
 
 namespace talus::test {

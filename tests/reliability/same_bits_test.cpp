@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/hash.h"
+#include "base/hash.h"
 #include "reliability/rocked_bed.h"
 
 namespace talus::test {

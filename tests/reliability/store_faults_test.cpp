@@ -9,7 +9,7 @@
 #include <cerrno>
 #include <optional>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "io/analysis_file.h"
 #include "io/run_file.h"
 #include "reliability/faults.h"

@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "core/hash.h"
+#include "base/hash.h"
 #include "io/run_file.h"
 #include "support/places.h"
 

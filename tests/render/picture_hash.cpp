@@ -3,8 +3,8 @@
 
 #include <cstdio>
 
-#include "core/errors.h"
-#include "core/hash.h"
+#include "base/errors.h"
+#include "base/hash.h"
 #include "render/renderer.h"
 #include "render/sample_view.h"
 

@@ -4,7 +4,7 @@
 #include <limits>
 #include <string>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "render/colour_map.h"
 
 namespace talus {

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <string>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "render/context.h"
 #include "support/places.h"
 #include "support/temporary_folder.h"

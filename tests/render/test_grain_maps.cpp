@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "render/map_bed.h"
 
 namespace talus {

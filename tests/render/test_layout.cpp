@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "render/furniture.h"
 #include "render/layout.h"
 #include "render/sample_view.h"

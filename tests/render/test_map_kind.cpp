@@ -3,7 +3,7 @@
 #include <set>
 #include <string>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "pictures/map_kind.h"
 #include "pictures/traces.h"
 #include "support/exit_code.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "render/map_bed.h"
 
 namespace talus {

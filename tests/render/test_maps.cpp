@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "render/map_bed.h"
 #include "stress/overload.h"
 

@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "render/movie.h"
 #include "support/temporary_folder.h"
 

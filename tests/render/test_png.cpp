@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "render/png.h"
 #include "render/read_png.h"
 #include "support/exit_code.h"

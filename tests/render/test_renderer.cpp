@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "render/gl_objects.h"
 #include "render/golden_picture.h"
 #include "render/recording_target.h"

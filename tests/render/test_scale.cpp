@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "pictures/scale.h"
 #include "pictures/texts.h"
 

@@ -5,7 +5,7 @@
 
 #include <fmt/core.h>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "pictures/panel.h"
 #include "pictures/traces.h"
 #include "render/map_bed.h"

@@ -1,7 +1,7 @@
 #pragma once
 /// How a call ends.
 
-#include "core/errors.h"
+#include "base/errors.h"
 
 namespace talus::test {
 

@@ -4,7 +4,7 @@
 
 #include <stdexcept>
 
-#include "core/hash.h"
+#include "base/hash.h"
 #include "support/places.h"
 #include "support/process.h"
 

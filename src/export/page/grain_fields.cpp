@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <fmt/core.h>
 
-#include "core/errors.h"
+#include "base/errors.h"
 
 namespace talus {
 namespace {

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/text.h"
-#include "core/visible_text.h"
+#include "base/text.h"
+#include "base/visible_text.h"
 #include "scenario/text.h"
 
 namespace talus::json {

@@ -6,7 +6,7 @@
 
 #include "analysis/frame_analysis.h"
 #include "analysis/packing.h"
-#include "core/errors.h"
+#include "base/errors.h"
 #include "core/trigonometry.h"
 #include "pictures/motion.h"
 #include "runs/analysis_input.h"

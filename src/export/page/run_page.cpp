@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <fmt/core.h>
 
-#include "core/hash.h"
+#include "base/hash.h"
+#include "base/version.h"
 #include "core/trigonometry.h"
-#include "core/version.h"
 #include "export/page/contact_tables.h"
 #include "export/page/curves.h"
 #include "export/page/grain_fields.h"

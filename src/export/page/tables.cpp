@@ -7,7 +7,7 @@
 #include <limits>
 #include <new>
 
-#include "core/base64.h"
+#include "base/base64.h"
 #include "export/page/json.h"
 
 namespace talus {

@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <span>
 
-#include "core/errors.h"
-#include "core/hash.h"
+#include "base/errors.h"
+#include "base/hash.h"
 
 namespace {
 

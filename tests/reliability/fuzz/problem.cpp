@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <span>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "io/child_process.h"
 #include "problems/fclib_file.h"
 #include "reliability/hostile_run.h"

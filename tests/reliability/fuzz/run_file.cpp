@@ -11,7 +11,7 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "reliability/hostile_file.h"
 #include "reliability/hostile_run.h"
 #include "support/temporary_folder.h"

@@ -6,7 +6,7 @@
 
 #include <fstream>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "support/temporary_folder.h"
 
 namespace talus {

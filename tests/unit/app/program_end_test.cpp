@@ -14,8 +14,8 @@
 #include <system_error>
 #include <thread>
 
-#include "core/errors.h"
-#include "core/sanitizers.h"
+#include "base/errors.h"
+#include "base/sanitizers.h"
 
 namespace talus {
 namespace {

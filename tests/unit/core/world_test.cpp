@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/hash.h"
+#include "base/hash.h"
 #include "core/trigonometry.h"
 
 namespace talus {

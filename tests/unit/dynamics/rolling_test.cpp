@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/errors.h"
+#include "base/errors.h"
 
 namespace talus {
 namespace {

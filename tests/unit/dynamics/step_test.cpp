@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "dynamics/collapse.h"
 #include "support/scenes.h"
 

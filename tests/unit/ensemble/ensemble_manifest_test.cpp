@@ -12,7 +12,7 @@
 #include <span>
 #include <sstream>
 
-#include "core/hash.h"
+#include "base/hash.h"
 #include "ensemble/member_state.h"
 #include "io/durable_file.h"
 #include "scenario/text.h"

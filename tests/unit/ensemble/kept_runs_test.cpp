@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "core/hash.h"
+#include "base/hash.h"
 #include "ensemble/claim.h"
 #include "io/analysis_file.h"
 #include "runs/analysis_run.h"

@@ -9,7 +9,7 @@
 #include <csignal>
 #include <thread>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "io/durable_file.h"
 #include "support/exit_code.h"
 #include "support/temporary_folder.h"

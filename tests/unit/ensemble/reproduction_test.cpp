@@ -6,7 +6,7 @@
 
 #include <map>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "ensemble/built_in_scenarios.h"
 
 namespace talus {

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "core/errors.h"
-#include "core/hash.h"
+#include "base/errors.h"
+#include "base/hash.h"
 #include "core/snapshot.h"
 #include "ensemble/member_state.h"
 #include "io/analysis_file.h"

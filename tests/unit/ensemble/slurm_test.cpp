@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "support/exit_code.h"
 
 namespace talus {

@@ -8,8 +8,8 @@
 #include <fstream>
 #include <limits>
 
-#include "core/errors.h"
-#include "core/hash.h"
+#include "base/errors.h"
+#include "base/hash.h"
 #include "core/trigonometry.h"
 #include "ensemble/member_state.h"
 #include "ensemble/study.h"

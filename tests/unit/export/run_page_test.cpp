@@ -6,7 +6,7 @@
 
 #include <regex>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "core/trigonometry.h"
 #include "export/page/map_texts.h"
 #include "export/page/page_run.h"

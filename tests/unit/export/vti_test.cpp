@@ -2,7 +2,7 @@
 
 #include <set>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "export/writers.h"
 #include "support/exit_code.h"
 #include "unit/export/example_frame.h"

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "core/hash.h"
+#include "base/hash.h"
 #include "unit/figures/example_figure_run.h"
 
 namespace talus {

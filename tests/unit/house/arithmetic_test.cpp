@@ -17,6 +17,7 @@ namespace {
 /// The rooms of which nothing but a run is made, and the files of others through which its state or what it
 /// records goes.
 const std::vector<std::string> of_a_run = {
+    "src/base/",
     "src/core/",
     "src/contact/",
     "src/solver/",

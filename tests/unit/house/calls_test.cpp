@@ -73,7 +73,7 @@ TEST(Calls, of_std_filesystem_have_an_object_for_the_error) {
   for (const TextFile& file : read_texts({"src", "render"}))
     if (is_source(file))
       for (const std::string& found : throwing_calls(file))
-        ADD_FAILURE() << found << ": throws past every message; core/paths.h has what does not";
+        ADD_FAILURE() << found << ": throws past every message; base/paths.h has what does not";
 }
 
 TEST(Calls, that_throw_are_found) {

@@ -9,8 +9,8 @@
 #include <cstring>
 #include <sstream>
 
-#include "core/errors.h"
-#include "core/hash.h"
+#include "base/errors.h"
+#include "base/hash.h"
 #include "io/durable_file.h"
 #include "io/hdf5_reader.h"
 #include "io/hdf5_writer.h"

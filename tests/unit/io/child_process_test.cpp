@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "core/descriptor.h"
-#include "core/errors.h"
-#include "core/sanitizers.h"
+#include "base/descriptor.h"
+#include "base/errors.h"
+#include "base/sanitizers.h"
 
 namespace talus {
 namespace {

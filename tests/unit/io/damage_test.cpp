@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "io/hdf5_reader.h"
 #include "io/hdf5_writer.h"
 #include "io/manifest.h"

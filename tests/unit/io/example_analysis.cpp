@@ -1,6 +1,6 @@
 #include "unit/io/example_analysis.h"
 
-#include "core/hash.h"
+#include "base/hash.h"
 #include "support/blank_analysis.h"
 
 namespace talus::example {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "io/manifest.h"
 #include "io/run_file.h"
 #include "io/run_repair.h"

@@ -5,7 +5,7 @@
 #include <bit>
 #include <cmath>
 
-#include "core/hash.h"
+#include "base/hash.h"
 #include "io/run_file.h"
 #include "unit/io/example_run.h"
 

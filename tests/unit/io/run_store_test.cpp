@@ -10,7 +10,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "io/run_file.h"
 #include "unit/io/example_run.h"
 

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <hdf5.h>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "io/run_file.h"
 #include "io/run_schema.h"
 #include "unit/io/damaged_run.h"

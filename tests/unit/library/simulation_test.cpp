@@ -16,8 +16,8 @@
 #include <thread>
 #include <vector>
 
-#include "core/errors.h"
-#include "core/hash.h"
+#include "base/errors.h"
+#include "base/hash.h"
 #include "core/random.h"
 #include "io/run_file.h"
 #include "session/recorder.h"

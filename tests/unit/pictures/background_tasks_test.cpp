@@ -8,7 +8,7 @@
 #include <future>
 #include <vector>
 
-#include "core/errors.h"
+#include "base/errors.h"
 
 namespace talus {
 namespace {

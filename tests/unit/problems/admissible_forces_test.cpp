@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "runs/analysis_parameters.h"
 #include "session/measure.h"
 #include "support/scenes.h"

@@ -8,7 +8,7 @@
 #include <limits>
 #include <sstream>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "problems/fclib_schema.h"
 #include "support/places.h"
 #include "unit/io/example_run.h"

@@ -6,7 +6,7 @@
 
 #include <cstring>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "problems/fclib_file.h"
 #include "session/frame_state.h"
 #include "session/run.h"

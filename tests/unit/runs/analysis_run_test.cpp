@@ -12,7 +12,7 @@
 
 #include "analysis/local_deformation.h"
 #include "analysis/quantities.h"
-#include "core/errors.h"
+#include "base/errors.h"
 #include "core/trigonometry.h"
 #include "runs/analysis_parameters.h"
 #include "support/places.h"

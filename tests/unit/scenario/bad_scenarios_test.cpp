@@ -7,7 +7,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "scenario/scenario.h"
 #include "support/places.h"
 

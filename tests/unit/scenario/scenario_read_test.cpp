@@ -7,7 +7,7 @@
 #include <functional>
 #include <sstream>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "scenario/keys.h"
 #include "scenario/rules.h"
 #include "scenario/scenario.h"

@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "io/run_file.h"
 #include "session/estimate.h"
 #include "session/run_header.h"

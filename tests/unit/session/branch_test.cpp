@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "core/errors.h"
-#include "core/hash.h"
+#include "base/errors.h"
+#include "base/hash.h"
 #include "core/trigonometry.h"
 #include "io/run_file.h"
 #include "problems/step_problem.h"

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "core/trigonometry.h"
 #include "session/session.h"
 #include "support/small_bed.h"

@@ -6,7 +6,7 @@
 
 #include <numeric>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "session/run_header.h"
 #include "session/session.h"
 #include "support/small_bed.h"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "core/trigonometry.h"
 #include "io/run_file.h"
 #include "problems/step_problem.h"

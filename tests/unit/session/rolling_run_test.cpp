@@ -7,7 +7,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "problems/step_problem.h"
 #include "session/run.h"
 #include "session/run_check.h"

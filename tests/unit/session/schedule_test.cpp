@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/errors.h"
+#include "base/errors.h"
 
 namespace talus {
 namespace {

@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "analysis/last_rise.h"
-#include "core/errors.h"
+#include "base/errors.h"
 #include "core/trigonometry.h"
 #include "io/run_file.h"
 #include "problems/step_problem.h"

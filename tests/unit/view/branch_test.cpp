@@ -4,8 +4,8 @@
 
 #include <filesystem>
 
-#include "core/errors.h"
-#include "core/hash.h"
+#include "base/errors.h"
+#include "base/hash.h"
 #include "io/run_file.h"
 #include "opened_view.h"
 #include "session/run.h"

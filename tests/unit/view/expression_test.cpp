@@ -7,7 +7,7 @@
 #include <cmath>
 #include <map>
 
-#include "core/errors.h"
+#include "base/errors.h"
 
 namespace talus {
 namespace {

@@ -11,8 +11,8 @@
 #include <filesystem>
 #include <thread>
 
-#include "core/errors.h"
-#include "core/hash.h"
+#include "base/errors.h"
+#include "base/hash.h"
 #include "core/trigonometry.h"
 #include "io/run_file.h"
 #include "session/measure.h"

@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "core/errors.h"
-#include "core/hash.h"
+#include "base/errors.h"
+#include "base/hash.h"
 #include "core/trigonometry.h"
 #include "io/run_file.h"
 #include "support/temporary_folder.h"

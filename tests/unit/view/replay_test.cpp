@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "support/temporary_folder.h"
 #include "unit/io/example_run.h"
 #include "unit/view/example_bed.h"

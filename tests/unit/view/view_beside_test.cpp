@@ -6,7 +6,7 @@
 #include <cmath>
 #include <fstream>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "core/trigonometry.h"
 #include "support/temporary_folder.h"
 #include "unit/view/example_bed.h"

@@ -10,8 +10,8 @@
 #include <fstream>
 #include <span>
 
-#include "core/errors.h"
-#include "core/hash.h"
+#include "base/errors.h"
+#include "base/hash.h"
 #include "core/trigonometry.h"
 #include "io/analysis_file.h"
 #include "io/run_file.h"

@@ -1,4 +1,4 @@
-#include "core/locked_file.h"
+#include "base/locked_file.h"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "core/errors.h"
+#include "base/errors.h"
 #include "support/temporary_folder.h"
 
 namespace talus {

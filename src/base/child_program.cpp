@@ -1,4 +1,4 @@
-#include "core/child_program.h"
+#include "base/child_program.h"
 
 #include <fcntl.h>
 #include <poll.h>
@@ -12,7 +12,7 @@
 #include <cstdlib>
 #include <fmt/core.h>
 
-#include "core/descriptor.h"
+#include "base/descriptor.h"
 
 namespace talus {
 namespace {

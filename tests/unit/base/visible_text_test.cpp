@@ -1,6 +1,6 @@
 // Nothing that a terminal obeys comes through.
 
-#include "core/visible_text.h"
+#include "base/visible_text.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/output_file.h"
+#include "base/output_file.h"
 
 #include <fcntl.h>
 #include <sys/mman.h>
@@ -10,8 +10,8 @@
 #include <filesystem>
 #include <fmt/core.h>
 
-#include "core/errors.h"
-#include "core/locked_file.h"
+#include "base/errors.h"
+#include "base/locked_file.h"
 
 namespace talus {
 namespace {

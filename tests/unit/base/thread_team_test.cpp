@@ -1,4 +1,4 @@
-#include "core/thread_team.h"
+#include "base/thread_team.h"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -11,7 +11,7 @@
 #include <system_error>
 #include <vector>
 
-#include "core/sanitizers.h"
+#include "base/sanitizers.h"
 
 namespace talus {
 namespace {

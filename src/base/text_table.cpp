@@ -1,11 +1,11 @@
-#include "core/text_table.h"
+#include "base/text_table.h"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/core.h>
 
-#include "core/text.h"
-#include "core/visible_text.h"
+#include "base/text.h"
+#include "base/visible_text.h"
 
 namespace talus {
 namespace {

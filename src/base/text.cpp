@@ -1,6 +1,6 @@
-#include "core/text.h"
+#include "base/text.h"
 
-#include "core/visible_text.h"
+#include "base/visible_text.h"
 
 namespace talus {
 

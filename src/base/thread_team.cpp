@@ -1,4 +1,4 @@
-#include "core/thread_team.h"
+#include "base/thread_team.h"
 
 namespace talus {
 namespace {

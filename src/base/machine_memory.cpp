@@ -1,4 +1,4 @@
-#include "core/machine_memory.h"
+#include "base/machine_memory.h"
 
 #include <sys/resource.h>
 #include <sys/sysinfo.h>

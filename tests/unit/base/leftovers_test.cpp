@@ -10,8 +10,8 @@
 #include <set>
 #include <thread>
 
-#include "core/descriptor.h"
-#include "core/locked_file.h"
+#include "base/descriptor.h"
+#include "base/locked_file.h"
 #include "support/temporary_folder.h"
 
 namespace talus {

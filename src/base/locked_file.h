@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "core/descriptor.h"
+#include "base/descriptor.h"
 
 namespace talus {
 

@@ -1,6 +1,6 @@
 /// "Did you mean".
 
-#include "core/nearest_word.h"
+#include "base/nearest_word.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/locked_file.h"
+#include "base/locked_file.h"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -20,8 +20,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/errors.h"
-#include "core/paths.h"
+#include "base/errors.h"
+#include "base/paths.h"
 
 namespace talus {
 namespace {

@@ -1,8 +1,8 @@
-#include "core/paths.h"
+#include "base/paths.h"
 
 #include <filesystem>
 
-#include "core/errors.h"
+#include "base/errors.h"
 
 namespace talus {
 

@@ -1,11 +1,11 @@
-#include "core/descriptor.h"
+#include "base/descriptor.h"
 
 #include <unistd.h>
 
 #include <cerrno>
 #include <utility>
 
-#include "core/errors.h"
+#include "base/errors.h"
 
 namespace talus {
 

@@ -1,4 +1,4 @@
-#include "core/output_file.h"
+#include "base/output_file.h"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -10,8 +10,8 @@
 #include <fstream>
 #include <iterator>
 
-#include "core/descriptor.h"
-#include "core/errors.h"
+#include "base/descriptor.h"
+#include "base/errors.h"
 #include "support/exit_code.h"
 #include "support/temporary_folder.h"
 

@@ -1,4 +1,4 @@
-#include "core/visible_text.h"
+#include "base/visible_text.h"
 
 #include <array>
 #include <cstdint>

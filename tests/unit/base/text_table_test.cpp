@@ -1,6 +1,6 @@
 /// Tables as text: aligned, CSV, Markdown.
 
-#include "core/text_table.h"
+#include "base/text_table.h"
 
 #include <gtest/gtest.h>
 
