@@ -8,13 +8,13 @@
 #include <optional>
 #include <vector>
 
-#include "analysis/coarse_fields.h"
+#include "analysis/deformation/coarse_fields.h"
+#include "analysis/deformation/local_deformation.h"
 #include "analysis/frame_analysis.h"
-#include "analysis/local_deformation.h"
-#include "analysis/local_solid_fraction.h"
-#include "analysis/pair_correlation.h"
-#include "analysis/rigid_clusters.h"
-#include "analysis/topology.h"
+#include "analysis/packing/local_solid_fraction.h"
+#include "analysis/packing/pair_correlation.h"
+#include "analysis/topology/rigid_clusters.h"
+#include "analysis/topology/topology.h"
 #include "base/errors.h"
 #include "io/run_file.h"
 #include "processor_time.h"

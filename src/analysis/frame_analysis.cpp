@@ -3,17 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/coarse_fields.h"
-#include "analysis/contact_network.h"
-#include "analysis/fabric.h"
-#include "analysis/failure_distance.h"
+#include "analysis/contacts/contact_network.h"
+#include "analysis/contacts/weak_contacts.h"
+#include "analysis/deformation/coarse_fields.h"
+#include "analysis/failure/failure_distance.h"
 #include "analysis/free_grains.h"
-#include "analysis/local_solid_fraction.h"
-#include "analysis/packing.h"
-#include "analysis/pair_correlation.h"
-#include "analysis/rigid_clusters.h"
-#include "analysis/texture.h"
-#include "analysis/weak_contacts.h"
+#include "analysis/packing/local_solid_fraction.h"
+#include "analysis/packing/packing.h"
+#include "analysis/packing/pair_correlation.h"
+#include "analysis/texture/fabric.h"
+#include "analysis/texture/texture.h"
+#include "analysis/topology/rigid_clusters.h"
 #include "core/trigonometry.h"
 
 namespace talus {

@@ -4,10 +4,10 @@
 #include <span>
 #include <vector>
 
-#include "analysis/clusters.h"
-#include "analysis/links.h"
+#include "analysis/overload/clusters.h"
+#include "analysis/overload/links.h"
+#include "analysis/overload/percolation.h"
 #include "analysis/parameters.h"
-#include "analysis/percolation.h"
 #include "analysis/record.h"
 #include "core/bed_frame.h"
 #include "core/snapshot.h"

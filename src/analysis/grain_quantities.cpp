@@ -5,13 +5,13 @@
 #include <fmt/core.h>
 #include <numbers>
 
-#include "analysis/coarse_fields.h"
-#include "analysis/coarse_graining.h"
-#include "analysis/contact_network.h"
+#include "analysis/contacts/contact_network.h"
+#include "analysis/deformation/coarse_fields.h"
+#include "analysis/deformation/local_deformation.h"
 #include "analysis/frame_quantities.h"
 #include "analysis/free_grains.h"
-#include "analysis/local_deformation.h"
-#include "analysis/local_solid_fraction.h"
+#include "analysis/overload/coarse_graining.h"
+#include "analysis/packing/local_solid_fraction.h"
 #include "analysis/quantities.h"
 #include "base/errors.h"
 #include "core/trigonometry.h"

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "analysis/coarse_graining.h"
+#include "analysis/overload/coarse_graining.h"
 
 namespace talus {
 

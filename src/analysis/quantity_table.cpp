@@ -1,4 +1,4 @@
-#include "analysis/event_quantities.h"
+#include "analysis/events/event_quantities.h"
 #include "analysis/quantities.h"
 
 namespace talus {

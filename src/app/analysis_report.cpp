@@ -6,7 +6,7 @@
 #include <fmt/core.h>
 #include <initializer_list>
 
-#include "analysis/last_rise.h"
+#include "analysis/failure/last_rise.h"
 #include "app/event_report.h"
 #include "base/text_table.h"
 #include "core/trigonometry.h"

@@ -5,7 +5,7 @@
 #include <fmt/core.h>
 #include <numeric>
 
-#include "analysis/power_law.h"
+#include "analysis/events/power_law.h"
 #include "analysis/quantities.h"
 #include "app/json.h"
 #include "base/text.h"

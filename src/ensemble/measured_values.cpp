@@ -5,7 +5,7 @@
 #include <numeric>
 #include <optional>
 
-#include "analysis/failure_ratio.h"
+#include "analysis/failure/failure_ratio.h"
 #include "core/trigonometry.h"
 #include "ensemble/wall_fit.h"
 

@@ -6,7 +6,7 @@
 #include <fmt/core.h>
 #include <variant>
 
-#include "analysis/last_rise.h"
+#include "analysis/failure/last_rise.h"
 #include "analysis/quantities.h"
 #include "base/hash.h"
 #include "core/snapshot.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/last_rise.h"
+#include "analysis/failure/last_rise.h"
 #include "analysis/quantities.h"
 #include "core/trigonometry.h"
 #include "runs/analysis_input.h"

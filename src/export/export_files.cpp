@@ -8,7 +8,7 @@
 
 #include "analysis/frame_analysis.h"
 #include "analysis/frame_quantities.h"
-#include "analysis/packing.h"
+#include "analysis/packing/packing.h"
 #include "base/errors.h"
 #include "base/output_file.h"
 #include "export/page/run_page.h"

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "analysis/coarse_fields.h"
+#include "analysis/deformation/coarse_fields.h"
 #include "analysis/frame_quantities.h"
 #include "core/observables.h"
 #include "export/fields.h"

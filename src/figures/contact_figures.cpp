@@ -2,7 +2,7 @@
 #include <cmath>
 #include <fmt/core.h>
 
-#include "analysis/weak_contacts.h"
+#include "analysis/contacts/weak_contacts.h"
 #include "core/statistics.h"
 #include "core/trigonometry.h"
 #include "figures/failed_group.h"

@@ -3,7 +3,7 @@
 #include <fmt/core.h>
 #include <functional>
 
-#include "analysis/power_law.h"
+#include "analysis/events/power_law.h"
 #include "core/trigonometry.h"
 #include "ensemble/plus_minus.h"
 #include "figures/group_table.h"

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "analysis/cells.h"
-#include "analysis/coarse_graining.h"
 #include "analysis/free_grains.h"
+#include "analysis/overload/coarse_graining.h"
 #include "base/text.h"
 #include "core/trigonometry.h"
 #include "figures/failed_group.h"

@@ -2,7 +2,7 @@
 #include <fmt/core.h>
 #include <string>
 
-#include "analysis/topology.h"
+#include "analysis/topology/topology.h"
 #include "core/trigonometry.h"
 #include "figures/failed_group.h"
 #include "figures/recipes.h"

@@ -8,7 +8,7 @@
 
 #include "analysis/frame_analysis.h"
 #include "analysis/quantities.h"
-#include "analysis/topology.h"
+#include "analysis/topology/topology.h"
 #include "base/errors.h"
 #include "base/nearest_word.h"
 #include "base/visible_text.h"

@@ -6,7 +6,7 @@
 #include <fmt/core.h>
 #include <utility>
 
-#include "analysis/contact_changes.h"
+#include "analysis/contacts/contact_changes.h"
 #include "core/trigonometry.h"
 #include "pictures/motion.h"
 

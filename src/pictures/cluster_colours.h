@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "analysis/clusters.h"
+#include "analysis/overload/clusters.h"
 #include "render/colour.h"
 
 namespace talus {

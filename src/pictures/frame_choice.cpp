@@ -7,7 +7,7 @@
 #include <fmt/core.h>
 #include <utility>
 
-#include "analysis/last_rise.h"
+#include "analysis/failure/last_rise.h"
 #include "base/errors.h"
 #include "base/nearest_word.h"
 #include "base/visible_text.h"

@@ -1,7 +1,7 @@
 #include <fmt/core.h>
 #include <string>
 
-#include "analysis/percolation.h"
+#include "analysis/overload/percolation.h"
 #include "pictures/layers.h"
 #include "pictures/texts.h"
 #include "stress/overload.h"

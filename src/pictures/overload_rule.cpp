@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "analysis/free_grains.h"
-#include "analysis/links.h"
+#include "analysis/overload/links.h"
 #include "core/trigonometry.h"
 #include "stress/overload.h"
 

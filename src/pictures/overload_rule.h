@@ -1,8 +1,8 @@
 #pragma once
 /// When a grain is overloaded, and the clusters of those that are.
 
-#include "analysis/clusters.h"
-#include "analysis/coarse_graining.h"
+#include "analysis/overload/clusters.h"
+#include "analysis/overload/coarse_graining.h"
 #include "core/bed_frame.h"
 
 namespace talus {

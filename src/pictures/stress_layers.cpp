@@ -2,7 +2,7 @@
 #include <cmath>
 #include <fmt/core.h>
 
-#include "analysis/coarse_graining.h"
+#include "analysis/overload/coarse_graining.h"
 #include "base/errors.h"
 #include "core/trigonometry.h"
 #include "pictures/layers.h"

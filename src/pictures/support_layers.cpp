@@ -2,8 +2,8 @@
 #include <cmath>
 #include <fmt/core.h>
 
-#include "analysis/contact_network.h"
-#include "analysis/rigid_clusters.h"
+#include "analysis/contacts/contact_network.h"
+#include "analysis/topology/rigid_clusters.h"
 #include "pictures/layers.h"
 #include "stress/bed.h"
 

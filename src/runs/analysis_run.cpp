@@ -6,12 +6,12 @@
 #include <mutex>
 #include <utility>
 
-#include "analysis/failure_ratio.h"
+#include "analysis/deformation/local_deformation.h"
+#include "analysis/failure/failure_ratio.h"
+#include "analysis/failure/last_rise.h"
+#include "analysis/failure/transition.h"
 #include "analysis/frame_analysis.h"
-#include "analysis/last_rise.h"
-#include "analysis/local_deformation.h"
-#include "analysis/topology.h"
-#include "analysis/transition.h"
+#include "analysis/topology/topology.h"
 #include "base/errors.h"
 #include "base/hash.h"
 #include "core/trigonometry.h"

@@ -6,9 +6,9 @@
 #include <numeric>
 #include <optional>
 
-#include "analysis/events.h"
-#include "analysis/last_rise.h"
-#include "analysis/power_law.h"
+#include "analysis/events/events.h"
+#include "analysis/events/power_law.h"
+#include "analysis/failure/last_rise.h"
 #include "core/trigonometry.h"
 #include "runs/run_view.h"
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <thread>
 
-#include "analysis/last_rise.h"
+#include "analysis/failure/last_rise.h"
 #include "analysis/parameters.h"
 #include "analysis/record.h"
 #include "core/watch.h"

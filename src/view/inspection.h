@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "analysis/clusters.h"
-#include "analysis/coarse_graining.h"
+#include "analysis/overload/clusters.h"
+#include "analysis/overload/coarse_graining.h"
 #include "core/bed_frame.h"
 #include "stress/stress_state.h"
 #include "view/selection.h"

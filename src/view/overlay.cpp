@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "analysis/free_grains.h"
-#include "analysis/links.h"
+#include "analysis/overload/links.h"
 #include "core/trigonometry.h"
 #include "pictures/bed_view.h"
 #include "pictures/texts.h"

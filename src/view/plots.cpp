@@ -4,7 +4,7 @@
 #include <cmath>
 #include <fmt/core.h>
 
-#include "analysis/packing.h"
+#include "analysis/packing/packing.h"
 #include "core/trigonometry.h"
 
 namespace talus {

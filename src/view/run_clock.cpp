@@ -4,7 +4,7 @@
 #include <cmath>
 #include <span>
 
-#include "analysis/last_rise.h"
+#include "analysis/failure/last_rise.h"
 
 namespace talus {
 namespace {

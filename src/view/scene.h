@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "analysis/clusters.h"
+#include "analysis/overload/clusters.h"
 #include "pictures/picture_series.h"
 #include "render/frame_view.h"
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <fmt/core.h>
 
-#include "analysis/last_rise.h"
-#include "analysis/transition.h"
+#include "analysis/failure/last_rise.h"
+#include "analysis/failure/transition.h"
 #include "core/trigonometry.h"
 #include "session/command.h"
 

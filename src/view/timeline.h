@@ -62,9 +62,9 @@ struct TimelineSource {
 double place_among(std::span<const double> tilts, double tilt);
 
 /// theta_d by each estimator, the jump of l_c, where a cluster first spans, the first slide, theta_c, the
-/// rearrangements, the commands and the bookmarks, as analyses find them (analysis/transition.h), in the
-/// order of their places. What needs the values of all frames comes when they are there. None where there are
-/// no frames. Where the tilt goes up and down, what is found at an angle is of the last rise.
+/// rearrangements, the commands and the bookmarks, as analyses find them (analysis/failure/transition.h), in
+/// the order of their places. What needs the values of all frames comes when they are there. None where there
+/// are no frames. Where the tilt goes up and down, what is found at an angle is of the last rise.
 std::vector<TimelineEvent> timeline_events(const TimelineSource& source);
 
 }  // namespace talus

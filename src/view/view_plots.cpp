@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/last_rise.h"
+#include "analysis/failure/last_rise.h"
 #include "core/trigonometry.h"
 #include "pictures/frame_choice.h"
 #include "view/view_model.h"

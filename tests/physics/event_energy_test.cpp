@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "analysis/events.h"
+#include "analysis/events/events.h"
 #include "support/scenes.h"
 
 namespace talus {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "analysis/frame_analysis.h"
-#include "analysis/packing.h"
+#include "analysis/packing/packing.h"
 #include "base/errors.h"
 #include "core/trigonometry.h"
 #include "pictures/motion.h"

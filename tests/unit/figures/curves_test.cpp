@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "analysis/coarse_graining.h"
+#include "analysis/overload/coarse_graining.h"
 #include "ensemble/paper_values.h"
 #include "ensemble/wall_fit.h"
 #include "figures/catalogue.h"

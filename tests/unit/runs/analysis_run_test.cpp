@@ -10,7 +10,7 @@
 #include <limits>
 #include <span>
 
-#include "analysis/local_deformation.h"
+#include "analysis/deformation/local_deformation.h"
 #include "analysis/quantities.h"
 #include "base/errors.h"
 #include "core/trigonometry.h"

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <optional>
 
-#include "analysis/last_rise.h"
+#include "analysis/failure/last_rise.h"
 #include "base/errors.h"
 #include "core/trigonometry.h"
 #include "io/run_file.h"

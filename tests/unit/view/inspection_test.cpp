@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "analysis/links.h"
+#include "analysis/overload/links.h"
 #include "unit/analysis/packings.h"
 
 namespace talus {

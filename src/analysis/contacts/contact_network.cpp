@@ -1,0 +1,166 @@
+#include "analysis/contacts/contact_network.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "analysis/free_grains.h"
+#include "analysis/overload/clusters.h"
+#include "analysis/texture/contact_moment.h"
+#include "analysis/texture/fabric.h"
+#include "core/tensor.h"
+#include "core/trigonometry.h"
+#include "stress/bed.h"
+#include "stress/stress_state.h"
+
+namespace talus {
+namespace {
+
+double mean_normal_force(const FrameContacts& contacts) {
+  double sum = 0.0;
+  for (double fn : contacts.fn) sum += fn;
+  return contacts.count() > 0 ? sum / contacts.count() : not_known;
+}
+
+/// Which free grains are no rattlers, and the contacts that these have among themselves and with what is
+/// fixed.
+struct Backbone {
+  std::vector<bool> grain;
+  std::vector<Index> degree;  ///< no longer right for a rattler
+};
+
+/// `degree`: the contacts of each free grain.
+Backbone find_backbone(const BedFrame& bed, const std::vector<Index>& degree) {
+  Backbone backbone{std::vector<bool>(degree.size(), true), degree};
+  std::vector<std::vector<Index>> contacts_of(degree.size());
+  for (Index c = 0; c < bed.frame.contacts.count(); ++c)
+    for_each_free_end(bed, c, [&](Index i) { contacts_of[i].push_back(c); });
+  std::vector<Index> loose;
+  for (Index i = 0; i < bed.statics.free_count; ++i)
+    if (backbone.degree[i] < 2) loose.push_back(i);
+  while (!loose.empty()) {
+    const Index i = loose.back();
+    loose.pop_back();
+    if (!backbone.grain[i]) continue;
+    backbone.grain[i] = false;
+    for (Index c : contacts_of[i])
+      for_each_free_end(bed, c, [&](Index j) {
+        if (--backbone.degree[j] < 2 && backbone.grain[j]) loose.push_back(j);
+      });
+  }
+  return backbone;
+}
+
+/// Scalar product of the deviators of the symmetric parts of two tensors, up to a factor.
+double deviator_product(const Tensor2& one, const Tensor2& other) {
+  return (one.xx - one.yy) * (other.xx - other.yy) + (one.xy + one.yx) * (other.xy + other.yx);
+}
+
+}  // namespace
+
+double mobilisation_of(const BedFrame& bed, Index c) {
+  const double allowed = friction_of_contact(bed.statics, bed.frame, c) * bed.frame.contacts.fn[c];
+  return allowed > 0.0 ? std::min(1.0, std::fabs(bed.frame.contacts.ft[c]) / allowed) : 1.0;
+}
+
+void take_coordination(const BedFrame& bed, FrameRecord& record) {
+  const FrameContacts& contacts = bed.frame.contacts;
+  const std::vector<Index> degree =
+      loaded_contacts(contacts.a, contacts.b, contacts.fn, bed.statics.free_count);
+  const Index ends = std::accumulate(degree.begin(), degree.end(), Index{0});
+  const Backbone backbone = find_backbone(bed, degree);
+  Index backbone_ends = 0, in_backbone = 0;
+  for (std::size_t i = 0; i < degree.size(); ++i)
+    if (backbone.grain[i]) {
+      backbone_ends += backbone.degree[i];
+      ++in_backbone;
+    }
+  const auto ratio = [](Index above, Index below) {
+    return below > 0 ? static_cast<double>(above) / below : 0.0;
+  };
+  record.coordination_number = coordination_number(degree);
+  record.coordination_number_of_all = ratio(ends, bed.statics.free_count);
+  record.coordination_number_without_rattlers = ratio(backbone_ends, in_backbone);
+  record.rattler_fraction = ratio(bed.statics.free_count - in_backbone, bed.statics.free_count);
+}
+
+Histogram normal_forces(const Frame& frame, Histogram bins) {
+  const double mean = mean_normal_force(frame.contacts);
+  for (double fn : frame.contacts.fn) bins.add(fn / mean);
+  return bins;
+}
+
+Histogram mobilised_friction(const BedFrame& bed, int bins) {
+  Histogram histogram(0.0, 1.0, bins);
+  for (Index c = 0; c < bed.frame.contacts.count(); ++c) histogram.add(mobilisation_of(bed, c));
+  return histogram;
+}
+
+std::vector<double> mobilised_friction_of_grains(const BedFrame& bed) {
+  const auto count = static_cast<std::size_t>(bed.statics.free_count);
+  std::vector<double> sum(count, 0.0), contacts(count, 0.0);
+  for (Index c = 0; c < bed.frame.contacts.count(); ++c)
+    for_each_free_end(bed, c, [&](Index i) {
+      sum[i] += mobilisation_of(bed, c);
+      contacts[i] += 1.0;
+    });
+  for (std::size_t i = 0; i < count; ++i) sum[i] = contacts[i] > 0.0 ? sum[i] / contacts[i] : not_known;
+  return sum;
+}
+
+void take_networks(const BedFrame& bed, FrameRecord& record) {
+  record.mean_normal_force = mean_normal_force(bed.frame.contacts);
+  Tensor2 strong, weak;
+  Index strong_count = 0;
+  std::vector<double> in_strong, in_weak;
+  for (Index c = 0; c < bed.frame.contacts.count(); ++c) {
+    const bool is_strong = bed.frame.contacts.fn[c] > record.mean_normal_force;
+    strong_count += is_strong ? 1 : 0;
+    add_moment(bed, c, is_strong ? strong : weak);
+    in_strong.push_back(is_strong ? 1.0 : 0.0);
+    in_weak.push_back(is_strong ? 0.0 : 1.0);
+  }
+  Tensor2 all = strong;
+  add_to(all, weak);
+  record.strong_share = bed.frame.contacts.count() > 0
+                            ? static_cast<double>(strong_count) / bed.frame.contacts.count()
+                            : not_known;
+  record.strong_share_of_mean_stress = matrix(strong).trace() / matrix(all).trace();
+  record.strong_share_of_deviator = deviator_product(strong, all) / deviator_product(all, all);
+  record.strong_stress_ratio = stress_state(strong).ratio;
+  record.weak_stress_ratio = stress_state(weak).ratio;
+  const FabricComponent components[] = {fabric_component(bed.frame.contacts, 2, in_strong),
+                                        fabric_component(bed.frame.contacts, 2, in_weak)};
+  for (std::size_t k = 0; k < std::size(components); ++k) {
+    record.network_fabric_amplitude[k] = components[k].amplitude;
+    record.network_fabric_angle[k] = radians(components[k].angle);
+  }
+}
+
+void take_critical_contacts(const BedFrame& bed, FrameRecord& record) {
+  const FrameContacts& contacts = bed.frame.contacts;
+  std::vector<bool> touched(static_cast<std::size_t>(bed.statics.free_count), false);
+  std::vector<Link> links;
+  Index critical = 0;
+  for (Index c = 0; c < contacts.count(); ++c) {
+    if (contacts.status[c] != ContactStatus::sliding) continue;
+    ++critical;
+    for_each_free_end(bed, c, [&](Index i) { touched[i] = true; });
+    if (contacts.a[c] < bed.statics.free_count && contacts.b[c] < bed.statics.free_count)
+      links.push_back({contacts.a[c], contacts.b[c], contacts.shift[c]});
+  }
+  const Clusters clusters = find_clusters(touched, links, bed.frame.x, period_of(bed.statics));
+  std::vector<Index> size(clusters.size.size(), 0);
+  for (Index c = 0; c < contacts.count(); ++c)
+    if (contacts.status[c] == ContactStatus::sliding) ++size[clusters.label[contacts.a[c]]];
+  double squares = 0.0;
+  for (const Index each : size) squares += static_cast<double>(each) * each;
+  record.critical_share = contacts.count() > 0 ? static_cast<double>(critical) / contacts.count() : not_known;
+  record.critical_clusters = static_cast<Index>(size.size());
+  record.critical_mean = size.empty() ? not_known : critical / static_cast<double>(size.size());
+  record.critical_weighted_mean = size.empty() ? not_known : squares / critical;
+  record.critical_largest = size.empty() ? 0 : *std::max_element(size.begin(), size.end());
+  record.critical_correlation_length = correlation_length(clusters, bed.frame.y);
+}
+
+}  // namespace talus

@@ -1,0 +1,185 @@
+#include "analysis/deformation/coarse_fields.h"
+
+#include <array>
+#include <cmath>
+
+#include "analysis/free_grains.h"
+#include "core/tensor_inverse.h"
+#include "core/trigonometry.h"
+
+namespace talus {
+namespace {
+
+/// Gauss and Legendre's on [0, 1].
+constexpr std::array<double, 3> nodes = {0.5 - 0.38729833462074168852, 0.5, 0.5 + 0.38729833462074168852};
+constexpr std::array<double, 3> weights = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
+/// Longest piece of a branch that three nodes are enough for, of the cutoff.
+constexpr double longest_piece = 0.5;
+
+constexpr double lucy_norm = 5.0 / pi;
+
+/// Weighted sums over grains at (1, dx, dy), from which velocities as a linear function of the place follow.
+struct LinearFit {
+  Eigen::Matrix3d a = Eigen::Matrix3d::Zero(), b = Eigen::Matrix3d::Zero();
+  Eigen::Matrix<double, 3, 2> v = Eigen::Matrix<double, 3, 2>::Zero();
+  double vv = 0.0;
+  int count = 0;
+
+  /// `d`: place from the point, over the cutoff.
+  void add(double weight, const Vector2& d, const Vector2& velocity) {
+    const Eigen::Vector3d row(1.0, d.x(), d.y());
+    a += weight * row * row.transpose();
+    b += weight * weight * row * row.transpose();
+    v += weight * row * velocity.transpose();
+    vv += weight * velocity.squaredNorm();
+    ++count;
+  }
+
+  /// Half the mean square of what the fit leaves, over the share of it that the fit does not take away. (T37)
+  double temperature() const {
+    constexpr double flat = 1e-9;
+    const double weight = a(0, 0);
+    if (count < 4 || std::fabs(a.determinant()) <= flat * weight * weight * weight) return not_known;
+    const Eigen::Matrix3d inverse = a.inverse();
+    const double left = vv - (v.transpose() * inverse * v).trace();
+    const double free = weight - (inverse * b).trace();
+    return free > flat * weight ? 0.5 * std::max(0.0, left) / free : not_known;
+  }
+};
+
+}  // namespace
+
+double lucy_function(double distance, double cutoff) {
+  const double q = distance / cutoff;
+  if (!(q < 1.0)) return 0.0;
+  return lucy_norm / (cutoff * cutoff) * (1.0 + 3.0 * q) * (1.0 - q) * (1.0 - q) * (1.0 - q);  // (T31)
+}
+
+Tensor2 CoarseField::stress() const { return tensor(matrix(contact_stress) + matrix(kinetic_stress)); }
+
+double shear_rate(const Tensor2& velocity_gradient) {
+  return std::hypot(velocity_gradient.xx - velocity_gradient.yy, velocity_gradient.xy + velocity_gradient.yx);
+}
+
+CoarseFields::CoarseFields(const BedFrame& bed, double cutoff) : CoarseFields(bed, cutoff, true) {}
+
+CoarseFields::CoarseFields(const BedFrame& bed, double cutoff, bool with_contacts)
+    : cutoff_(cutoff), period_(period_of(bed.statics)) {
+  for (Index i = 0; i < bed.statics.free_count; ++i) {
+    grains_.x.push_back(bed.frame.x[i]);
+    grains_.y.push_back(bed.frame.y[i]);
+    grains_.what.push_back({bed.statics.mass[i], {bed.frame.vx[i], bed.frame.vy[i]}});
+  }
+  if (with_contacts) add_contacts(bed);
+  grains_.cells = sort_into_cells(grains_.x, grains_.y, cutoff_, period_);
+  branches_.cells = sort_into_cells(branches_.x, branches_.y, cutoff_, period_);
+  boundary_.cells = sort_into_cells(boundary_.x, boundary_.y, cutoff_, period_);
+}
+
+/// The branch of a contact goes from centre to centre, or between a centre and the contact where one of the
+/// bodies is fixed; as in the internal moments, radii tell how far.
+void CoarseFields::add_contacts(const BedFrame& bed) {
+  const FrameContacts& contacts = bed.frame.contacts;
+  const Index fixed = bed.statics.free_count;
+  for (Index c = 0; c < contacts.count(); ++c) {
+    const Index a = contacts.a[c], b = contacts.b[c];
+    const Vector2 n(contacts.nx[c], contacts.ny[c]), t(-n.y(), n.x());
+    const Vector2 force = contacts.fn[c] * n + contacts.ft[c] * t;  // on b
+    const Vector2 branch = branch_length(bed, c) * n;
+    const Vector2 begin =
+        a < fixed ? Vector2(bed.frame.x[a], bed.frame.y[a])
+                  : Vector2(bed.frame.x[b] + contacts.shift[c] * bed.statics.length, bed.frame.y[b]) - branch;
+    const Tensor2 whole = tensor(branch * force.transpose());
+    const int pieces = std::max(1, static_cast<int>(std::ceil(branch.norm() / (longest_piece * cutoff_))));
+    for (int piece = 0; piece < pieces; ++piece)
+      for (std::size_t k = 0; k < nodes.size(); ++k) {  // (T33)
+        const Vector2 at = begin + branch * ((piece + nodes[k]) / pieces);
+        branches_.x.push_back(at.x());
+        branches_.y.push_back(at.y());
+        branches_.what.push_back(tensor(matrix(whole) * (weights[k] / pieces)));
+      }
+    if (a >= fixed || b >= fixed) {
+      const Vector2 at = a < fixed ? Vector2(begin + branch) : begin;
+      boundary_.x.push_back(at.x());
+      boundary_.y.push_back(at.y());
+      boundary_.what.emplace_back(a < fixed ? Vector2(-force) : force);
+    }
+  }
+}
+
+/// Calls visit(what, d, distance) for the sources within the cutoff of a point, d being their place from it.
+template <typename What, typename Visit>
+void CoarseFields::near(const Sources<What>& sources, double x, double y, const Visit& visit) const {
+  if (sources.what.empty()) return;
+  const double farthest = cutoff_ * cutoff_ * (1.0 + 1e-12);
+  const auto meet = [&](Index k) {
+    Vector2 d(sources.x[k] - x, sources.y[k] - y);
+    d.x() += nearest_image(d.x(), period_) * period_;
+    if (d.squaredNorm() > farthest) return;  // without the root, of most
+    const double distance = d.norm();
+    if (distance < cutoff_) visit(sources.what[k], d, distance);
+  };
+  const Index column = column_of(sources.cells, x), row = row_of(sources.cells, y);
+  for (Index ring = 0; ring <= 1; ++ring) visit_ring(sources.cells, column, row, ring, meet);
+}
+
+CoarseField CoarseFields::at(double x, double y) const {
+  CoarseField field;
+  Vector2 momentum = Vector2::Zero(), density_gradient = Vector2::Zero(), boundary = Vector2::Zero();
+  Matrix2 momentum_gradient = Matrix2::Zero(), flux = Matrix2::Zero(), stress = Matrix2::Zero();
+  LinearFit fit;
+  near(grains_, x, y, [&](const Moving& grain, const Vector2& d, double distance) {
+    const double q = distance / cutoff_, square = cutoff_ * cutoff_;
+    const double weight = grain.mass * lucy_function(distance, cutoff_);
+    const Vector2 gradient = grain.mass * lucy_norm * 12.0 * (1.0 - q) * (1.0 - q) / (square * square) * d;
+    field.density += weight;
+    momentum += weight * grain.velocity;
+    density_gradient += gradient;
+    momentum_gradient += grain.velocity * gradient.transpose();
+    flux += weight * grain.velocity * grain.velocity.transpose();
+    fit.add(weight, d / cutoff_, grain.velocity);
+  });
+  near(branches_, x, y, [&](const Tensor2& part, const Vector2&, double distance) {
+    stress += lucy_function(distance, cutoff_) * matrix(part);
+  });
+  near(boundary_, x, y, [&](const Vector2& force, const Vector2&, double distance) {
+    boundary += lucy_function(distance, cutoff_) * force;
+  });
+  const Vector2 velocity = momentum / field.density;
+  field.momentum = {momentum.x(), momentum.y()};
+  field.contact_stress = tensor(stress);
+  if (field.density > 0.0) field.kinetic_stress = tensor(flux - momentum * velocity.transpose());  // (T34)
+  field.boundary_force = {boundary.x(), boundary.y()};                                             // (T35)
+  field.velocity_gradient =
+      tensor((momentum_gradient - velocity * density_gradient.transpose()) / field.density);  // (T36)
+  field.temperature = fit.temperature();
+  return field;
+}
+
+std::vector<double> granular_temperatures(const BedFrame& bed, double cutoff) {
+  const CoarseFields fields(bed, cutoff, false);
+  std::vector<double> temperatures;
+  for (Index i = 0; i < bed.statics.free_count; ++i) {
+    LinearFit fit;
+    fields.near(fields.grains_, bed.frame.x[i], bed.frame.y[i],
+                [&](const CoarseFields::Moving& grain, const Vector2& d, double distance) {
+                  fit.add(grain.mass * lucy_function(distance, cutoff), d / cutoff, grain.velocity);
+                });
+    temperatures.push_back(fit.temperature());
+  }
+  return temperatures;
+}
+
+void take_granular_temperature(const BedFrame& bed, FrameRecord& record) {
+  const std::vector<double> temperatures =
+      granular_temperatures(bed, 0.5 * temperature_width * bed.statics.mean_diameter);
+  double sum = 0.0, mass = 0.0;
+  for (std::size_t i = 0; i < temperatures.size(); ++i) {
+    if (std::isnan(temperatures[i])) continue;
+    sum += bed.statics.mass[i] * temperatures[i];
+    mass += bed.statics.mass[i];
+  }
+  record.granular_temperature = sum / mass;
+}
+
+}  // namespace talus

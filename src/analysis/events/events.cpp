@@ -1,0 +1,112 @@
+#include "analysis/events/events.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/trigonometry.h"
+
+namespace talus {
+namespace {
+
+constexpr double share_above_depth = 0.95;
+
+/// A grain that moved.
+struct MovedGrain {
+  double y = 0.0, distance = 0.0;  ///< m
+};
+
+/// The height above which the share lies of all that the grains moved.
+double height_above_which(std::vector<MovedGrain> moved, double share) {
+  std::ranges::stable_sort(moved, std::ranges::greater(), &MovedGrain::y);
+  double sum = 0.0, above = 0.0;
+  for (const MovedGrain& grain : moved) sum += grain.distance;
+  for (const MovedGrain& grain : moved) {
+    above += grain.distance;
+    if (above >= share * sum) return grain.y;
+  }
+  return moved.back().y;
+}
+
+}  // namespace
+
+std::vector<Burst> find_bursts(std::span<const double> velocities, double threshold,
+                               std::size_t quiet_steps) {
+  std::vector<Burst> bursts;
+  for (std::size_t k = 0; k < velocities.size(); ++k) {
+    if (!bursts.empty() && k - bursts.back().last >= quiet_steps) bursts.back().is_over = true;
+    if (!(velocities[k] >= threshold)) continue;
+    if (bursts.empty() || k - bursts.back().last > quiet_steps) bursts.push_back({k, k, false});
+    bursts.back().last = k;
+    bursts.back().is_over = false;
+  }
+  return bursts;
+}
+
+double quiet_velocity(std::span<const double> velocities, std::span<const Burst> bursts) {
+  std::vector<double> quiet;
+  std::size_t next = 0;
+  for (const Burst& burst : bursts) {
+    quiet.insert(quiet.end(), velocities.begin() + static_cast<std::ptrdiff_t>(next),
+                 velocities.begin() + static_cast<std::ptrdiff_t>(burst.first));
+    next = burst.last + 1;
+  }
+  quiet.insert(quiet.end(), velocities.begin() + static_cast<std::ptrdiff_t>(next), velocities.end());
+  if (quiet.empty()) return not_known;
+  const auto middle = quiet.begin() + static_cast<std::ptrdiff_t>(quiet.size() / 2);
+  std::ranges::nth_element(quiet, middle);
+  return *middle;
+}
+
+Vec2 displacement_of(const Frame& before, const Frame& after, const RunStatics& statics, Index i) {
+  Vec2 moved = {after.x[i] - before.x[i], after.y[i] - before.y[i]};
+  if (statics.periodic) moved.x -= statics.length * std::round(moved.x / statics.length);
+  return moved;
+}
+
+Vec2 mean_displacement(const Frame& before, const Frame& after, const RunStatics& statics) {
+  Vec2 sum;
+  double mass = 0.0;
+  for (Index i = 0; i < statics.free_count; ++i) {
+    const Vec2 moved = displacement_of(before, after, statics, i);
+    sum.x += statics.mass[i] * moved.x;
+    sum.y += statics.mass[i] * moved.y;
+    mass += statics.mass[i];
+  }
+  return {sum.x / mass, sum.y / mass};
+}
+
+double gravity_work(const RunStatics& statics, Vec2 displacement, double tilt) {
+  double mass = 0.0;
+  for (Index i = 0; i < statics.free_count; ++i) mass += statics.mass[i];
+  return mass * statics.gravity * (sine(tilt) * displacement.x - cosine(tilt) * displacement.y);
+}
+
+Movement movement_between(const Frame& before, const Frame& after, const RunStatics& statics, double least,
+                          double surface) {
+  std::vector<MovedGrain> moved;
+  double sum = 0.0, along = 0.0, height = 0.0;
+  Vec2 circle;
+  for (Index i = 0; i < statics.free_count; ++i) {
+    const Vec2 by = displacement_of(before, after, statics, i);
+    const double distance = std::hypot(by.x, by.y);
+    if (!(distance >= least)) continue;
+    moved.push_back({before.y[i], distance});
+    const double angle = 2.0 * pi * before.x[i] / statics.length;
+    circle.x += distance * std::cos(angle);
+    circle.y += distance * std::sin(angle);
+    along += distance * before.x[i];
+    height += distance * before.y[i];
+    sum += distance;
+  }
+  Movement movement;
+  movement.grains = static_cast<Index>(moved.size());
+  if (!(sum > 0.0)) return movement;
+  const double turned = std::atan2(circle.y, circle.x) / (2.0 * pi);
+  movement.centre = {statics.periodic ? statics.length * (turned - std::floor(turned)) : along / sum,
+                     height / sum};
+  movement.depth = surface - height_above_which(std::move(moved), share_above_depth);
+  return movement;
+}
+
+}  // namespace talus

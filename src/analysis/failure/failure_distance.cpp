@@ -1,0 +1,50 @@
+#include "analysis/failure/failure_distance.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/free_grains.h"
+
+namespace talus {
+
+std::vector<ForceCount> count_forces(const BedFrame& bed, double height, int layers) {
+  const FrameContacts& contacts = bed.frame.contacts;
+  std::vector<ForceCount> counts(static_cast<std::size_t>(layers));
+  std::vector<bool> carries(static_cast<std::size_t>(bed.statics.free_count), false);
+  std::vector<bool> turns = carries;
+  const auto layer_of = [&](Index i) -> ForceCount& {
+    const auto layer = static_cast<int>(std::clamp(bed.frame.y[i] / height * layers, 0.0, layers - 1.0));
+    return counts[static_cast<std::size_t>(layer)];
+  };
+  for (Index c = 0; c < contacts.count(); ++c) {
+    const bool is_shared = contacts.a[c] < bed.statics.free_count && contacts.b[c] < bed.statics.free_count;
+    const double part = is_shared ? 0.5 : 1.0;
+    const bool has_friction = friction_of_contact(bed.statics, bed.frame, c) > 0.0;
+    for_each_free_end(bed, c, [&](Index i) {
+      ForceCount& count = layer_of(i);
+      count.contacts += part;
+      if (contacts.status[c] == ContactStatus::sliding) count.critical += part;
+      if (!carries[i]) count.grains += 1.0;
+      carries[i] = true;
+      if (has_friction && !turns[i]) count.turning += 1.0;
+      turns[i] = turns[i] || has_friction;
+    });
+  }
+  return counts;
+}
+
+void take_failure_distance(const BedFrame& bed, double height, FrameRecord& record) {
+  ForceCount whole;
+  for (const ForceCount& layer : count_forces(bed, height, critical_layers)) {
+    record.layer_critical_share.push_back(layer.share());
+    record.layer_critical_share_of_bound.push_back(layer.share_of_bound());
+    whole.grains += layer.grains;
+    whole.turning += layer.turning;
+    whole.contacts += layer.contacts;
+    whole.critical += layer.critical;
+  }
+  record.critical_bound = whole.bound();
+  record.critical_share_of_bound = whole.share_of_bound();
+}
+
+}  // namespace talus

@@ -1,0 +1,35 @@
+#include "analysis/overload/disjoint_sets.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace talus {
+
+DisjointSets::DisjointSets(std::size_t count) : parent_(count), periods_(count, 0) {
+  std::iota(parent_.begin(), parent_.end(), 0);
+}
+
+DisjointSets::Place DisjointSets::find(Index element) {
+  Index periods = 0;
+  while (parent_[element] != element) {
+    const Index up = parent_[element];
+    periods_[element] += periods_[up];  // 0 for a root
+    parent_[element] = parent_[up];
+    periods += periods_[element];
+    element = parent_[element];
+  }
+  return {element, periods};
+}
+
+bool DisjointSets::join(Index a, Index b, Index shift) {
+  const Place of_a = find(a);
+  const Place of_b = find(b);
+  if (of_a.root == of_b.root) return of_b.periods == of_a.periods + shift;
+  const Index between = of_a.periods + shift - of_b.periods;  // from the root of a to that of b
+  const Index high = std::max(of_a.root, of_b.root);
+  parent_[high] = std::min(of_a.root, of_b.root);
+  periods_[high] = high == of_b.root ? between : -between;
+  return true;
+}
+
+}  // namespace talus

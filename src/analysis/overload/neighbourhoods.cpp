@@ -1,0 +1,35 @@
+#include "analysis/overload/neighbourhoods.h"
+
+#include <algorithm>
+#include <array>
+
+namespace talus {
+
+std::size_t sort_nearest(std::vector<Near>& near, double low, double high, std::vector<Near>& scratch) {
+  // Evenly spread over an area are the squares of distances: so many buckets hold about one each.
+  constexpr Index most_buckets = 256;
+  const Index buckets = std::clamp<Index>(static_cast<Index>(near.size()), 1, most_buckets);
+  const double scale = std::isfinite(high) && high > low ? buckets / (high - low) : 0.0;
+  const auto bucket_of = [&](const Near& one) {
+    if (one.square > high) return buckets;
+    return std::min(buckets - 1, static_cast<Index>((one.square - low) * scale));
+  };
+  std::array<Index, most_buckets + 2> start;
+  std::fill_n(start.begin(), buckets + 2, 0);
+  for (const Near& one : near) ++start[bucket_of(one) + 1];
+  for (Index k = 1; k <= buckets; ++k) start[k] += start[k - 1];
+  const auto count = static_cast<std::size_t>(start[buckets]);
+  scratch.resize(near.size());
+  for (const Near& one : near) scratch[start[bucket_of(one)]++] = one;
+  near.swap(scratch);
+  // Within a bucket, and nowhere else, some may still be in the wrong order.
+  for (std::size_t k = 1; k < count; ++k) {
+    const Near one = near[k];
+    std::size_t place = k;
+    for (; place > 0 && one < near[place - 1]; --place) near[place] = near[place - 1];
+    near[place] = one;
+  }
+  return count;
+}
+
+}  // namespace talus

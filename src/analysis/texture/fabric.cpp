@@ -1,0 +1,89 @@
+#include "analysis/texture/fabric.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+
+#include "core/trigonometry.h"
+
+namespace talus {
+namespace {
+
+constexpr int half_turn = 180;  // deg
+
+/// An angle from -period to period, in [0, period).
+double wrapped(double angle, double period) {
+  const double turned = angle < 0.0 ? angle + period : angle;
+  return turned < period ? turned : turned - period;
+}
+
+double direction_of_normal(const FrameContacts& contacts, Index c) {
+  return wrapped(degrees(std::atan2(contacts.ny[c], contacts.nx[c])), half_turn);
+}
+
+/// n^m: turned by m times the angle of n.
+std::complex<double> power(std::complex<double> n, int m) {
+  std::complex<double> product = 1.0;
+  for (int k = 0; k < m; ++k) product *= n;
+  return product;
+}
+
+/// Contacts at each degree of direction, smoothed around the half turn.
+std::vector<double> smoothed_directions(const FrameContacts& contacts) {
+  constexpr double standard_deviation = 5.0;  // deg
+  constexpr int reach = 20;                   // deg, four standard deviations
+  std::vector<double> smooth(half_turn, 0.0);
+  std::vector<int> number(half_turn, 0);
+  for (Index c = 0; c < contacts.count(); ++c)
+    ++number[static_cast<std::size_t>(std::lround(direction_of_normal(contacts, c))) % half_turn];
+  for (int k = -reach; k <= reach; ++k) {
+    const double weight = std::exp(-0.5 * k * k / (standard_deviation * standard_deviation));
+    for (int at = 0; at < half_turn; ++at) smooth[at] += weight * number[(at + k + half_turn) % half_turn];
+  }
+  return smooth;
+}
+
+}  // namespace
+
+Histogram normal_directions(const Frame& frame, int bins, bool weighted_by_force) {
+  Histogram histogram(0.0, half_turn, bins);
+  for (Index c = 0; c < frame.contacts.count(); ++c)
+    histogram.add(direction_of_normal(frame.contacts, c), weighted_by_force ? frame.contacts.fn[c] : 1.0);
+  return histogram;
+}
+
+FabricComponent fabric_component(const Frame& frame, int m) {
+  return fabric_component(frame.contacts, m,
+                          std::vector<double>(static_cast<std::size_t>(frame.contacts.count()), 1.0));
+}
+
+FabricComponent fabric_component(const FrameContacts& contacts, int m, const std::vector<double>& weights) {
+  double cosines = 0.0, sines = 0.0, total = 0.0;
+  for (Index c = 0; c < contacts.count(); ++c) {
+    const std::complex<double> turned = power({contacts.nx[c], contacts.ny[c]}, m);
+    cosines += weights[c] * turned.real();
+    sines += weights[c] * turned.imag();
+    total += weights[c];
+  }
+  if (!(total > 0.0)) return {not_known, not_known};
+  return {2.0 * std::hypot(cosines, sines) / total,
+          wrapped(degrees(std::atan2(sines, cosines)) / m, 360.0 / m)};
+}
+
+std::array<double, 3> direction_peaks(const Frame& frame) {
+  if (frame.contacts.count() == 0) return {not_known, not_known, not_known};
+  const std::vector<double> smooth = smoothed_directions(frame.contacts);
+  std::array<double, 3> peaks = {0.0, 60.0, 120.0};
+  for (double& peak : peaks) {
+    const int centre = static_cast<int>(peak);
+    double highest = -1.0;
+    for (int at = centre - 29; at <= centre + 30; ++at)
+      if (const double here = smooth[(at + half_turn) % half_turn]; here > highest) {
+        highest = here;
+        peak = at;
+      }
+  }
+  return peaks;
+}
+
+}  // namespace talus
