@@ -78,7 +78,7 @@ function(talus_test name label)
   if(TEST_TOGETHER OR TALUS_SANITIZE)
     math(EXPR TEST_TIMEOUT "3 * ${TEST_TIMEOUT}") # of all cases
     add_test(NAME ${name} COMMAND ${name})
-    # They take longest, and start first.
+    # These take longest, and start first.
     set_tests_properties(${name} PROPERTIES LABELS ${label} TIMEOUT ${TEST_TIMEOUT} COST 50)
   elseif(TEST_CHOSEN)
     list(JOIN TEST_CHOSEN ":" chosen)
